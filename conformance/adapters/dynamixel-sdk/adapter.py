@@ -1,0 +1,206 @@
+"""Conformance adapter for ROBOTIS's own Python SDK, `dynamixel-sdk`.
+
+Reads one JSON request a line on standard input, answers with one JSON line on standard output.
+The SDK is used as published, through its public classes, over a port in memory. Every byte sent and
+every packet reported is the SDK's work, its mistakes included; what it cannot do is skipped.
+"""
+
+import json
+import sys
+from importlib.metadata import version
+
+from dynamixel_sdk import (
+    BROADCAST_ID,
+    COMM_RX_TIMEOUT,
+    COMM_SUCCESS,
+    DXL_HIBYTE,
+    DXL_LOBYTE,
+    DXL_MAKEWORD,
+    INST_STATUS,
+)
+
+# By its module: the package exports these names for Protocol 1.0 as well.
+from dynamixel_sdk.protocol2_packet_handler import (
+    PKT_ERROR,
+    PKT_ID,
+    PKT_INSTRUCTION,
+    PKT_LENGTH_H,
+    PKT_LENGTH_L,
+    PKT_PARAMETER0,
+    TXPACKET_MAX_LEN,
+)
+
+from calls import CALLS, sync_read_group
+from common import SDK, BadRequest, Fields, Rejected, Skipped, unhex
+from memory_port import MemoryPort
+
+WIRE = "dynamixel2"
+
+# The list that the SDK's methods pass around: seven bytes of header with the length field, the body,
+# two bytes for the CRC. Header and CRC are txPacket's to fill in.
+
+
+def packet_list(dxl_id, body):
+    packet = [0] * PKT_INSTRUCTION + list(body) + [0, 0]
+    packet[PKT_ID] = dxl_id
+    packet[PKT_LENGTH_L] = DXL_LOBYTE(len(body) + 2)
+    packet[PKT_LENGTH_H] = DXL_HIBYTE(len(body) + 2)
+    return packet
+
+
+def body_end(packet):
+    # The length field decides, not the list's length: removeStuffing does not shorten the list.
+    return PKT_INSTRUCTION + DXL_MAKEWORD(packet[PKT_LENGTH_L], packet[PKT_LENGTH_H]) - 2
+
+
+def body_of(packet):
+    return bytes(packet[PKT_INSTRUCTION : body_end(packet)])
+
+
+def crc(request):
+    data = unhex(request["bytes"])
+    return {"crc": SDK.updateCRC(0, data, len(data))}
+
+
+def stuff(request):
+    return {"bytes": body_of(SDK.addStuffing(packet_list(0, unhex(request["bytes"])))).hex()}
+
+
+def unstuff(request):
+    return {"bytes": body_of(SDK.removeStuffing(packet_list(0, unhex(request["bytes"])))).hex()}
+
+
+def encode(request):
+    packet = request["packet"]
+    if packet["kind"] != "instruction":
+        raise Skipped("a host's SDK: it sends no status packets")
+    call = packet.get("call")
+    method = CALLS.get(call["name"]) if call else None
+    port = MemoryPort()
+    if method:
+        result = method(port, packet["id"], call)
+    else:
+        # No call, or one that the SDK has no method for (Control Table Backup, Fast Sync Write):
+        # txPacket is public and frames any instruction.
+        body = bytes([packet["instruction"]]) + unhex(packet["params"])
+        result = SDK.txPacket(port, packet_list(packet["id"], body))
+    # Some methods also wait for the answer, which never comes.
+    if result not in (COMM_SUCCESS, COMM_RX_TIMEOUT):
+        raise Rejected.by(result)
+    return {"bytes": port.written.hex()}
+
+
+def decode(request):
+    frame = unhex(request["bytes"])
+    port = MemoryPort([frame])
+    if "fast" in request:
+        return {"packet": fast_status(port, request["fast"])}
+    # rxPacket takes one packet and leaves what follows to the next call: it never sees trailing bytes.
+    received, result = SDK.rxPacket(port, False)
+    if result == COMM_SUCCESS:
+        return {"packet": status(received)}
+    instruction = frame[PKT_INSTRUCTION : PKT_INSTRUCTION + 1]
+    if frame.startswith(b"\xff\xff\xfd\x00") and instruction not in (b"", bytes([INST_STATUS])):
+        raise Skipped("a host's SDK: it reads no instruction packets")
+    raise Rejected.by(result)
+
+
+def status(received):
+    return {
+        "kind": "status",
+        "id": received[PKT_ID],
+        "error": received[PKT_ERROR],
+        "params": bytes(received[PKT_PARAMETER0 + 1 : body_end(received)]).hex(),
+    }
+
+
+def fast_status(port, fast):
+    ids, length = fast["ids"], fast["length"]
+    if length == 0:
+        raise Skipped("the SDK has no Fast Sync Write")
+    group = sync_read_group(port, BROADCAST_ID, {"address": 0, "length": length, "ids": ids})
+    result = group.fastSyncReadRxPacket()
+    if result != COMM_SUCCESS:
+        raise Rejected.by(result)
+    # Byte by byte, because getData knows the lengths 1, 2 and 4 only. The group throws the devices'
+    # error bytes away and reports success: to its caller that is "no error".
+    return {
+        "kind": "fast_status",
+        "blocks": [
+            {"error": 0, "id": i, "data": bytes(group.getData(i, k, 1) for k in range(length)).hex()}
+            for i in ids
+        ],
+    }
+
+
+def stream(request):
+    port = MemoryPort([unhex(chunk) for chunk in request["chunks"]])
+    packets = []
+    # Ends: rxPacket does not return before it has read some bytes, or all that there are.
+    while not port.isPacketTimeout():
+        received, result = SDK.rxPacket(port, False)
+        if result == COMM_SUCCESS:
+            packets.append(status(received))
+    return {"packets": packets}
+
+
+def hello(request):
+    if 1 not in request["protocol"]:
+        raise BadRequest("this adapter speaks protocol 1 only")
+    return {
+        "protocol": 1,
+        "implementation": {
+            "name": "dynamixel-sdk",
+            "version": version("dynamixel-sdk"),
+            "language": "Python",
+            "url": "https://github.com/ROBOTIS-GIT/DynamixelSDK",
+        },
+        "wires": [WIRE],
+        "ops": ["hello", *OPS, "bye"],
+        "limits": {"max_packet": TXPACKET_MAX_LEN},
+    }
+
+
+OPS = {op.__name__: op for op in (crc, stuff, unstuff, encode, decode, stream)}
+
+
+def answer(request):
+    try:
+        op = request["op"]
+        if op == "hello":
+            return {"ok": hello(request)}
+        if op not in OPS:
+            return {"skip": {"reason": f"no op {op!r}"}}
+        if request["wire"] != WIRE:
+            return {"skip": {"reason": f"the SDK does not speak {request['wire']!r}"}}
+        return {"ok": OPS[op](request)}
+    except Skipped as skipped:
+        return {"skip": {"reason": str(skipped)}}
+    except Rejected as error:
+        return {"err": {"class": error.error_class, "detail": str(error)}}
+    except BadRequest as error:
+        return {"err": {"class": "parameter", "detail": f"bad request: {error}"}}
+    except Exception as error:  # whatever the SDK lets through is a finding
+        return {"err": {"class": "internal", "detail": f"{type(error).__name__}: {error}"}}
+
+
+def main():
+    replies = sys.stdout
+    sys.stdout = sys.stderr  # should the SDK print, it must not print into the protocol
+    for line in sys.stdin.buffer:
+        try:
+            request = json.loads(line, object_hook=Fields)
+        except (ValueError, RecursionError) as error:
+            sys.exit(f"adapter: not a line of JSON: {error}")
+        if not isinstance(request, dict) or type(request.get("id")) is not int:
+            sys.exit("adapter: a request is an object with an integer id")
+        if request.get("op") == "bye":
+            break
+        print(json.dumps({"id": request["id"], **answer(request)}), file=replies, flush=True)
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except (BrokenPipeError, KeyboardInterrupt):
+        sys.exit(1)

@@ -1,0 +1,52 @@
+//! Lists the YAML files of this folder as Rust source, so that the crate carries them along.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::{env, fs, io};
+
+/// The files and folders of `spec/` that are data. A folder is searched to its bottom.
+const DATA: [&str; 6] = [
+    "documents.yaml",
+    "errata.yaml",
+    "protocols",
+    "devices",
+    "vectors",
+    "requirements",
+];
+
+fn main() -> io::Result<()> {
+    let root = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
+    let mut files = Vec::new();
+    for name in DATA {
+        println!("cargo::rerun-if-changed={name}");
+        collect(&root.join(name), &mut files)?;
+    }
+    files.sort();
+
+    let mut list = String::from("&[\n");
+    for file in &files {
+        let name = file
+            .strip_prefix(&root)
+            .unwrap_or(file)
+            .to_string_lossy()
+            .replace('\\', "/");
+        let _ = writeln!(list, "    ({name:?}, include_str!({file:?})),");
+    }
+    list.push(']');
+    let out = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());
+    fs::write(out.join("sources.rs"), list)
+}
+
+fn collect(path: &Path, files: &mut Vec<PathBuf>) -> io::Result<()> {
+    if path.is_dir() {
+        for entry in fs::read_dir(path)? {
+            collect(&entry?.path(), files)?;
+        }
+    } else if path
+        .extension()
+        .is_some_and(|extension| extension == "yaml")
+    {
+        files.push(path.to_owned());
+    }
+    Ok(())
+}

@@ -1,0 +1,108 @@
+//! What is named exists: registers, instructions, protocols, requirements, errata.
+
+use crate::model::{Bound, Device};
+use crate::{Diagnostic, Spec};
+
+pub(super) fn check(spec: &Spec) -> Vec<Diagnostic> {
+    let mut defects = Vec::new();
+    protocols(spec, &mut defects);
+    devices(spec, &mut defects);
+    vectors(spec, &mut defects);
+    defects
+}
+
+fn protocols(spec: &Spec, defects: &mut Vec<Diagnostic>) {
+    for file in &spec.protocols {
+        let protocol = &file.content;
+        let parts = [
+            ("framing", &protocol.framing.errata),
+            ("crc", &protocol.crc.errata),
+            ("stuffing", &protocol.stuffing.errata),
+            ("status", &protocol.status.errata),
+        ];
+        for (part, errata) in parts {
+            let node = format!("{part}.errata");
+            defects.extend(unknown_erratum(spec, errata).map(|text| file.diagnostic(&node, text)));
+        }
+        for (index, row) in protocol.instructions.iter().enumerate() {
+            let node = format!("instructions[{index}].errata");
+            let unknown = unknown_erratum(spec, &row.errata);
+            defects.extend(unknown.map(|text| file.diagnostic(&node, text)));
+        }
+    }
+}
+
+fn devices(spec: &Spec, defects: &mut Vec<Diagnostic>) {
+    for file in &spec.devices {
+        let device = &file.content;
+        let unknown = unknown_erratum(spec, &device.errata);
+        defects.extend(unknown.map(|text| file.diagnostic("errata", text)));
+
+        let Some(protocol) = spec.protocol(&device.protocol) else {
+            let message = format!("unknown protocol `{}`", device.protocol);
+            defects.push(file.diagnostic("protocol", message));
+            continue;
+        };
+        for (index, name) in device.instructions.iter().enumerate() {
+            if !protocol
+                .instructions
+                .iter()
+                .any(|instruction| instruction.name == *name)
+            {
+                let message = format!("{} has no instruction `{name}`", protocol.title);
+                defects.push(file.diagnostic(&format!("instructions[{index}]"), message));
+            }
+        }
+        if let Some(name) = &device.eeprom_lock
+            && device.register(name).is_none()
+        {
+            defects.push(file.diagnostic("eeprom_lock", no_register(device, name)));
+        }
+        for (index, register) in device.registers.iter().enumerate() {
+            let node = format!("registers[{index}]");
+            let unknown = unknown_erratum(spec, &register.errata);
+            defects.extend(unknown.map(|text| file.diagnostic(&format!("{node}.errata"), text)));
+            let Some(range) = &register.range else {
+                continue;
+            };
+            for (end, bound) in [("min", &range.min), ("max", &range.max)] {
+                if let Some(Bound::Register(name)) = bound
+                    && device.register(name.trim_start_matches('-')).is_none()
+                {
+                    let message = no_register(device, name.trim_start_matches('-'));
+                    defects.push(file.diagnostic(&format!("{node}.range.{end}"), message));
+                }
+            }
+        }
+    }
+}
+
+fn vectors(spec: &Spec, defects: &mut Vec<Diagnostic>) {
+    for file in &spec.vectors {
+        if spec.protocol(&file.content.wire).is_none() {
+            let message = format!("unknown protocol `{}`", file.content.wire);
+            defects.push(file.diagnostic("wire", message));
+        }
+        for (index, vector) in file.content.vectors.iter().enumerate() {
+            let node = format!("vectors[{index}]");
+            let unknown = unknown_erratum(spec, &vector.errata);
+            defects.extend(unknown.map(|text| file.diagnostic(&format!("{node}.errata"), text)));
+            if let Some(id) = &vector.requirement
+                && spec.requirement(id).is_none()
+            {
+                let message = format!("unknown requirement `{id}`");
+                defects.push(file.diagnostic(&format!("{node}.requirement"), message));
+            }
+        }
+    }
+}
+
+fn unknown_erratum(spec: &Spec, ids: &[String]) -> impl Iterator<Item = String> {
+    ids.iter()
+        .filter(|id| spec.erratum(id).is_none())
+        .map(|id| format!("unknown erratum `{id}`; errata.yaml has no such row"))
+}
+
+fn no_register(device: &Device, name: &str) -> String {
+    format!("{} has no register `{name}`", device.title)
+}

@@ -1,0 +1,77 @@
+//! What is wrong with a spec, and where.
+
+use std::fmt;
+
+use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+
+/// One defect of one YAML file.
+///
+/// `Display` prints `PATH:LINE:COLUMN: MESSAGE` on one line; [`Diagnostic::excerpt`] adds the
+/// line in question with a caret under it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Diagnostic {
+    /// The file, relative to the workspace: `spec/devices/ja40.yaml`.
+    pub path: String,
+    /// Line in the file, from 1.
+    pub line: usize,
+    /// Column in the line in characters, from 1.
+    pub column: usize,
+    /// What is wrong, and what would be right.
+    pub message: String,
+    text: String,
+}
+
+impl Diagnostic {
+    pub(crate) fn new(
+        path: &str,
+        text: &str,
+        (line, column): (usize, usize),
+        message: String,
+    ) -> Self {
+        Self {
+            path: path.to_owned(),
+            line,
+            column,
+            message,
+            text: text.to_owned(),
+        }
+    }
+
+    /// The message with the line that it is about and a caret, over several lines and without
+    /// colour.
+    #[must_use]
+    pub fn excerpt(&self) -> String {
+        let span = self.span();
+        let snippet = Snippet::source(&self.text)
+            .path(&self.path)
+            .annotation(AnnotationKind::Primary.span(span));
+        let report = [Level::ERROR.primary_title(&self.message).element(snippet)];
+        Renderer::plain().render(&report)
+    }
+
+    /// The bytes from the column to the end of its line.
+    fn span(&self) -> std::ops::Range<usize> {
+        let mut start = 0;
+        for (number, line) in self.text.split_inclusive('\n').enumerate() {
+            if number + 1 == self.line {
+                let line = line.trim_end();
+                let skip: usize = line.chars().take(self.column - 1).map(char::len_utf8).sum();
+                return start + skip..start + line.len().max(skip);
+            }
+            start += line.len();
+        }
+        self.text.len()..self.text.len()
+    }
+}
+
+impl fmt::Display for Diagnostic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{}:{}:{}: {}",
+            self.path, self.line, self.column, self.message
+        )
+    }
+}
+
+impl std::error::Error for Diagnostic {}

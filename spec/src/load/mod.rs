@@ -1,0 +1,291 @@
+//! Reads the YAML into the model. Errors carry file, line and column.
+
+mod position;
+
+use serde::de::DeserializeOwned;
+
+use crate::Diagnostic;
+use crate::check;
+use crate::model::{
+    Citation, Device, Document, DocumentsFile, ErrataFile, Erratum, Protocol, Requirement,
+    RequirementsFile, Vector, VectorsFile,
+};
+
+/// The text of one YAML file.
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// Path relative to the workspace, with forward slashes: `spec/errata.yaml`.
+    pub path: String,
+    /// The whole file.
+    pub text: String,
+}
+
+impl Source {
+    /// A source from its parts. `path` is relative to the spec folder and tells what the file
+    /// is: `documents.yaml`, `errata.yaml`, or a file in `protocols`, `devices`, `vectors` or
+    /// `requirements`.
+    #[must_use]
+    pub fn new(path: &str, text: &str) -> Self {
+        Self {
+            path: format!("spec/{path}"),
+            text: text.to_owned(),
+        }
+    }
+}
+
+/// Path below the spec folder and text of each file, as `build.rs` lists them.
+static EMBEDDED: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/sources.rs"));
+
+/// The files that this crate was built with.
+#[must_use]
+pub fn embedded() -> Vec<Source> {
+    EMBEDDED
+        .iter()
+        .map(|(path, text)| Source::new(path, text))
+        .collect()
+}
+
+/// What one YAML file says, with the text that it was read from.
+#[derive(Clone, Debug)]
+pub struct File<T> {
+    source: Source,
+    /// What the file says.
+    pub content: T,
+}
+
+impl<T: DeserializeOwned> File<T> {
+    fn read(source: &Source) -> Result<Self, Diagnostic> {
+        let content = serde_yaml::from_str(&source.text).map_err(|error| {
+            let place = error
+                .location()
+                .map_or((1, 1), |at| (at.line(), at.column()));
+            Diagnostic::new(&source.path, &source.text, place, plain_message(&error))
+        })?;
+        Ok(Self {
+            source: source.clone(),
+            content,
+        })
+    }
+}
+
+impl<T> File<T> {
+    /// Path relative to the workspace.
+    #[must_use]
+    pub fn path(&self) -> &str {
+        &self.source.path
+    }
+
+    /// A defect at the node that `node` names, such as `registers[3].range.min`; at the nearest
+    /// node around it if there is no such node.
+    #[must_use]
+    pub fn diagnostic(&self, node: &str, message: String) -> Diagnostic {
+        let place = position::find(&self.source.text, node);
+        Diagnostic::new(&self.source.path, &self.source.text, place, message)
+    }
+}
+
+/// The reader ends its messages with the place, which the diagnostic has as fields.
+fn plain_message(error: &serde_yaml::Error) -> String {
+    let message = error.to_string();
+    match message.rfind(" at line ") {
+        Some(end) => message.get(..end).unwrap_or(&message).to_owned(),
+        None => message,
+    }
+}
+
+/// Everything that the spec folder says, read and checked.
+#[derive(Clone, Debug)]
+pub struct Spec {
+    /// The documents that citations point to.
+    pub documents: File<DocumentsFile>,
+    /// The wires, a file a protocol.
+    pub protocols: Vec<File<Protocol>>,
+    /// The control tables, a file a device.
+    pub devices: Vec<File<Device>>,
+    /// The golden packets, a file a document section.
+    pub vectors: Vec<File<VectorsFile>>,
+    /// The normative statements, a file a document.
+    pub requirements: Vec<File<RequirementsFile>>,
+    /// The documents' defects.
+    pub errata: File<ErrataFile>,
+}
+
+impl Spec {
+    /// The spec that this crate was built with.
+    ///
+    /// # Errors
+    /// Every defect found: of the YAML itself first, then of what it says.
+    pub fn embedded() -> Result<Self, Vec<Diagnostic>> {
+        Self::read(&embedded())
+    }
+
+    /// Reads and checks `sources`.
+    ///
+    /// # Errors
+    /// Every defect found: of the YAML itself first, then of what it says.
+    pub fn read(sources: &[Source]) -> Result<Self, Vec<Diagnostic>> {
+        let spec = Self::parse(sources)?;
+        let defects = check::all(&spec);
+        if defects.is_empty() {
+            Ok(spec)
+        } else {
+            Err(defects)
+        }
+    }
+
+    fn parse(sources: &[Source]) -> Result<Self, Vec<Diagnostic>> {
+        let mut reader = Reader {
+            sources,
+            defects: Vec::new(),
+        };
+        let documents = reader.one("documents.yaml");
+        let protocols = reader.folder("protocols/");
+        let devices = reader.folder("devices/");
+        let vectors = reader.folder("vectors/");
+        let requirements = reader.folder("requirements/");
+        let errata = reader.one("errata.yaml");
+        match (documents, errata) {
+            (Some(documents), Some(errata)) if reader.defects.is_empty() => Ok(Self {
+                documents,
+                protocols,
+                devices,
+                vectors,
+                requirements,
+                errata,
+            }),
+            _ => Err(reader.defects),
+        }
+    }
+
+    /// The document with this id.
+    #[must_use]
+    pub fn document(&self, id: &str) -> Option<&Document> {
+        self.documents
+            .content
+            .documents
+            .iter()
+            .find(|document| document.id == id)
+    }
+
+    /// The protocol with this id.
+    #[must_use]
+    pub fn protocol(&self, id: &str) -> Option<&Protocol> {
+        self.protocols
+            .iter()
+            .map(|file| &file.content)
+            .find(|protocol| protocol.protocol == id)
+    }
+
+    /// The device with this id.
+    #[must_use]
+    pub fn device(&self, id: &str) -> Option<&Device> {
+        self.devices
+            .iter()
+            .map(|file| &file.content)
+            .find(|device| device.device == id)
+    }
+
+    /// The requirement with this id.
+    #[must_use]
+    pub fn requirement(&self, id: &str) -> Option<&Requirement> {
+        self.requirements
+            .iter()
+            .flat_map(|file| &file.content.requirements)
+            .find(|requirement| requirement.id == id)
+    }
+
+    /// The erratum with this id.
+    #[must_use]
+    pub fn erratum(&self, id: &str) -> Option<&Erratum> {
+        self.errata
+            .content
+            .errata
+            .iter()
+            .find(|erratum| erratum.id == id)
+    }
+
+    /// Every vector with the file it stands in, in the order of files and of rows.
+    pub fn vectors(&self) -> impl Iterator<Item = (&VectorsFile, &Vector)> {
+        self.vectors.iter().flat_map(|file| {
+            file.content
+                .vectors
+                .iter()
+                .map(move |vector| (&file.content, vector))
+        })
+    }
+
+    /// A citation in words: the document's title and the section.
+    #[must_use]
+    pub fn place(&self, citation: &Citation) -> String {
+        let title = self
+            .document(&citation.document)
+            .map_or(citation.document.as_str(), |document| {
+                document.title.as_str()
+            });
+        format!("{title}, {}", citation.section)
+    }
+}
+
+/// Reads files one after the other and keeps what is wrong with them.
+struct Reader<'a> {
+    sources: &'a [Source],
+    defects: Vec<Diagnostic>,
+}
+
+impl Reader<'_> {
+    fn one<T: DeserializeOwned>(&mut self, name: &str) -> Option<File<T>> {
+        let files = self.folder(name);
+        if files.is_empty() && self.defects.is_empty() {
+            let message = format!("the file {name} is missing from the spec folder");
+            self.defects.push(Diagnostic::new(
+                &format!("spec/{name}"),
+                "",
+                (1, 1),
+                message,
+            ));
+        }
+        files.into_iter().next()
+    }
+
+    fn folder<T: DeserializeOwned>(&mut self, prefix: &str) -> Vec<File<T>> {
+        let prefix = format!("spec/{prefix}");
+        let mut files = Vec::new();
+        for source in self
+            .sources
+            .iter()
+            .filter(|source| source.path.starts_with(&prefix))
+        {
+            match File::read(source) {
+                Ok(file) => files.push(file),
+                Err(defect) => self.defects.push(defect),
+            }
+        }
+        files
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_folder_is_free_of_defects() {
+        if let Err(defects) = Spec::embedded() {
+            let list: Vec<_> = defects.iter().map(Diagnostic::excerpt).collect();
+            panic!("{}", list.join("\n"));
+        }
+    }
+
+    #[test]
+    fn a_missing_file_is_a_defect() {
+        let without: Vec<_> = embedded()
+            .into_iter()
+            .filter(|file| file.path != "spec/errata.yaml")
+            .collect();
+        let defects = Spec::read(&without).unwrap_err();
+        assert_eq!(
+            defects[0].message,
+            "the file errata.yaml is missing from the spec folder"
+        );
+    }
+}

@@ -1,0 +1,114 @@
+use std::fmt;
+use std::ops::Deref;
+
+use serde::{Deserialize, Serialize};
+
+/// Bytes as hex digits in a text: `FF FF FD 00` or `fffffd00`. Written in the second form.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Deserialize, Serialize)]
+#[serde(try_from = "String", into = "String")]
+pub struct HexBytes(pub Vec<u8>);
+
+/// Why a text is no hex bytes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum HexError {
+    /// A character that is neither a hex digit nor white space, and its position from 0.
+    Digit(char, usize),
+    /// A byte with one digit only.
+    OddDigits,
+}
+
+impl fmt::Display for HexError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Digit(found, at) => write!(
+                f,
+                "`{found}` at position {at} is no hex digit; bytes are written as `FF FF FD 00`"
+            ),
+            Self::OddDigits => {
+                f.write_str("an odd number of hex digits; every byte is written with two")
+            }
+        }
+    }
+}
+
+impl std::error::Error for HexError {}
+
+impl HexBytes {
+    /// Reads pairs of hex digits; white space between them is passed over.
+    ///
+    /// # Errors
+    /// On any other character, or an odd number of digits.
+    pub fn parse(text: &str) -> Result<Self, HexError> {
+        let mut bytes = Vec::with_capacity(text.len() / 2);
+        let mut high = None;
+        for (at, character) in text.chars().enumerate() {
+            if character.is_whitespace() {
+                continue;
+            }
+            let digit = character
+                .to_digit(16)
+                .and_then(|digit| u8::try_from(digit).ok())
+                .ok_or(HexError::Digit(character, at))?;
+            match high.take() {
+                None => high = Some(digit),
+                Some(high) => bytes.push(high << 4 | digit),
+            }
+        }
+        if high.is_some() {
+            Err(HexError::OddDigits)
+        } else {
+            Ok(Self(bytes))
+        }
+    }
+}
+
+impl Deref for HexBytes {
+    type Target = [u8];
+    fn deref(&self) -> &[u8] {
+        &self.0
+    }
+}
+
+impl From<Vec<u8>> for HexBytes {
+    fn from(bytes: Vec<u8>) -> Self {
+        Self(bytes)
+    }
+}
+
+impl TryFrom<String> for HexBytes {
+    type Error = HexError;
+    fn try_from(text: String) -> Result<Self, HexError> {
+        Self::parse(&text)
+    }
+}
+
+impl From<HexBytes> for String {
+    fn from(bytes: HexBytes) -> Self {
+        bytes.to_string()
+    }
+}
+
+impl fmt::Display for HexBytes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.iter().try_for_each(|byte| write!(f, "{byte:02x}"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_forms_are_read_and_the_short_one_is_written() {
+        let bytes = HexBytes::parse("FF fd\n00").unwrap();
+        assert_eq!(*bytes, [0xFF, 0xFD, 0x00]);
+        assert_eq!(bytes.to_string(), "fffd00");
+        assert_eq!(HexBytes::parse("fffd00"), Ok(bytes));
+    }
+
+    #[test]
+    fn what_is_no_hex_is_named() {
+        assert_eq!(HexBytes::parse("FF 0G"), Err(HexError::Digit('G', 4)));
+        assert_eq!(HexBytes::parse("FFF"), Err(HexError::OddDigits));
+    }
+}

@@ -1,0 +1,218 @@
+use serde::Deserialize;
+
+use super::Citation;
+
+/// A file of `devices/`: a control table.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Device {
+    /// Id.
+    pub device: String,
+    /// Its name.
+    pub title: String,
+    /// Id of the protocol that it speaks.
+    pub protocol: String,
+    /// Where this stands.
+    pub source: Vec<Citation>,
+    /// What Ping answers; absent where the document names none.
+    pub model_number: Option<u16>,
+    /// Ids of the errata that it depends on.
+    #[serde(default)]
+    pub errata: Vec<String>,
+    /// Names of the instructions that it obeys.
+    pub instructions: Vec<String>,
+    /// The register that keeps the EEPROM area read-only while it is not 0.
+    pub eeprom_lock: Option<String>,
+    /// The control table, by rising address.
+    pub registers: Vec<Register>,
+}
+
+impl Device {
+    /// The register with this name.
+    #[must_use]
+    pub fn register(&self, name: &str) -> Option<&Register> {
+        self.registers.iter().find(|register| register.name == name)
+    }
+}
+
+/// A row of a control table.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Register {
+    /// Address of its lowest byte.
+    pub address: u16,
+    /// Its name in the document.
+    pub name: String,
+    /// Size and signedness; the low byte comes first.
+    #[serde(rename = "type")]
+    pub kind: Type,
+    /// Whether it outlives a power cycle.
+    pub area: Area,
+    /// What hosts may do with it.
+    pub access: Access,
+    /// The value that it starts with.
+    pub initial: Option<i64>,
+    /// The values that it may have, if the document limits them.
+    pub range: Option<Range>,
+    /// What one count of its value is.
+    pub unit: Option<Unit>,
+    /// Where this stands.
+    pub source: Vec<Citation>,
+    /// Ids of the errata that it depends on.
+    #[serde(default)]
+    pub errata: Vec<String>,
+    /// Values with a name.
+    #[serde(default)]
+    pub values: Vec<NamedValue>,
+    /// Bits with a meaning of their own, by rising place.
+    #[serde(default)]
+    pub bits: Vec<BitField>,
+}
+
+/// Size and signedness of a register.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Type {
+    /// One byte.
+    U8,
+    /// One byte, signed.
+    I8,
+    /// Two bytes.
+    U16,
+    /// Two bytes, signed.
+    I16,
+    /// Four bytes.
+    U32,
+    /// Four bytes, signed.
+    I32,
+}
+
+impl Type {
+    /// Bytes.
+    #[must_use]
+    pub const fn size(self) -> u16 {
+        match self {
+            Self::U8 | Self::I8 => 1,
+            Self::U16 | Self::I16 => 2,
+            Self::U32 | Self::I32 => 4,
+        }
+    }
+
+    /// The smallest and the largest value that it holds.
+    #[must_use]
+    pub fn limits(self) -> (i64, i64) {
+        match self {
+            Self::U8 => (0, u8::MAX.into()),
+            Self::I8 => (i8::MIN.into(), i8::MAX.into()),
+            Self::U16 => (0, u16::MAX.into()),
+            Self::I16 => (i16::MIN.into(), i16::MAX.into()),
+            Self::U32 => (0, u32::MAX.into()),
+            Self::I32 => (i32::MIN.into(), i32::MAX.into()),
+        }
+    }
+
+    /// Whether it holds this value.
+    #[must_use]
+    pub fn holds(self, value: i64) -> bool {
+        let (min, max) = self.limits();
+        (min..=max).contains(&value)
+    }
+}
+
+/// Whether a register outlives a power cycle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Area {
+    /// It does; it can be locked.
+    Eeprom,
+    /// It does not.
+    Ram,
+}
+
+/// What hosts may do with a register.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Access {
+    /// Read it.
+    R,
+    /// Read and write it.
+    Rw,
+}
+
+/// The values that a register may have: from `min` to `max`, or those of `one_of`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Range {
+    /// The smallest.
+    pub min: Option<Bound>,
+    /// The largest.
+    pub max: Option<Bound>,
+    /// All of them.
+    pub one_of: Option<Vec<i64>>,
+}
+
+/// An end of a range.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(
+    untagged,
+    expecting = "a bound is a number or a register's name, `-` before it to negate"
+)]
+pub enum Bound {
+    /// A number.
+    Value(i64),
+    /// The value of another register, negated if a `-` stands before its name.
+    Register(String),
+}
+
+/// What one count of a value is.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Unit {
+    /// The physical value of one count.
+    pub factor: f64,
+    /// The unit of that.
+    pub symbol: String,
+}
+
+/// A value with a name.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NamedValue {
+    /// The value.
+    pub value: i64,
+    /// Its name.
+    pub name: String,
+    /// What it comes to in fact, where the document says so (a baud rate in bit/s).
+    pub actual: Option<i64>,
+}
+
+/// Neighbouring bits with a meaning of their own.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BitField {
+    /// Its name.
+    pub name: String,
+    /// The lowest bit, from 0.
+    pub lowest: u8,
+    /// How many bits.
+    #[serde(default = "one")]
+    pub width: u8,
+    /// Values with a name, shifted down to bit 0.
+    #[serde(default)]
+    pub values: Vec<NamedValue>,
+}
+
+impl BitField {
+    /// The bits that it takes.
+    #[must_use]
+    pub fn mask(&self) -> u64 {
+        let ones = 1_u64
+            .checked_shl(self.width.into())
+            .map_or(u64::MAX, |end| end - 1);
+        ones.checked_shl(self.lowest.into()).unwrap_or(0)
+    }
+}
+
+fn one() -> u8 {
+    1
+}

@@ -1,0 +1,23 @@
+use serde::Deserialize;
+
+/// `documents.yaml`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DocumentsFile {
+    /// One row a document.
+    pub documents: Vec<Document>,
+}
+
+/// A document that the spec was taken from.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Document {
+    /// What citations call it.
+    pub id: String,
+    /// Its title in English.
+    pub title: String,
+    /// The language that it is written in.
+    pub language: String,
+    /// Name of the file that it was read from.
+    pub file: String,
+}

@@ -1,0 +1,25 @@
+//! What the YAML files may say: one type a row, checked for shape by serde and for sense by
+//! [`crate::check`].
+
+mod bytes;
+mod citation;
+mod device;
+mod document;
+mod erratum;
+mod packet;
+mod protocol;
+mod requirement;
+mod vector;
+
+pub use bytes::HexBytes;
+pub use citation::Citation;
+pub use device::{Access, Area, BitField, Bound, Device, NamedValue, Range, Register, Type, Unit};
+pub use document::{Document, DocumentsFile};
+pub use erratum::{ErrataFile, Erratum, Status};
+pub use packet::{Block, Packet};
+pub use protocol::{
+    ByteOrder, Crc, ErrorNumber, Field, Framing, Id, Instruction, Length, Protocol, Size,
+    StatusFormat, Stuffing,
+};
+pub use requirement::{Level, Requirement, RequirementsFile, Role};
+pub use vector::{Fault, Outcome, Vector, VectorsFile};

@@ -1,0 +1,63 @@
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use super::Citation;
+
+/// A file of `requirements/`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RequirementsFile {
+    /// One row a normative statement.
+    pub requirements: Vec<Requirement>,
+}
+
+/// A normative statement of a document, in our own words.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Requirement {
+    /// Permanent id; begins with the document's.
+    pub id: String,
+    /// How binding it is.
+    pub level: Level,
+    /// What is demanded.
+    pub text: String,
+    /// Where the document demands it.
+    pub source: Citation,
+    /// Who has to obey.
+    pub binds: Vec<Role>,
+}
+
+/// How binding a requirement is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Level {
+    /// Breaking it fails the run.
+    Must,
+    /// Breaking it is a warning.
+    Should,
+    /// Either way is right.
+    May,
+}
+
+impl fmt::Display for Level {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Must => "must",
+            Self::Should => "should",
+            Self::May => "may",
+        })
+    }
+}
+
+/// Whom a requirement binds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Role {
+    /// Whoever builds or reads packets.
+    Codec,
+    /// Whoever sends instructions.
+    Host,
+    /// The actuator.
+    Device,
+}

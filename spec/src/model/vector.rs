@@ -1,0 +1,127 @@
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use super::{Citation, HexBytes, Packet};
+
+/// A file of `vectors/`: the golden packets of one section.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct VectorsFile {
+    /// The section, for every vector that names no other.
+    pub source: Citation,
+    /// Id of the protocol.
+    pub wire: String,
+    /// One row a packet.
+    pub vectors: Vec<Vector>,
+}
+
+/// A golden packet: bytes that a document prints or that arithmetic yields, with their meaning.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Vector {
+    /// Permanent id.
+    pub id: String,
+    /// The section, if it is not the file's.
+    pub source: Option<Citation>,
+    /// What a reader should know about it.
+    pub note: Option<String>,
+    /// The bytes as the document prints them; absent where the document prints none.
+    pub printed: Option<HexBytes>,
+    /// The bytes held right, where they differ from the printed ones or none are printed.
+    pub bytes: Option<HexBytes>,
+    /// What is to happen to [`Vector::frame`].
+    #[serde(default)]
+    pub result: Outcome,
+    /// For an invalid frame: what is wrong with it.
+    pub fault: Option<Fault>,
+    /// Where `bytes` corrects `printed`: what is wrong with the printed bytes.
+    pub printed_fault: Option<Fault>,
+    /// Ids of the errata that it depends on.
+    #[serde(default)]
+    pub errata: Vec<String>,
+    /// Id of the requirement that it shows, if it is not the wire's general one.
+    pub requirement: Option<String>,
+    /// What the frame means; absent for an invalid one.
+    pub packet: Option<Packet>,
+}
+
+impl Vector {
+    /// The bytes that count: those held right, else those printed. Empty if there are neither,
+    /// which [`crate::check`] does not let pass.
+    #[must_use]
+    pub fn frame(&self) -> &[u8] {
+        self.bytes
+            .as_ref()
+            .or(self.printed.as_ref())
+            .map_or(&[], |bytes| bytes)
+    }
+
+    /// The printed bytes where they are not the right ones.
+    #[must_use]
+    pub fn defective(&self) -> Option<&[u8]> {
+        self.bytes.as_ref().and(self.printed.as_deref())
+    }
+}
+
+/// What an implementation has to do with a frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Outcome {
+    /// Build it and read it.
+    #[default]
+    Valid,
+    /// Reject it.
+    Invalid,
+    /// Build and read it as given, or reject it; the documents leave it open.
+    Acceptable,
+}
+
+/// What is wrong with a frame: the error classes of the adapter protocol.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Fault {
+    /// It does not begin with a header.
+    Header,
+    /// An ID that no packet may have.
+    Id,
+    /// A length that no packet may have.
+    Length,
+    /// It ends before its length says.
+    Truncated,
+    /// Bytes follow it.
+    Trailing,
+    /// It is longer than the receiver takes.
+    Oversize,
+    /// The CRC does not match.
+    Crc,
+    /// The pattern stands in the body without its stuffing.
+    Stuffing,
+    /// An instruction that the receiver does not know.
+    Instruction,
+    /// Parameters that do not fit the instruction.
+    Parameter,
+    /// It does not end with the end byte.
+    Tail,
+    /// The implementation broke down.
+    Internal,
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Header => "header",
+            Self::Id => "id",
+            Self::Length => "length",
+            Self::Truncated => "truncated",
+            Self::Trailing => "trailing",
+            Self::Oversize => "oversize",
+            Self::Crc => "crc",
+            Self::Stuffing => "stuffing",
+            Self::Instruction => "instruction",
+            Self::Parameter => "parameter",
+            Self::Tail => "tail",
+            Self::Internal => "internal",
+        })
+    }
+}
