@@ -1,1 +1,50 @@
-//! To come.
+//! Packets and control tables of robot actuators.
+//!
+//! The wire is DYNAMIXEL Protocol 2.0 and its dialect, the JA actuators' protocol. Instruction
+//! codes, layouts and registers are generated at build time from the documents' YAML. Everything
+//! works on the caller's buffers: no allocation, no `std`.
+//!
+//! No function of this crate panics, whatever bytes it is given. Lengths that come from the wire
+//! are checked against the bytes that are there; a buffer that is too small is an error that
+//! tells the size needed.
+//!
+//! ```
+//! use actucheck_codec::dynamixel2::Instruction;
+//! use actucheck_codec::{Frame, frame, ja40};
+//!
+//! // Write 2,000 to Goal Position of device 1 (JA40 document, §1.6.3).
+//! let address = ja40::GOAL_POSITION.address.to_le_bytes();
+//! let data = 2000_i32.to_le_bytes();
+//! let mut buffer = [0; 32];
+//! let packet = frame::encode(1, Instruction::Write, &[&address, &data], &mut buffer)?;
+//! assert_eq!(packet, b"\xFF\xFF\xFD\x00\x01\x09\x00\x03\x34\x02\xD0\x07\x00\x00\x1E\xC9");
+//!
+//! // And the other way.
+//! let frame = Frame::parse(packet)?;
+//! assert_eq!((frame.id(), frame.instruction()), (1, Instruction::Write));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+#![no_std]
+
+pub mod crc;
+mod error;
+pub mod fast_status;
+pub mod frame;
+pub mod layout;
+pub mod register;
+pub mod status;
+pub mod stuffing;
+
+/// What the build script makes of the documents' YAML: a module a protocol and a module a device.
+#[allow(clippy::unreadable_literal)] // numbers keep the form that they have in the YAML
+mod generated {
+    include!(concat!(env!("OUT_DIR"), "/dynamixel2.rs"));
+    include!(concat!(env!("OUT_DIR"), "/devices.rs"));
+}
+
+pub use error::{BufferTooSmall, EncodeError, FrameError};
+pub use fast_status::FastStatus;
+pub use frame::Frame;
+pub use generated::*;
+pub use status::StatusError;

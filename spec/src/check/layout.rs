@@ -36,7 +36,7 @@ fn fields<'a>(list: &'a [Field], node: &str, mut known: Vec<&'a str>) -> Vec<(St
     let mut faults = Vec::new();
     for (index, field) in list.iter().enumerate() {
         let here = format!("{node}[{index}]");
-        let last = index + 1 == list.len();
+        let ends = index + 1 == list.len();
         match (&field.size, field.each.is_empty()) {
             (Some(_), false) | (None, true) => {
                 let message = format!("{} needs either `size` or `each`", field.name);
@@ -48,18 +48,16 @@ fn fields<'a>(list: &'a [Field], node: &str, mut known: Vec<&'a str>) -> Vec<(St
                     format!("{} has {size} bytes; 1 to 8 are possible", field.name),
                 ));
             }
-            (Some(Size::Named(name)), _) if name == "rest" => {
-                if !last {
-                    let message = format!("{} takes the rest, so it must be the last", field.name);
-                    faults.push((here, message));
-                }
+            (Some(Size::Named(name)), _) if name == "rest" && !ends => {
+                let message = format!("{} takes the rest, so it must be the last", field.name);
+                faults.push((here, message));
             }
-            (Some(Size::Named(name)), _) if !known.contains(&name.as_str()) => {
+            (Some(Size::Named(name)), _) if name != "rest" && !known.contains(&name.as_str()) => {
                 let message = format!("`{name}` is no field before {}", field.name);
                 faults.push((here, message));
             }
             (None, false) => {
-                if !last {
+                if !ends {
                     let message = format!("{} repeats, so it must be the last", field.name);
                     faults.push((here.clone(), message));
                 }

@@ -34,12 +34,12 @@ impl Row<'_> {
             return;
         };
         if let Some(message) = self.misfit("initial value", initial) {
-            defects.push(self.at("initial", message));
+            defects.push(self.at("initial", &message));
         } else if let Some(range) = &self.register.range
             && outside(range, initial)
         {
             let message = format!("initial value {initial} is outside the range");
-            defects.push(self.at("initial", message));
+            defects.push(self.at("initial", &message));
         }
     }
 
@@ -52,15 +52,14 @@ impl Row<'_> {
             (Some(_), Some(_), None) | (None, None, Some(_))
         );
         if !shape {
-            let message = "a range has either `min` and `max` or `one_of`".to_owned();
-            defects.push(self.at("range", message));
+            defects.push(self.at("range", "a range has either `min` and `max` or `one_of`"));
         }
         if let (Some(Bound::Value(min)), Some(Bound::Value(max))) = (&range.min, &range.max)
             && min > max
         {
             defects.push(self.at(
                 "range",
-                format!("the range begins at {min} and ends at {max}"),
+                &format!("the range begins at {min} and ends at {max}"),
             ));
         }
         let bounds = [("range.min", &range.min), ("range.max", &range.max)];
@@ -68,13 +67,13 @@ impl Row<'_> {
             if let Some(Bound::Value(value)) = bound
                 && let Some(message) = self.misfit("bound", *value)
             {
-                defects.push(self.at(node, message));
+                defects.push(self.at(node, &message));
             }
         }
         for value in range.one_of.iter().flatten() {
             defects.extend(
                 self.misfit("value", *value)
-                    .map(|message| self.at("range.one_of", message)),
+                    .map(|message| self.at("range.one_of", &message)),
             );
         }
     }
@@ -84,7 +83,7 @@ impl Row<'_> {
             let node = format!("values[{index}].value");
             defects.extend(
                 self.misfit("value", row.value)
-                    .map(|message| self.at(&node, message)),
+                    .map(|message| self.at(&node, &message)),
             );
         }
     }
@@ -97,10 +96,10 @@ impl Row<'_> {
             let mask = field.mask();
             if field.width == 0 || u32::from(field.lowest) + u32::from(field.width) > size {
                 let message = format!("{} leaves the register's {size} bits", field.name);
-                defects.push(self.at(&node, message));
+                defects.push(self.at(&node, &message));
             } else if taken & mask != 0 {
                 let message = format!("{} overlaps the bits of a field before it", field.name);
-                defects.push(self.at(&node, message));
+                defects.push(self.at(&node, &message));
             }
             taken |= mask;
             for (value, row) in field.values.iter().enumerate() {
@@ -109,7 +108,7 @@ impl Row<'_> {
                 if !fits {
                     let message =
                         format!("value {} needs more bits than {}", row.value, field.width);
-                    defects.push(self.at(&format!("{node}.values[{value}].value"), message));
+                    defects.push(self.at(&format!("{node}.values[{value}].value"), &message));
                 }
             }
         }
@@ -126,7 +125,7 @@ impl Row<'_> {
         })
     }
 
-    fn at(&self, node: &str, message: String) -> Diagnostic {
+    fn at(&self, node: &str, message: &str) -> Diagnostic {
         let message = format!(
             "{}({}): {message}",
             self.register.name, self.register.address

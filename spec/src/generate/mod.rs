@@ -1,1 +1,90 @@
-//! Turns the spec into Rust source.
+//! Turns the spec into the Rust source of the codec's tables: one file a module, formatted,
+//! sorted as the YAML is, the same from run to run.
+
+mod device;
+mod protocol;
+mod token;
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use crate::Spec;
+use crate::model::{Citation, Device, Protocol};
+
+/// One generated file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Module {
+    /// Its name, to which `.rs` belongs.
+    pub name: String,
+    /// Its whole text.
+    pub source: String,
+}
+
+/// What can't be generated: names in the spec that are no Rust names, or two that become one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct GenerateError {
+    module: String,
+    reason: String,
+}
+
+impl std::fmt::Display for GenerateError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} yields no Rust source: {}", self.module, self.reason)
+    }
+}
+
+impl std::error::Error for GenerateError {}
+
+/// The modules that the codec includes: one a protocol, and `devices` with a module a device.
+///
+/// # Errors
+/// If a name of the spec can't be turned into a Rust name.
+pub fn codec(spec: &Spec) -> Result<Vec<Module>, GenerateError> {
+    let mut modules = Vec::new();
+    for file in &spec.protocols {
+        modules.push(protocol(&file.content)?);
+    }
+    let devices = spec
+        .devices
+        .iter()
+        .map(|file| device::module(&file.content));
+    modules.push(format("devices", &quote!(#(#devices)*))?);
+    Ok(modules)
+}
+
+/// The module of one protocol.
+///
+/// # Errors
+/// If a name of the spec can't be turned into a Rust name.
+pub fn protocol(protocol: &Protocol) -> Result<Module, GenerateError> {
+    format(&protocol.protocol, &protocol::module(protocol))
+}
+
+/// The module of one device.
+///
+/// # Errors
+/// If a name of the spec can't be turned into a Rust name.
+pub fn device(device: &Device) -> Result<Module, GenerateError> {
+    format(&device.device, &device::module(device))
+}
+
+fn format(name: &str, tokens: &TokenStream) -> Result<Module, GenerateError> {
+    let file = syn::parse2(tokens.clone()).map_err(|error| GenerateError {
+        module: name.to_owned(),
+        reason: error.to_string(),
+    })?;
+    let source = format!(
+        "// Generated from the YAML in spec/.\n\n{}",
+        prettyplease::unparse(&file)
+    );
+    Ok(Module {
+        name: name.to_owned(),
+        source,
+    })
+}
+
+/// The sections of a list of citations: `ja40 §2.3, ja40 §2.4.22`.
+fn places(source: &[Citation]) -> String {
+    let places: Vec<_> = source.iter().map(ToString::to_string).collect();
+    places.join(", ")
+}

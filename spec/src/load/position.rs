@@ -29,15 +29,15 @@ impl<'a> Walk<'a> {
 
     fn document(&mut self) {
         while let Some((event, span)) = self.next() {
-            if self.node(event, span, String::new()).is_none() {
+            if self.node(&event, span, "").is_none() {
                 return;
             }
         }
     }
 
     /// Walks one node; `None` when the text ends early.
-    fn node(&mut self, event: Event<'a>, span: Span, path: String) -> Option<()> {
-        self.offer(&path, span);
+    fn node(&mut self, event: &Event<'a>, span: Span, path: &str) -> Option<()> {
+        self.offer(path, span);
         match event {
             Event::MappingStart(..) => loop {
                 let (key, key_span) = self.next()?;
@@ -51,7 +51,7 @@ impl<'a> Walk<'a> {
                 let (value, value_span) = self.next()?;
                 // A key's own place reads better than that of a value on the lines below it.
                 let block = matches!(value, Event::MappingStart(..) | Event::SequenceStart(..));
-                self.node(value, if block { key_span } else { value_span }, child)?;
+                self.node(&value, if block { key_span } else { value_span }, &child)?;
             },
             Event::SequenceStart(..) => {
                 for index in 0.. {
@@ -59,7 +59,7 @@ impl<'a> Walk<'a> {
                     if matches!(item, Event::SequenceEnd) {
                         break;
                     }
-                    self.node(item, item_span, format!("{path}[{index}]"))?;
+                    self.node(&item, item_span, &format!("{path}[{index}]"))?;
                 }
             }
             _ => {}

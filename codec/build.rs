@@ -1,0 +1,30 @@
+//! Generates the tables from the documents' YAML. A defect of the YAML ends the build with its
+//! file, line and column.
+
+use std::path::PathBuf;
+use std::{env, fs, io};
+
+use actucheck_spec::{Spec, generate};
+
+fn main() -> io::Result<()> {
+    println!("cargo::rerun-if-changed=build.rs");
+    let spec = match Spec::embedded() {
+        Ok(spec) => spec,
+        Err(defects) => {
+            for defect in &defects {
+                println!("cargo::error={defect}");
+                defect
+                    .excerpt()
+                    .lines()
+                    .skip(1)
+                    .for_each(|line| println!("cargo::error={line}"));
+            }
+            return Ok(());
+        }
+    };
+    let out = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());
+    for module in generate::codec(&spec).map_err(io::Error::other)? {
+        fs::write(out.join(module.name).with_extension("rs"), module.source)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,287 @@
+//! Whole packets: the checked view of one, and the building of one.
+//!
+//! | header | ID | length | instruction | parameters | CRC |
+//! |---|---|---|---|---|---|
+//! | FF FF FD 00 | 1 byte | 2 bytes | 1 byte | any | 2 bytes |
+//!
+//! Numbers have their low byte first. The length counts everything behind itself, stuffing
+//! included (JA40 document, §1.4; DYNAMIXEL Protocol 2.0, Instruction Packet).
+
+use crate::dynamixel2::{BROADCAST_ID, HEADER, Instruction, MAX_ID, MIN_LENGTH, STUFFING_BYTE};
+use crate::stuffing::{Matcher, Unstuffed};
+use crate::{BufferTooSmall, EncodeError, FrameError, crc};
+
+/// Bytes before the instruction: header, ID, length.
+pub(crate) const PREFIX: usize = HEADER.len() + 3;
+const CRC: usize = 2;
+
+/// A packet whose header, ID, length, CRC and stuffing are right. Its accessors can't fail.
+///
+/// The status packet that answers Fast Sync Read or Fast Sync Write is not stuffed and has CRCs
+/// of its own: [`FastStatus`](crate::FastStatus) reads it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Frame<'a> {
+    id: u8,
+    instruction: Instruction,
+    params: &'a [u8],
+    params_len: usize,
+}
+
+impl<'a> Frame<'a> {
+    /// Reads `bytes`, which are one packet and nothing else.
+    ///
+    /// # Errors
+    /// The first rule that the bytes break, with the offset: header, ID, length, size, CRC,
+    /// stuffing, in this order.
+    pub fn parse(bytes: &'a [u8]) -> Result<Self, FrameError> {
+        let parts = Parts::split(bytes)?;
+        parts.check_crc()?;
+        let (code, params) = parts.body.split_first().ok_or(FrameError::Length {
+            found: parts.body.len() + CRC,
+            expected: MIN_LENGTH.into(),
+        })?;
+        let mut body_len = 0;
+        for byte in Unstuffed::new(parts.body) {
+            byte.map_err(|at| FrameError::Stuffing { at: PREFIX + at })?;
+            body_len += 1;
+        }
+        let instruction = Instruction::from_code(*code);
+        if instruction == Instruction::Status && params.is_empty() {
+            let found = parts.body.len() + CRC;
+            return Err(FrameError::Length {
+                found,
+                expected: found + 1,
+            });
+        }
+        Ok(Self {
+            id: parts.id,
+            instruction,
+            params,
+            params_len: body_len - 1,
+        })
+    }
+
+    /// Whom an instruction packet is for, or who sent a status packet.
+    #[must_use]
+    pub const fn id(&self) -> u8 {
+        self.id
+    }
+
+    /// What it asks for; [`Instruction::Status`] for a status packet.
+    #[must_use]
+    pub const fn instruction(&self) -> Instruction {
+        self.instruction
+    }
+
+    /// The bytes between instruction and CRC as they are on the wire, stuffing included. In a
+    /// status packet the first is the error byte.
+    #[must_use]
+    pub const fn stuffed_params(&self) -> &'a [u8] {
+        self.params
+    }
+
+    /// How many bytes [`Frame::params`] yields.
+    #[must_use]
+    pub const fn params_len(&self) -> usize {
+        self.params_len
+    }
+
+    /// The parameters without stuffing. In a status packet the first is the error byte.
+    pub fn params(&self) -> impl Iterator<Item = u8> + Clone + use<'a> {
+        // The pattern may begin with the instruction, so the search begins there too.
+        let mut matcher = Matcher::default();
+        let mut skip = matcher.step(self.instruction.code());
+        self.params.iter().copied().filter(move |byte| {
+            let keep = !skip;
+            skip = keep && matcher.step(*byte);
+            keep
+        })
+    }
+
+    /// Writes the parameters without stuffing to `buffer`; returns what was written.
+    ///
+    /// # Errors
+    /// If `buffer` is smaller than [`Frame::params_len`].
+    pub fn copy_params<'b>(&self, buffer: &'b mut [u8]) -> Result<&'b [u8], BufferTooSmall> {
+        let too_small = BufferTooSmall {
+            needed: self.params_len,
+            available: buffer.len(),
+        };
+        let target = buffer.get_mut(..self.params_len).ok_or(too_small)?;
+        for (slot, byte) in target.iter_mut().zip(self.params()) {
+            *slot = byte;
+        }
+        Ok(target)
+    }
+}
+
+/// The parts of bytes that have a packet's header, ID, length and size.
+pub(crate) struct Parts<'a> {
+    pub(crate) id: u8,
+    /// From the instruction up to the CRC, as on the wire.
+    pub(crate) body: &'a [u8],
+    /// Everything before the CRC.
+    before_crc: &'a [u8],
+    crc: u16,
+}
+
+impl<'a> Parts<'a> {
+    pub(crate) fn split(bytes: &'a [u8]) -> Result<Self, FrameError> {
+        let available = bytes.len();
+        for (at, (found, expected)) in bytes.iter().zip(HEADER).enumerate() {
+            if *found != expected {
+                return Err(FrameError::Header {
+                    at,
+                    found: *found,
+                    expected,
+                });
+            }
+        }
+        let truncated = |needed| FrameError::Truncated { available, needed };
+        let (prefix, rest) = bytes
+            .split_first_chunk::<PREFIX>()
+            .ok_or(truncated(PREFIX))?;
+        let [.., id, length_low, length_high] = *prefix;
+        check_id(id).map_err(|found| FrameError::Id { found })?;
+        let length = u16::from_le_bytes([length_low, length_high]);
+        if length < MIN_LENGTH {
+            let (found, expected) = (length.into(), MIN_LENGTH.into());
+            return Err(FrameError::Length { found, expected });
+        }
+        let end = PREFIX + usize::from(length);
+        if available > end {
+            return Err(FrameError::Trailing { end, available });
+        }
+        let (before_crc, crc) = bytes
+            .split_last_chunk::<CRC>()
+            .filter(|_| available == end)
+            .ok_or(truncated(end))?;
+        let body = rest
+            .get(..usize::from(length) - CRC)
+            .ok_or(truncated(end))?;
+        Ok(Self {
+            id,
+            body,
+            before_crc,
+            crc: u16::from_le_bytes(*crc),
+        })
+    }
+
+    pub(crate) fn check_crc(&self) -> Result<(), FrameError> {
+        let (found, expected) = (self.crc, crc::of(self.before_crc));
+        let at = self.before_crc.len();
+        if found == expected {
+            Ok(())
+        } else {
+            Err(FrameError::Crc {
+                at,
+                found,
+                expected,
+            })
+        }
+    }
+}
+
+/// Builds a packet in `buffer` from its parameters, which may come in several parts; returns the
+/// packet.
+///
+/// ```
+/// use actucheck_codec::{dynamixel2::Instruction, frame};
+/// let mut buffer = [0; 16];
+/// let packet = frame::encode(1, Instruction::Ping, &[], &mut buffer)?;
+/// assert_eq!(packet, b"\xFF\xFF\xFD\x00\x01\x03\x00\x01\x19\x4E");
+/// # Ok::<(), actucheck_codec::EncodeError>(())
+/// ```
+///
+/// # Errors
+/// If the ID is none, the packet would be longer than its length field can say, or `buffer` is
+/// too small; the error tells the size needed.
+pub fn encode<'b>(
+    id: u8,
+    instruction: Instruction,
+    params: &[&[u8]],
+    buffer: &'b mut [u8],
+) -> Result<&'b [u8], EncodeError> {
+    check_id(id).map_err(|found| EncodeError::Id { found })?;
+    let mut writer = Writer::new(buffer);
+    writer.skip_prefix();
+    let mut matcher = Matcher::default();
+    let code = instruction.code();
+    for byte in core::iter::once(&code).chain(params.iter().copied().flatten()) {
+        writer.put(*byte);
+        if matcher.step(*byte) {
+            writer.put(STUFFING_BYTE);
+        }
+    }
+    writer.finish(id)
+}
+
+/// Writes a frame front to back, and goes on counting when the buffer is full.
+pub(crate) struct Writer<'b> {
+    buffer: &'b mut [u8],
+    written: usize,
+}
+
+impl<'b> Writer<'b> {
+    pub(crate) fn new(buffer: &'b mut [u8]) -> Self {
+        Self { buffer, written: 0 }
+    }
+
+    /// Leaves room for header, ID and length.
+    pub(crate) fn skip_prefix(&mut self) {
+        self.written += PREFIX;
+    }
+
+    pub(crate) fn put(&mut self, byte: u8) {
+        if let Some(slot) = self.buffer.get_mut(self.written) {
+            *slot = byte;
+        }
+        self.written += 1;
+    }
+
+    /// Appends the CRC of all that was written so far.
+    pub(crate) fn put_crc(&mut self) {
+        let crc = crc::of(self.buffer.get(..self.written).unwrap_or_default());
+        let [low, high] = crc.to_le_bytes();
+        self.put(low);
+        self.put(high);
+    }
+
+    /// Writes header, ID and a length of so many bytes; nothing if they don't fit.
+    pub(crate) fn put_prefix(&mut self, id: u8, length: u16) {
+        let [length_low, length_high] = length.to_le_bytes();
+        let [first, second, third, reserved] = HEADER;
+        if let Some(prefix) = self.buffer.first_chunk_mut() {
+            *prefix = [first, second, third, reserved, id, length_low, length_high];
+        }
+    }
+
+    /// Fills in the prefix, appends the CRC; returns the frame.
+    fn finish(mut self, id: u8) -> Result<&'b [u8], EncodeError> {
+        let length = length_field(self.written + CRC - PREFIX)?;
+        self.put_prefix(id, length);
+        self.put_crc();
+        self.into_written()
+    }
+
+    pub(crate) fn into_written(self) -> Result<&'b [u8], EncodeError> {
+        let too_small = BufferTooSmall {
+            needed: self.written,
+            available: self.buffer.len(),
+        };
+        Ok(self.buffer.get(..self.written).ok_or(too_small)?)
+    }
+}
+
+pub(crate) fn length_field(length: usize) -> Result<u16, EncodeError> {
+    u16::try_from(length).map_err(|_| EncodeError::TooLong { length })
+}
+
+/// The ID itself if it is none that a packet may have.
+fn check_id(id: u8) -> Result<(), u8> {
+    if id <= MAX_ID || id == BROADCAST_ID {
+        Ok(())
+    } else {
+        Err(id)
+    }
+}

@@ -1,0 +1,261 @@
+//! A protocol's constants, instructions and error numbers.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+
+use super::places;
+use super::token::{hex8, hex16, module_name, named_values, type_name};
+use crate::model::{Field, Instruction, Protocol, Size};
+
+pub(super) fn module(protocol: &Protocol) -> TokenStream {
+    let name = module_name(&protocol.protocol);
+    let doc = format!(" {}.", protocol.title);
+    let constants = constants(protocol);
+    let instructions = instructions(protocol);
+    let errors = errors(protocol);
+    quote! {
+        #[doc = #doc]
+        pub mod #name {
+            use crate::layout::{Field, Size};
+            use crate::register::NamedValue;
+
+            #constants
+            #instructions
+            #errors
+        }
+    }
+}
+
+fn constants(protocol: &Protocol) -> TokenStream {
+    let framing = &protocol.framing;
+    let header = framing.header.iter().map(|byte| hex8(*byte));
+    let header_size = framing.header.len();
+    let (max_id, broadcast) = (hex8(framing.id.max), hex8(framing.id.broadcast));
+    let minimum = framing.length.minimum;
+    let framing_source = format!(" {}.", places(&framing.source));
+
+    let pattern = protocol.stuffing.pattern.iter().map(|byte| hex8(*byte));
+    let pattern_size = protocol.stuffing.pattern.len();
+    let insert = hex8(protocol.stuffing.insert);
+    let stuffing_source = format!(" {}.", places(&protocol.stuffing.source));
+
+    let crc = &protocol.crc;
+    let (polynomial, initial, check) =
+        (hex16(crc.polynomial), hex16(crc.initial), hex16(crc.check));
+    let crc_source = format!(" {}.", places(&crc.source));
+    let crc_doc = format!(
+        " The polynomial of {}, highest power in the highest bit.",
+        crc.name
+    );
+
+    let alert = 1_u8
+        .checked_shl(protocol.status.alert_bit.into())
+        .unwrap_or(0);
+    let alert = hex8(alert);
+    let status_source = format!(" {}.", places(&protocol.status.source));
+    quote! {
+        /// What every packet begins with, the reserved byte included.
+        ///
+        #[doc = #framing_source]
+        pub const HEADER: [u8; #header_size] = [#(#header),*];
+        /// The largest ID that a device may have.
+        pub const MAX_ID: u8 = #max_id;
+        /// The ID that every device obeys.
+        pub const BROADCAST_ID: u8 = #broadcast;
+        /// The smallest length that a packet may have.
+        pub const MIN_LENGTH: u16 = #minimum;
+        /// The bytes that never stand in a body without [`STUFFING_BYTE`] behind them.
+        ///
+        #[doc = #stuffing_source]
+        pub const STUFFING_PATTERN: [u8; #pattern_size] = [#(#pattern),*];
+        /// The byte that stuffing puts behind [`STUFFING_PATTERN`].
+        pub const STUFFING_BYTE: u8 = #insert;
+        #[doc = #crc_doc]
+        ///
+        #[doc = #crc_source]
+        pub const CRC_POLYNOMIAL: u16 = #polynomial;
+        /// The CRC's value before the first byte.
+        pub const CRC_INITIAL: u16 = #initial;
+        /// The CRC of the nine ASCII characters `123456789`.
+        pub const CRC_CHECK: u16 = #check;
+        /// The bit of a status packet's error byte that tells of a hardware error.
+        ///
+        #[doc = #status_source]
+        pub const ALERT_BIT: u8 = #alert;
+    }
+}
+
+/// An enum of the bytes that have a name, which keeps the bytes that have none.
+fn wire_enum(name: &Ident, doc: &str, rows: &[(u8, &str, String)]) -> TokenStream {
+    let count = rows.len();
+    let variants: Vec<_> = rows.iter().map(|(_, name, _)| type_name(name)).collect();
+    let codes: Vec<_> = rows.iter().map(|(code, ..)| hex8(*code)).collect();
+    let names = rows.iter().map(|(_, name, _)| *name);
+    let docs = rows
+        .iter()
+        .map(|(code, _, doc)| format!(" `{code:#04X}`: {doc}"));
+    quote! {
+        #[doc = #doc]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum #name {
+            #(#[doc = #docs] #variants,)*
+            /// A byte that the documents give no name.
+            Unknown(u8),
+        }
+
+        impl #name {
+            /// Every one with a name, by rising code.
+            pub const ALL: [Self; #count] = [#(Self::#variants),*];
+
+            /// What this byte stands for.
+            #[must_use]
+            pub const fn from_code(code: u8) -> Self {
+                match code {
+                    #(#codes => Self::#variants,)*
+                    code => Self::Unknown(code),
+                }
+            }
+
+            /// The byte on the wire.
+            #[must_use]
+            pub const fn code(self) -> u8 {
+                match self {
+                    #(Self::#variants => #codes,)*
+                    Self::Unknown(code) => code,
+                }
+            }
+
+            /// Its name in the documents, or `unknown`.
+            #[must_use]
+            pub const fn name(self) -> &'static str {
+                match self {
+                    #(Self::#variants => #names,)*
+                    Self::Unknown(_) => "unknown",
+                }
+            }
+        }
+    }
+}
+
+fn instructions(protocol: &Protocol) -> TokenStream {
+    let mut rows: Vec<_> = protocol
+        .instructions
+        .iter()
+        .map(|row| {
+            let doc = format!("{}\n\n {}.", row.summary, places(&row.source));
+            (row.code, row.name.as_str(), doc)
+        })
+        .collect();
+    let status = format!(
+        "What a device answers.\n\n {}.",
+        places(&protocol.status.source)
+    );
+    rows.push((protocol.status.instruction, "Status", status));
+    rows.sort_by_key(|(code, ..)| *code);
+    let name = type_name("Instruction");
+    let declaration = wire_enum(
+        &name,
+        " What a packet asks for, or that it is an answer.",
+        &rows,
+    );
+
+    let arms = |pick: fn(&Instruction) -> Option<&Vec<Field>>| {
+        let arms = protocol.instructions.iter().filter_map(|row| {
+            let (variant, layout) = (type_name(&row.name), layout(pick(row)?));
+            Some(quote!(Self::#variant => Some(#layout),))
+        });
+        quote!(#(#arms)*)
+    };
+    let parameters = arms(|row| Some(&row.parameters));
+    let status = arms(|row| row.status.as_ref());
+    let fast_status = arms(|row| row.fast_status.as_ref());
+    let list = |pick: fn(&Instruction) -> bool| {
+        let variants: Vec<_> = protocol
+            .instructions
+            .iter()
+            .filter(|row| pick(row))
+            .map(|row| type_name(&row.name))
+            .collect();
+        quote!(matches!(self, #(Self::#variants)|*))
+    };
+    let broadcast_only = list(|row| row.broadcast_only);
+    let answers_broadcast = list(|row| row.answers_broadcast);
+    quote! {
+        #declaration
+
+        impl Instruction {
+            /// Layout of the parameters of an instruction packet; `None` for
+            /// [`Instruction::Status`] and for an unknown one.
+            #[must_use]
+            pub const fn parameters(self) -> Option<&'static [Field]> {
+                match self {
+                    #parameters
+                    _ => None,
+                }
+            }
+
+            /// Layout of the parameters of a device's status packet; `None` if it answers with
+            /// no packet of its own.
+            #[must_use]
+            pub const fn status(self) -> Option<&'static [Field]> {
+                match self {
+                    #status
+                    _ => None,
+                }
+            }
+
+            /// Layout of one device's block in the status packet that all devices share; `None`
+            /// if they share none.
+            #[must_use]
+            pub const fn fast_status(self) -> Option<&'static [Field]> {
+                match self {
+                    #fast_status
+                    _ => None,
+                }
+            }
+
+            /// Whether it goes to the broadcast ID only.
+            #[must_use]
+            pub const fn broadcast_only(self) -> bool {
+                #broadcast_only
+            }
+
+            /// Whether devices answer it when it goes to the broadcast ID.
+            #[must_use]
+            pub const fn answers_broadcast(self) -> bool {
+                #answers_broadcast
+            }
+        }
+    }
+}
+
+fn errors(protocol: &Protocol) -> TokenStream {
+    let mut rows = vec![(0, "None", "The instruction was carried out.".to_owned())];
+    rows.extend(
+        protocol
+            .status
+            .errors
+            .iter()
+            .map(|row| (row.number, row.name.as_str(), row.summary.clone())),
+    );
+    let doc = " How an instruction went: a status packet's error byte without the alert bit.";
+    wire_enum(&type_name("Error Number"), doc, &rows)
+}
+
+fn layout(fields: &[Field]) -> TokenStream {
+    let fields = fields.iter().map(|field| {
+        let (name, optional) = (&field.name, field.optional);
+        let size = match &field.size {
+            None => {
+                let each = layout(&field.each);
+                quote!(Size::Each(#each))
+            }
+            Some(Size::Bytes(size)) => quote!(Size::Bytes(#size)),
+            Some(Size::Named(name)) if name == "rest" => quote!(Size::Rest),
+            Some(Size::Named(name)) => quote!(Size::HeldBy(#name)),
+        };
+        let values = named_values(&field.values);
+        quote!(Field { name: #name, size: #size, optional: #optional, values: #values })
+    });
+    quote!(&[#(#fields),*])
+}
