@@ -21,10 +21,9 @@ impl Matcher {
     pub(crate) fn step(&mut self, byte: u8) -> bool {
         let [first, second, last] = STUFFING_PATTERN;
         self.matched = match self.matched {
-            // A third FF leaves the last two as the beginning of a pattern.
             2 if byte == last => 3,
-            2 if byte == second => 2,
-            1 if byte == second => 2,
+            // A third FF leaves the last two as the beginning of a pattern.
+            1 | 2 if byte == second => 2,
             _ if byte == first => 1,
             _ => 0,
         };
