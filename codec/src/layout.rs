@@ -74,6 +74,16 @@ pub enum LayoutError {
     },
 }
 
+impl LayoutError {
+    /// Where in the parameters they stop fitting.
+    #[must_use]
+    pub const fn offset(&self) -> usize {
+        match *self {
+            Self::Short { offset, .. } | Self::Extra { offset, .. } => offset,
+        }
+    }
+}
+
 impl fmt::Display for LayoutError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -1,0 +1,122 @@
+//! One question to an implementation, and the judgement of its answer.
+
+use actucheck_spec::model::{Citation, Fault, Level};
+
+use crate::protocol::{Op, Output, Rejection};
+use crate::testee::Answer;
+use crate::verdict::{Outcome, Verdict};
+
+/// One question to an implementation.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Check {
+    /// Permanent id.
+    pub id: String,
+    /// The id of the requirement that it tests.
+    pub requirement: String,
+    /// How binding that is.
+    pub level: Level,
+    /// Where the packet stands that it asks about.
+    pub source: Citation,
+    /// What is asked.
+    pub op: Op,
+    /// What is demanded.
+    pub demand: Demand,
+}
+
+/// What a check demands of the answer.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Demand {
+    /// This and nothing else.
+    Yield(Output),
+    /// This, or a rejection: the documents leave it open.
+    YieldOrReject(Output),
+    /// A rejection. One for another reason than this is a warning.
+    Reject(Fault),
+}
+
+impl Check {
+    /// What an answer comes to.
+    #[must_use]
+    pub fn judge(&self, answer: Answer) -> Outcome {
+        let (verdict, detail, actual) = match answer {
+            Answer::Ok(actual) => self.judge_output(actual),
+            Answer::Rejected(rejection) => self.judge_rejection(&rejection),
+            Answer::Skipped(reason) => (Verdict::Skip, reason, None),
+            Answer::TimedOut(detail) => (Verdict::Timeout, detail, None),
+            Answer::Crashed(detail) => (Verdict::Crash, detail, None),
+            Answer::Faulty(detail) => (Verdict::AdapterFault, detail, None),
+            Answer::NotAsked(reason) => (Verdict::NotRun, reason, None),
+        };
+        let verdict = match (verdict, self.level) {
+            (Verdict::Fail, Level::Should) => Verdict::Warn,
+            (Verdict::Fail, Level::May) => Verdict::Pass,
+            (verdict, _) => verdict,
+        };
+        let unmet = !matches!(verdict, Verdict::Pass | Verdict::Skip);
+        Outcome {
+            id: self.id.clone(),
+            requirement: self.requirement.clone(),
+            level: self.level,
+            verdict,
+            detail,
+            request: unmet.then(|| self.op.clone()),
+            expected: self.expected().filter(|_| unmet).cloned(),
+            actual: actual.filter(|_| unmet),
+        }
+    }
+
+    /// Bytes of the whole packet that it is about; `None` if it is about no whole one.
+    #[must_use]
+    pub fn packet_size(&self) -> Option<usize> {
+        match (&self.op, self.expected()) {
+            (Op::Decode { bytes, .. }, _) | (Op::Encode { .. }, Some(Output::Bytes(bytes))) => {
+                Some(bytes.len())
+            }
+            (Op::Stream { chunks, .. }, _) => Some(chunks.iter().map(|chunk| chunk.len()).sum()),
+            _ => None,
+        }
+    }
+
+    fn expected(&self) -> Option<&Output> {
+        match &self.demand {
+            Demand::Yield(output) | Demand::YieldOrReject(output) => Some(output),
+            Demand::Reject(_) => None,
+        }
+    }
+
+    fn judge_output(&self, actual: Output) -> (Verdict, String, Option<Output>) {
+        match &self.demand {
+            Demand::Yield(expected) | Demand::YieldOrReject(expected) if *expected == actual => {
+                (Verdict::Pass, String::new(), None)
+            }
+            Demand::Yield(_) | Demand::YieldOrReject(_) => {
+                (Verdict::Fail, "the answer differs".to_owned(), Some(actual))
+            }
+            Demand::Reject(fault) => {
+                let detail = format!("accepted, but must be rejected ({fault})");
+                (Verdict::Fail, detail, Some(actual))
+            }
+        }
+    }
+
+    fn judge_rejection(&self, rejection: &Rejection) -> (Verdict, String, Option<Output>) {
+        let Rejection { class, detail } = rejection;
+        if *class == Fault::Internal {
+            return (Verdict::Fail, format!("broke down: {detail}"), None);
+        }
+        match &self.demand {
+            Demand::Yield(_) => (
+                Verdict::Fail,
+                format!("rejected ({class}: {detail}), but is valid"),
+                None,
+            ),
+            Demand::YieldOrReject(_) => (Verdict::Pass, String::new(), None),
+            Demand::Reject(fault) if fault == class => (Verdict::Pass, String::new(), None),
+            Demand::Reject(fault) => (
+                Verdict::Warn,
+                format!("rejected as {class}, the fault is {fault}"),
+                None,
+            ),
+        }
+    }
+}

@@ -1,0 +1,153 @@
+//! Subcommands and options.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use actucheck::protocol::{Fast, Wire};
+use clap::{Args, Parser, Subcommand};
+
+/// Checks implementations of robot actuators' protocols against the documents.
+#[derive(Debug, Parser)]
+#[command(version, arg_required_else_help = true, after_help = EXIT)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+const EXIT: &str = "Exit status: 0 all passed, 1 something failed, 2 wrong usage, \
+    3 something could not be run, 4 the adapter could not be started.";
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Checks a codec: the built-in one, or a library behind an adapter
+    #[command(after_help = CODEC_EXAMPLES)]
+    Codec(Codec),
+    /// Explains one packet field by field
+    #[command(after_help = DECODE_EXAMPLES)]
+    Decode(Decode),
+    /// Prints a shell's completion script
+    Completions(Completions),
+}
+
+const CODEC_EXAMPLES: &str = "\
+Examples:
+  actucheck codec
+      check the built-in codec
+  actucheck codec -- python3 my_adapter.py
+      check a library behind an adapter
+  actucheck codec --select '*stuffing*' --report json=report.json -- ./my-adapter
+      only some checks, with a report for programs
+
+Exit status: 0 all passed, 1 something failed, 2 wrong usage, 3 something could not be run, \
+4 the adapter could not be started.";
+
+const DECODE_EXAMPLES: &str = "\
+Examples:
+  actucheck decode ff fffd 00 01 0300 01 194e
+  actucheck decode --json 'FF FF FD 00 01 09 00 03 34 02 D0 07 00 00 1E C9'
+  actucheck decode --address 580 fffffd00010800550 0946c0000f5af
+      a status packet, whose data was read at address 580
+  actucheck decode --fast 4:1,2 fffffd00fe11005500 01d0070000 0c83 00 02 09000000 1140
+      the packet that answers a Fast Sync Read of 4 bytes from devices 1 and 2
+
+Exit status: 0 a valid packet, 1 no valid packet, 2 wrong usage.";
+
+#[derive(Debug, Args)]
+pub(crate) struct Codec {
+    /// The wire whose checks are run
+    #[arg(long, value_enum, default_value = "dynamixel2")]
+    pub(crate) wire: Wire,
+    /// Run only the checks whose id matches; may be given more than once
+    #[arg(long, value_name = "GLOB")]
+    pub(crate) select: Vec<String>,
+    /// Known failures, which do not fail the run as long as they do fail
+    #[arg(long, value_name = "FILE")]
+    pub(crate) expect: Option<PathBuf>,
+    /// Write a report for programs; `-` is standard output
+    #[arg(long, value_name = "json=PATH", value_parser = report)]
+    pub(crate) report: Vec<Report>,
+    /// Seconds that the adapter may take for a request
+    #[arg(long, value_name = "SECONDS", default_value = "1", value_parser = seconds)]
+    pub(crate) timeout: Duration,
+    /// Seconds that the adapter may take to start
+    #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = seconds)]
+    pub(crate) start_timeout: Duration,
+    /// The adapter's command with its arguments; the built-in codec if there is none
+    #[arg(last = true, value_name = "COMMAND")]
+    pub(crate) command: Vec<String>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Decode {
+    /// Print the packet object of the adapter protocol
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// The wire that the packet is of
+    #[arg(long, value_enum, default_value = "dynamixel2")]
+    pub(crate) wire: Wire,
+    /// Which way the packet goes, for wires on which it can't tell itself
+    #[arg(long, value_enum)]
+    pub(crate) kind: Option<Kind>,
+    /// The device whose registers are meant
+    #[arg(long, value_name = "DEVICE", default_value = "ja40")]
+    pub(crate) device: String,
+    /// The address at which a status packet's data was read
+    #[arg(long, value_name = "ADDRESS")]
+    pub(crate) address: Option<u16>,
+    /// What a fast status packet answers: bytes a device, and the devices in order
+    #[arg(long, value_name = "LENGTH:ID,ID…", value_parser = fast, conflicts_with = "address")]
+    pub(crate) fast: Option<Fast>,
+    /// The packet's bytes in hex, with or without spaces, commas and 0x; `-` reads them from
+    /// standard input
+    #[arg(required = true, value_name = "HEX")]
+    pub(crate) hex: Vec<String>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Completions {
+    /// The shell
+    #[arg(value_enum)]
+    pub(crate) shell: clap_complete::Shell,
+}
+
+/// Which way a packet goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum Kind {
+    /// From the host
+    Request,
+    /// To the host
+    Reply,
+}
+
+/// A report to be written.
+#[derive(Clone, Debug)]
+pub(crate) struct Report {
+    pub(crate) path: PathBuf,
+}
+
+fn report(text: &str) -> Result<Report, String> {
+    match text.split_once('=') {
+        Some(("json", path)) if !path.is_empty() => Ok(Report { path: path.into() }),
+        _ => Err("a report is written as json=PATH".to_owned()),
+    }
+}
+
+fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds: Option<f64> = text.parse().ok().filter(|seconds| *seconds > 0.0);
+    seconds
+        .and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())
+        .ok_or_else(|| "a time is a number of seconds above 0, such as 0.5".to_owned())
+}
+
+fn fast(text: &str) -> Result<Fast, String> {
+    let parse = || {
+        let (length, ids) = text.split_once(':')?;
+        let ids = ids.split(',').map(|id| id.trim().parse().ok());
+        Some(Fast {
+            length: length.trim().parse().ok()?,
+            ids: ids.collect::<Option<_>>()?,
+        })
+    };
+    parse()
+        .ok_or_else(|| "expected the bytes a device and the devices' IDs, such as 4:1,2".to_owned())
+}

@@ -1,0 +1,110 @@
+//! `actucheck decode`.
+
+use std::io::{self, Read as _, Write as _};
+use std::process::ExitCode;
+
+use actucheck::explain::frame::{Explanation, explain, explain_fast};
+use actucheck::protocol::{Op, Output};
+use actucheck::testee::{Answer, Builtin, Testee as _};
+use actucheck_codec::register::Device;
+use actucheck_codec::{FrameError, ja40};
+use actucheck_spec::model::HexBytes;
+use anstyle::Style;
+
+use super::Failure;
+use crate::cli::Decode;
+
+/// The devices whose registers can be named.
+const DEVICES: [&Device; 1] = [&ja40::DEVICE];
+
+/// Explains the packet, or prints it as an object.
+pub(crate) fn run(options: &Decode) -> Result<ExitCode, Failure> {
+    let bytes = bytes(&options.hex)?;
+    let device = device(&options.device)?;
+    let explanation = match &options.fast {
+        Some(fast) => explain_fast(&bytes, fast),
+        None => explain(&bytes, device, options.address),
+    }
+    .map_err(|error| invalid(&error))?;
+    let text = if options.json {
+        json(options, bytes)?
+    } else {
+        table(&explanation)
+    };
+    // A reader that has seen enough is no failure.
+    let _ = write!(anstream::stdout(), "{text}");
+    Ok(ExitCode::SUCCESS)
+}
+
+fn bytes(arguments: &[String]) -> Result<Vec<u8>, Failure> {
+    let mut text = arguments.join(" ");
+    if text == "-" {
+        text.clear();
+        io::stdin().read_to_string(&mut text).map_err(|error| {
+            Failure::new(
+                Failure::USAGE,
+                format!("cannot read standard input: {error}"),
+            )
+        })?;
+    }
+    let plain = text
+        .replace("0x", " ")
+        .replace("0X", " ")
+        .replace([',', ':', ';'], " ");
+    let bytes = HexBytes::parse(&plain).map_err(|error| Failure::new(Failure::USAGE, error))?;
+    Ok(bytes.0)
+}
+
+fn device(name: &str) -> Result<&'static Device, Failure> {
+    DEVICES
+        .into_iter()
+        .find(|device| device.id == name)
+        .ok_or_else(|| {
+            let ids: Vec<_> = DEVICES.iter().map(|device| device.id).collect();
+            let message = format!("unknown device `{name}`; known are {}", ids.join(", "));
+            Failure::new(Failure::USAGE, message)
+        })
+}
+
+fn invalid(error: &FrameError) -> Failure {
+    Failure::new(
+        Failure::FAILED,
+        format!("no valid packet, from byte {} on: {error}", error.offset()),
+    )
+}
+
+/// The packet as the adapter protocol has it.
+fn json(options: &Decode, bytes: Vec<u8>) -> Result<String, Failure> {
+    let op = Op::Decode {
+        wire: options.wire,
+        bytes: bytes.into(),
+        fast: options.fast.clone(),
+    };
+    match Builtin::default().ask(&op) {
+        Answer::Ok(Output::Packet(packet)) => serde_json::to_string(&packet)
+            .map(|text| text + "\n")
+            .map_err(|error| Failure::new(Failure::INCOMPLETE, error)),
+        Answer::Rejected(rejection) => Err(Failure::new(Failure::FAILED, rejection.detail)),
+        other => Err(Failure::new(
+            Failure::INCOMPLETE,
+            format!("no packet: {other:?}"),
+        )),
+    }
+}
+
+fn table(explanation: &Explanation) -> String {
+    const BOLD: Style = Style::new().bold();
+    let rows = &explanation.rows;
+    let bytes = rows.iter().map(|row| row.bytes.len()).max().unwrap_or(0);
+    let field = rows.iter().map(|row| row.field.len()).max().unwrap_or(0);
+    let mut text = format!("{BOLD}{}{BOLD:#}\n", explanation.title);
+    for row in rows {
+        let line = format!(
+            "{:>5}  {:bytes$}  {:field$}  {}",
+            row.offset, row.bytes, row.field, row.meaning
+        );
+        text.push_str(line.trim_end());
+        text.push('\n');
+    }
+    text
+}

@@ -1,0 +1,271 @@
+//! The adapter protocol, version 1: what the suite and an adapter say to each other, one JSON
+//! object a line.
+
+use actucheck_spec::model::{Fault, HexBytes, Packet};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use crate::call::Call;
+
+/// The version that this suite speaks.
+pub const VERSION: u32 = 1;
+
+/// A protocol whose packets are checked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum Wire {
+    /// DYNAMIXEL Protocol 2.0 and its JA dialect.
+    Dynamixel2,
+}
+
+impl Wire {
+    /// Its id in the spec and in the adapter protocol.
+    #[must_use]
+    pub const fn id(self) -> &'static str {
+        match self {
+            Self::Dynamixel2 => "dynamixel2",
+        }
+    }
+
+    /// The wire with this id.
+    #[must_use]
+    pub fn from_id(id: &str) -> Option<Self> {
+        (id == Self::Dynamixel2.id()).then_some(Self::Dynamixel2)
+    }
+}
+
+/// A request as it goes over the pipe.
+#[derive(Clone, Debug, Serialize)]
+pub struct Request<'a> {
+    /// Counts up; the reply repeats it.
+    pub id: u64,
+    /// What is asked.
+    #[serde(flatten)]
+    pub op: &'a Op,
+}
+
+/// What the suite asks.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[serde(tag = "op", rename_all = "lowercase")]
+pub enum Op {
+    /// Who are you, and what can you do?
+    Hello {
+        /// The versions of the adapter protocol that the suite speaks.
+        protocol: Vec<u32>,
+    },
+    /// The CRC of some bytes.
+    Crc {
+        /// Which CRC.
+        wire: Wire,
+        /// The bytes.
+        bytes: HexBytes,
+    },
+    /// A body with its stuffing.
+    Stuff {
+        /// The wire.
+        wire: Wire,
+        /// The body without.
+        bytes: HexBytes,
+    },
+    /// A body without its stuffing.
+    Unstuff {
+        /// The wire.
+        wire: Wire,
+        /// The body with.
+        bytes: HexBytes,
+    },
+    /// The bytes of a packet.
+    Encode {
+        /// The wire.
+        wire: Wire,
+        /// The packet.
+        packet: Called,
+    },
+    /// The packet that bytes are.
+    Decode {
+        /// The wire.
+        wire: Wire,
+        /// One whole frame, nothing after it.
+        bytes: HexBytes,
+        /// For a fast status packet: what was asked for.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        fast: Option<Fast>,
+    },
+    /// The good packets of a stream.
+    Stream {
+        /// The wire.
+        wire: Wire,
+        /// The stream, cut into chunks.
+        chunks: Vec<HexBytes>,
+    },
+    /// An op that no version of the protocol has.
+    #[serde(rename = "no-such-op")]
+    Invented,
+    /// The end.
+    Bye,
+}
+
+impl Op {
+    /// Its name in the adapter protocol.
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Hello { .. } => "hello",
+            Self::Crc { .. } => "crc",
+            Self::Stuff { .. } => "stuff",
+            Self::Unstuff { .. } => "unstuff",
+            Self::Encode { .. } => "encode",
+            Self::Decode { .. } => "decode",
+            Self::Stream { .. } => "stream",
+            Self::Invented => "no-such-op",
+            Self::Bye => "bye",
+        }
+    }
+
+    /// The wire that it is about, if it is about packets.
+    #[must_use]
+    pub const fn wire(&self) -> Option<Wire> {
+        match self {
+            Self::Crc { wire, .. }
+            | Self::Stuff { wire, .. }
+            | Self::Unstuff { wire, .. }
+            | Self::Encode { wire, .. }
+            | Self::Decode { wire, .. }
+            | Self::Stream { wire, .. } => Some(*wire),
+            Self::Hello { .. } | Self::Invented | Self::Bye => None,
+        }
+    }
+}
+
+/// A packet, and the call that sends it for a library that has calls rather than packets.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Called {
+    /// The packet.
+    #[serde(flatten)]
+    pub packet: Packet,
+    /// The same request in words; only for instruction packets that have a call.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub call: Option<Call>,
+}
+
+/// What a fast status packet answers.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Fast {
+    /// Bytes of data a block; 0 for Fast Sync Write.
+    pub length: u16,
+    /// The devices in the order asked for.
+    pub ids: Vec<u8>,
+}
+
+/// What an adapter says of itself.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+pub struct Hello {
+    /// The version of the adapter protocol that it speaks.
+    pub protocol: u32,
+    /// What it wraps.
+    pub implementation: Implementation,
+    /// The wires that it offers.
+    pub wires: Vec<String>,
+    /// The ops that it offers.
+    pub ops: Vec<String>,
+    /// What it can't go beyond.
+    #[serde(default)]
+    pub limits: Limits,
+}
+
+/// An implementation under test.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Implementation {
+    /// Its name.
+    pub name: String,
+    /// Its version.
+    pub version: String,
+    /// The language that it is written in.
+    pub language: String,
+    /// Where it is to be found.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub url: Option<String>,
+}
+
+/// What an implementation can't go beyond.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
+pub struct Limits {
+    /// Bytes of the longest frame that it builds or reads.
+    pub max_packet: Option<usize>,
+}
+
+/// A reply as it comes over the pipe. A field that the protocol does not have is passed over.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Reply {
+    /// The request's.
+    pub id: Option<u64>,
+    /// What was asked for.
+    pub ok: Option<Value>,
+    /// Why the bytes or the packet are rejected.
+    pub err: Option<Rejection>,
+    /// Why it was not tried.
+    pub skip: Option<Skip>,
+}
+
+/// Why bytes or a packet are rejected.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Rejection {
+    /// What is wrong with them.
+    pub class: Fault,
+    /// In words.
+    #[serde(default)]
+    pub detail: String,
+}
+
+/// Why something was not tried.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+pub struct Skip {
+    /// In words.
+    #[serde(default)]
+    pub reason: String,
+}
+
+/// What an op yields when all is well.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Output {
+    /// Of `crc`.
+    Crc(u64),
+    /// Of `stuff`, `unstuff` and `encode`.
+    Bytes(HexBytes),
+    /// Of `decode`.
+    Packet(Packet),
+    /// Of `stream`.
+    Packets(Vec<Packet>),
+}
+
+impl Output {
+    /// Reads the `ok` object of a reply to `op`.
+    ///
+    /// # Errors
+    /// What is wrong with the object.
+    pub fn read(op: &Op, ok: Value) -> Result<Self, serde_json::Error> {
+        #[derive(Deserialize)]
+        struct Crc {
+            crc: u64,
+        }
+        #[derive(Deserialize)]
+        struct Bytes {
+            bytes: HexBytes,
+        }
+        #[derive(Deserialize)]
+        struct One {
+            packet: Packet,
+        }
+        #[derive(Deserialize)]
+        struct Many {
+            packets: Vec<Packet>,
+        }
+        Ok(match op {
+            Op::Crc { .. } => Self::Crc(serde_json::from_value::<Crc>(ok)?.crc),
+            Op::Decode { .. } => Self::Packet(serde_json::from_value::<One>(ok)?.packet),
+            Op::Stream { .. } => Self::Packets(serde_json::from_value::<Many>(ok)?.packets),
+            _ => Self::Bytes(serde_json::from_value::<Bytes>(ok)?.bytes),
+        })
+    }
+}

@@ -1,0 +1,42 @@
+//! The implementation under test: the built-in codec, or a library behind an adapter.
+
+mod builtin;
+mod process;
+
+use crate::protocol::{Hello, Op, Output, Rejection};
+
+pub use builtin::Builtin;
+pub use process::{Process, StartError, Timeouts};
+
+/// Something that can be asked.
+pub trait Testee {
+    /// What it says of itself.
+    fn hello(&self) -> &Hello;
+
+    /// Asks it. Never blocks for longer than its time limits.
+    fn ask(&mut self, op: &Op) -> Answer;
+
+    /// The last lines that it logged; empty if there are none.
+    fn log(&self) -> String {
+        String::new()
+    }
+}
+
+/// What came of a question.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Answer {
+    /// What was asked for.
+    Ok(Output),
+    /// The bytes or the packet are rejected.
+    Rejected(Rejection),
+    /// It is not offered, with the reason.
+    Skipped(String),
+    /// There was no answer in time.
+    TimedOut(String),
+    /// The adapter ended instead of answering.
+    Crashed(String),
+    /// The answer is none of the adapter protocol.
+    Faulty(String),
+    /// The adapter could not be started again to ask it.
+    NotAsked(String),
+}

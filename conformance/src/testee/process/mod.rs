@@ -1,0 +1,271 @@
+//! A library behind an adapter, which is a child process. Whatever the adapter does, a question
+//! ends within its time limit, and an adapter that fails is started again.
+
+mod child;
+
+use std::fmt::Write as _;
+use std::io;
+use std::time::{Duration, Instant};
+
+use thiserror::Error;
+
+use self::child::{Line, Running};
+use super::{Answer, Testee};
+use crate::protocol::{Hello, Op, Output, Reply, Request, VERSION};
+
+/// How often an adapter is started again before the rest is given up.
+const MAX_RESTARTS: u32 = 10;
+
+/// How long an adapter may take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Timeouts {
+    /// From its start to its answer to `hello`.
+    pub start: Duration,
+    /// For a request.
+    pub request: Duration,
+}
+
+impl Default for Timeouts {
+    fn default() -> Self {
+        Self {
+            start: Duration::from_secs(10),
+            request: Duration::from_secs(1),
+        }
+    }
+}
+
+/// Why an adapter could not be started.
+#[derive(Debug, Error)]
+pub enum StartError {
+    /// There is no such program, or it may not be run.
+    #[error("cannot run `{command}`: {error}; give the adapter's command after `--`")]
+    Spawn {
+        /// The program.
+        command: String,
+        /// What the system says.
+        error: io::Error,
+    },
+    /// It does not answer `hello` as it should.
+    #[error("the adapter `{command}` {problem}{log}")]
+    Hello {
+        /// The program.
+        command: String,
+        /// What it did.
+        problem: String,
+        /// What it logged, on lines of its own.
+        log: String,
+    },
+}
+
+/// A library behind an adapter.
+#[derive(Debug)]
+pub struct Process {
+    command: Vec<String>,
+    timeouts: Timeouts,
+    hello: Hello,
+    running: Option<Running>,
+    restarts: u32,
+    next_id: u64,
+    /// What the last process logged before it was ended.
+    last_log: String,
+}
+
+impl Process {
+    /// Starts `command`, a program and its arguments, and waits for its `hello`.
+    ///
+    /// # Errors
+    /// If it can't be run, or does not answer `hello` in time and in form.
+    pub fn start(command: &[String], timeouts: Timeouts) -> Result<Self, StartError> {
+        let (running, hello) = start(command, timeouts)?;
+        Ok(Self {
+            command: command.to_vec(),
+            timeouts,
+            hello,
+            running: Some(running),
+            restarts: 0,
+            next_id: 1,
+            last_log: String::new(),
+        })
+    }
+
+    /// The running adapter, started again if need be and allowed.
+    fn running(&mut self) -> Result<&mut Running, String> {
+        if self.running.is_none() {
+            if self.restarts >= MAX_RESTARTS {
+                return Err(format!("the adapter failed {} times", MAX_RESTARTS + 1));
+            }
+            self.restarts += 1;
+            match start(&self.command, self.timeouts) {
+                Ok((running, _)) => self.running = Some(running),
+                Err(error) => {
+                    self.restarts = MAX_RESTARTS;
+                    return Err(format!("the adapter could not be started again: {error}"));
+                }
+            }
+        }
+        self.running
+            .as_mut()
+            .ok_or_else(|| "the adapter is not running".to_owned())
+    }
+
+    fn end(&mut self) {
+        if let Some(running) = self.running.take() {
+            self.last_log = running.log();
+        }
+    }
+}
+
+impl Testee for Process {
+    fn hello(&self) -> &Hello {
+        &self.hello
+    }
+
+    fn ask(&mut self, op: &Op) -> Answer {
+        let id = self.next_id;
+        self.next_id += 1;
+        let limit = self.timeouts.request;
+        let running = match self.running() {
+            Ok(running) => running,
+            Err(reason) => return Answer::NotAsked(reason),
+        };
+        match exchange(running, id, op, limit) {
+            Ok(reply) => answer(op, reply),
+            Err(failure) => {
+                self.end();
+                failure
+            }
+        }
+        .unless_faulty(|| self.end())
+    }
+
+    fn log(&self) -> String {
+        self.running
+            .as_ref()
+            .map_or_else(|| self.last_log.clone(), Running::log)
+    }
+}
+
+impl Drop for Process {
+    fn drop(&mut self) {
+        if let Some(running) = &self.running {
+            send(running, self.next_id, &Op::Bye);
+        }
+    }
+}
+
+impl Answer {
+    /// After an answer that is none of the protocol, nothing that follows can be trusted.
+    fn unless_faulty(self, end: impl FnOnce()) -> Self {
+        if matches!(self, Self::Faulty(_)) {
+            end();
+        }
+        self
+    }
+}
+
+fn start(command: &[String], timeouts: Timeouts) -> Result<(Running, Hello), StartError> {
+    let name = command.join(" ");
+    let mut running = Running::start(command).map_err(|error| StartError::Spawn {
+        command: name.clone(),
+        error,
+    })?;
+    match greet(&mut running, timeouts.start) {
+        Ok(hello) => Ok((running, hello)),
+        Err(problem) => {
+            let mut log = String::new();
+            for line in running.log().lines() {
+                // Writing to a string can't fail.
+                let _ = write!(log, "\n  {line}");
+            }
+            Err(StartError::Hello {
+                command: name,
+                problem,
+                log,
+            })
+        }
+    }
+}
+
+/// Says hello; what the adapter did wrong if it did.
+fn greet(running: &mut Running, limit: Duration) -> Result<Hello, String> {
+    let op = Op::Hello {
+        protocol: vec![VERSION],
+    };
+    let reply = exchange(running, 0, &op, limit).map_err(|failure| match failure {
+        Answer::TimedOut(_) => format!("did not say hello within {} s", limit.as_secs_f32()),
+        Answer::Crashed(detail) => format!("ended before it said hello: {detail}"),
+        Answer::Faulty(detail) => format!("answered hello wrongly: {detail}"),
+        _ => "did not say hello".to_owned(),
+    })?;
+    let object = reply.ok.ok_or("did not answer hello with `ok`")?;
+    let hello: Hello = serde_json::from_value(object)
+        .map_err(|error| format!("answered hello wrongly: {error}"))?;
+    if hello.protocol != VERSION {
+        return Err(format!(
+            "speaks version {} of the adapter protocol, not {VERSION}",
+            hello.protocol
+        ));
+    }
+    Ok(hello)
+}
+
+/// Sends a request and waits for its reply.
+fn exchange(running: &mut Running, id: u64, op: &Op, limit: Duration) -> Result<Reply, Answer> {
+    let deadline = Instant::now() + limit;
+    send(running, id, op);
+    let left = deadline.saturating_duration_since(Instant::now());
+    let line = match running.receive(left) {
+        Some(Line::Text(line)) => line,
+        Some(Line::TooLong) => {
+            return Err(Answer::Faulty("a line longer than 16 MiB".to_owned()));
+        }
+        Some(Line::End) => {
+            let end = running.exit_status().map_or_else(
+                || "closed its output".to_owned(),
+                |status| format!("ended with {status}"),
+            );
+            return Err(Answer::Crashed(format!("the adapter {end}")));
+        }
+        None => {
+            let seconds = limit.as_secs_f32();
+            return Err(Answer::TimedOut(format!("no answer within {seconds} s")));
+        }
+    };
+    let reply: Reply = serde_json::from_slice(&line)
+        .map_err(|error| Answer::Faulty(format!("{error}: {}", shown(&line))))?;
+    match reply.id {
+        Some(reply_id) if reply_id == id => Ok(reply),
+        Some(other) => Err(Answer::Faulty(format!(
+            "a reply to request {other}, not {id}"
+        ))),
+        None => Err(Answer::Faulty(format!(
+            "a reply without an id: {}",
+            shown(&line)
+        ))),
+    }
+}
+
+fn send(running: &Running, id: u64, op: &Op) {
+    // Every request can be written as JSON: it has string keys only.
+    running.send(serde_json::to_vec(&Request { id, op }).unwrap_or_default());
+}
+
+fn answer(op: &Op, reply: Reply) -> Answer {
+    match (reply.ok, reply.err, reply.skip) {
+        (Some(ok), None, None) => Output::read(op, ok).map_or_else(
+            |error| Answer::Faulty(format!("a wrong `ok`: {error}")),
+            Answer::Ok,
+        ),
+        (None, Some(rejection), None) => Answer::Rejected(rejection),
+        (None, None, Some(skip)) => Answer::Skipped(skip.reason),
+        _ => Answer::Faulty("a reply has one of `ok`, `err` and `skip`".to_owned()),
+    }
+}
+
+/// The beginning of a line, for a message.
+fn shown(line: &[u8]) -> String {
+    const SHOWN: usize = 60;
+    let text: String = String::from_utf8_lossy(line).chars().take(SHOWN).collect();
+    let dots = if line.len() > SHOWN { "…" } else { "" };
+    format!("`{text}{dots}`")
+}
