@@ -13,11 +13,7 @@ fn main() -> io::Result<()> {
         Err(defects) => {
             for defect in &defects {
                 println!("cargo::error={defect}");
-                defect
-                    .excerpt()
-                    .lines()
-                    .skip(1)
-                    .for_each(|line| println!("cargo::error={line}"));
+                defect.excerpt().lines().skip(1).for_each(|line| println!("cargo::error={line}"));
             }
             return Ok(());
         }

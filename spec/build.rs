@@ -5,14 +5,8 @@ use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
 /// The files and folders of `spec/` that are data. A folder is searched to its bottom.
-const DATA: [&str; 6] = [
-    "documents.yaml",
-    "errata.yaml",
-    "protocols",
-    "devices",
-    "vectors",
-    "requirements",
-];
+const DATA: [&str; 6] =
+    ["documents.yaml", "errata.yaml", "protocols", "devices", "vectors", "requirements"];
 
 fn main() -> io::Result<()> {
     let root = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
@@ -25,11 +19,7 @@ fn main() -> io::Result<()> {
 
     let mut list = String::from("&[\n");
     for file in &files {
-        let name = file
-            .strip_prefix(&root)
-            .unwrap_or(file)
-            .to_string_lossy()
-            .replace('\\', "/");
+        let name = file.strip_prefix(&root).unwrap_or(file).to_string_lossy().replace('\\', "/");
         let file = file.to_string_lossy();
         let _ = writeln!(list, "    ({name:?}, include_str!({file:?})),");
     }
@@ -43,10 +33,7 @@ fn collect(path: &Path, files: &mut Vec<PathBuf>) -> io::Result<()> {
         for entry in fs::read_dir(path)? {
             collect(&entry?.path(), files)?;
         }
-    } else if path
-        .extension()
-        .is_some_and(|extension| extension == "yaml")
-    {
+    } else if path.extension().is_some_and(|extension| extension == "yaml") {
         files.push(path.to_owned());
     }
     Ok(())

@@ -12,11 +12,7 @@ const fn table() -> [u16; 256] {
         let mut crc = index << 8;
         let mut bit = 0;
         while bit < 8 {
-            crc = if crc & 0x8000 == 0 {
-                crc << 1
-            } else {
-                (crc << 1) ^ CRC_POLYNOMIAL
-            };
+            crc = if crc & 0x8000 == 0 { crc << 1 } else { (crc << 1) ^ CRC_POLYNOMIAL };
             bit += 1;
         }
         // Const evaluation would stop the build on a bad index.

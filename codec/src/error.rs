@@ -13,11 +13,7 @@ pub struct BufferTooSmall {
 
 impl fmt::Display for BufferTooSmall {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "the buffer has {} bytes, {} are needed",
-            self.available, self.needed
-        )
+        write!(f, "the buffer has {} bytes, {} are needed", self.available, self.needed)
     }
 }
 
@@ -112,39 +108,23 @@ impl FrameError {
 impl fmt::Display for FrameError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Header {
-                at,
-                found,
-                expected,
-            } => write!(
-                f,
-                "header: byte {at} is {found:02X}, a packet has {expected:02X} there"
-            ),
-            Self::Id { found } => write!(
-                f,
-                "id: byte 4 is {found:02X}, an ID is 00 to FC, or FE for broadcast"
-            ),
+            Self::Header { at, found, expected } => {
+                write!(f, "header: byte {at} is {found:02X}, a packet has {expected:02X} there")
+            }
+            Self::Id { found } => {
+                write!(f, "id: byte 4 is {found:02X}, an ID is 00 to FC, or FE for broadcast")
+            }
             Self::Length { found, expected } => {
-                write!(
-                    f,
-                    "length: bytes 5 and 6 say {found}, {expected} is expected"
-                )
+                write!(f, "length: bytes 5 and 6 say {found}, {expected} is expected")
             }
             Self::Truncated { available, needed } => {
-                write!(
-                    f,
-                    "truncated: {available} bytes are there, {needed} are needed"
-                )
+                write!(f, "truncated: {available} bytes are there, {needed} are needed")
             }
             Self::Trailing { end, available } => write!(
                 f,
                 "trailing: the packet ends at byte {end}, but {available} bytes are there"
             ),
-            Self::Crc {
-                at,
-                found,
-                expected,
-            } => {
+            Self::Crc { at, found, expected } => {
                 let ([found_low, found_high], [low, high]) =
                     (found.to_le_bytes(), expected.to_le_bytes());
                 write!(
@@ -154,19 +134,13 @@ impl fmt::Display for FrameError {
                     at + 1
                 )
             }
-            Self::Stuffing { at } => write!(
-                f,
-                "stuffing: FF FF FD in the body ends before byte {at}, which is not FD"
-            ),
-            Self::Instruction { found } => write!(
-                f,
-                "instruction: byte 7 is {found:02X}, a status packet has 55 there"
-            ),
-            Self::BlockId {
-                at,
-                found,
-                expected,
-            } => write!(
+            Self::Stuffing { at } => {
+                write!(f, "stuffing: FF FF FD in the body ends before byte {at}, which is not FD")
+            }
+            Self::Instruction { found } => {
+                write!(f, "instruction: byte 7 is {found:02X}, a status packet has 55 there")
+            }
+            Self::BlockId { at, found, expected } => write!(
                 f,
                 "id: byte {at} is {found:02X}, the next block is that of device {expected:02X}"
             ),
@@ -201,10 +175,7 @@ impl fmt::Display for EncodeError {
                 write!(f, "{found} is no ID; one is 0 to 252, or 254 for broadcast")
             }
             Self::TooLong { length } => {
-                write!(
-                    f,
-                    "the packet's length would be {length}; at most 65535 is possible"
-                )
+                write!(f, "the packet's length would be {length}; at most 65535 is possible")
             }
         }
     }

@@ -56,46 +56,29 @@ impl<'a> FastStatus<'a> {
             if let [_, found, ..] = block
                 && found != id
             {
-                return Err(FrameError::BlockId {
-                    at: start + 1,
-                    found: *found,
-                    expected: *id,
-                });
+                return Err(FrameError::BlockId { at: start + 1, found: *found, expected: *id });
             }
             let at = start + block_len - 2;
             if let (Some(before), Some([low, high])) = (bytes.get(..at), block.get(block_len - 2..))
             {
                 let (found, expected) = (u16::from_le_bytes([*low, *high]), crc::of(before));
                 if found != expected {
-                    return Err(FrameError::Crc {
-                        at,
-                        found,
-                        expected,
-                    });
+                    return Err(FrameError::Crc { at, found, expected });
                 }
             }
             start += block_len;
         }
-        Ok(Self {
-            blocks,
-            data_len: length.into(),
-        })
+        Ok(Self { blocks, data_len: length.into() })
     }
 
     /// The blocks in the order of the devices asked.
     pub fn blocks(&self) -> impl Iterator<Item = Block<'a>> + use<'a> {
         let data_len = self.data_len;
-        self.blocks
-            .chunks(BLOCK_OVERHEAD + data_len)
-            .filter_map(move |block| {
-                let (head, rest) = block.split_first_chunk::<2>()?;
-                let [error, id] = *head;
-                Some(Block {
-                    error: StatusError(error),
-                    id,
-                    data: rest.get(..data_len)?,
-                })
-            })
+        self.blocks.chunks(BLOCK_OVERHEAD + data_len).filter_map(move |block| {
+            let (head, rest) = block.split_first_chunk::<2>()?;
+            let [error, id] = *head;
+            Some(Block { error: StatusError(error), id, data: rest.get(..data_len)? })
+        })
     }
 }
 

@@ -48,17 +48,9 @@ impl<'a> Frame<'a> {
         let instruction = Instruction::from_code(*code);
         if instruction == Instruction::Status && params.is_empty() {
             let found = parts.body.len() + CRC;
-            return Err(FrameError::Length {
-                found,
-                expected: found + 1,
-            });
+            return Err(FrameError::Length { found, expected: found + 1 });
         }
-        Ok(Self {
-            id: parts.id,
-            instruction,
-            params,
-            params_len: body_len - 1,
-        })
+        Ok(Self { id: parts.id, instruction, params, params_len: body_len - 1 })
     }
 
     /// Whom an instruction packet is for, or who sent a status packet.
@@ -103,10 +95,7 @@ impl<'a> Frame<'a> {
     /// # Errors
     /// If `buffer` is smaller than [`Frame::params_len`].
     pub fn copy_params<'b>(&self, buffer: &'b mut [u8]) -> Result<&'b [u8], BufferTooSmall> {
-        let too_small = BufferTooSmall {
-            needed: self.params_len,
-            available: buffer.len(),
-        };
+        let too_small = BufferTooSmall { needed: self.params_len, available: buffer.len() };
         let target = buffer.get_mut(..self.params_len).ok_or(too_small)?;
         for (slot, byte) in target.iter_mut().zip(self.params()) {
             *slot = byte;
@@ -130,17 +119,11 @@ impl<'a> Parts<'a> {
         let available = bytes.len();
         for (at, (found, expected)) in bytes.iter().zip(HEADER).enumerate() {
             if *found != expected {
-                return Err(FrameError::Header {
-                    at,
-                    found: *found,
-                    expected,
-                });
+                return Err(FrameError::Header { at, found: *found, expected });
             }
         }
         let truncated = |needed| FrameError::Truncated { available, needed };
-        let (prefix, rest) = bytes
-            .split_first_chunk::<PREFIX>()
-            .ok_or(truncated(PREFIX))?;
+        let (prefix, rest) = bytes.split_first_chunk::<PREFIX>().ok_or(truncated(PREFIX))?;
         let [.., id, length_low, length_high] = *prefix;
         check_id(id).map_err(|found| FrameError::Id { found })?;
         let length = u16::from_le_bytes([length_low, length_high]);
@@ -152,33 +135,16 @@ impl<'a> Parts<'a> {
         if available > end {
             return Err(FrameError::Trailing { end, available });
         }
-        let (before_crc, crc) = bytes
-            .split_last_chunk::<CRC>()
-            .filter(|_| available == end)
-            .ok_or(truncated(end))?;
-        let body = rest
-            .get(..usize::from(length) - CRC)
-            .ok_or(truncated(end))?;
-        Ok(Self {
-            id,
-            body,
-            before_crc,
-            crc: u16::from_le_bytes(*crc),
-        })
+        let (before_crc, crc) =
+            bytes.split_last_chunk::<CRC>().filter(|_| available == end).ok_or(truncated(end))?;
+        let body = rest.get(..usize::from(length) - CRC).ok_or(truncated(end))?;
+        Ok(Self { id, body, before_crc, crc: u16::from_le_bytes(*crc) })
     }
 
     pub(crate) fn check_crc(&self) -> Result<(), FrameError> {
         let (found, expected) = (self.crc, crc::of(self.before_crc));
         let at = self.before_crc.len();
-        if found == expected {
-            Ok(())
-        } else {
-            Err(FrameError::Crc {
-                at,
-                found,
-                expected,
-            })
-        }
+        if found == expected { Ok(()) } else { Err(FrameError::Crc { at, found, expected }) }
     }
 }
 
@@ -265,10 +231,7 @@ impl<'b> Writer<'b> {
     }
 
     pub(crate) fn into_written(self) -> Result<&'b [u8], EncodeError> {
-        let too_small = BufferTooSmall {
-            needed: self.written,
-            available: self.buffer.len(),
-        };
+        let too_small = BufferTooSmall { needed: self.written, available: self.buffer.len() };
         Ok(self.buffer.get(..self.written).ok_or(too_small)?)
     }
 }
@@ -279,9 +242,5 @@ pub(crate) fn length_field(length: usize) -> Result<u16, EncodeError> {
 
 /// The ID itself if it is none that a packet may have.
 fn check_id(id: u8) -> Result<(), u8> {
-    if id <= MAX_ID || id == BROADCAST_ID {
-        Ok(())
-    } else {
-        Err(id)
-    }
+    if id <= MAX_ID || id == BROADCAST_ID { Ok(()) } else { Err(id) }
 }

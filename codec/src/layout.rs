@@ -87,20 +87,12 @@ impl LayoutError {
 impl fmt::Display for LayoutError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Short {
-                field,
-                offset,
-                available,
-                needed,
-            } => write!(
+            Self::Short { field, offset, available, needed } => write!(
                 f,
                 "{field} needs {needed} bytes at parameter {offset}, {available} are left"
             ),
             Self::Extra { offset, bytes } => {
-                write!(
-                    f,
-                    "{bytes} bytes follow the last field at parameter {offset}"
-                )
+                write!(f, "{bytes} bytes follow the last field at parameter {offset}")
             }
         }
     }
@@ -121,13 +113,7 @@ impl core::error::Error for LayoutError {}
 /// ```
 #[must_use]
 pub fn fields<'a>(layout: &'static [Field], params: &'a [u8]) -> Fields<'a> {
-    Fields {
-        ahead: layout,
-        group: None,
-        held: [None; HELD],
-        params,
-        offset: 0,
-    }
+    Fields { ahead: layout, group: None, held: [None; HELD], params, offset: 0 }
 }
 
 /// How many numbers a layout's sizes can refer to; the documents' layouts have two at most.
@@ -174,20 +160,10 @@ impl<'a> Iterator for Fields<'a> {
         let Some(bytes) = left.get(..needed) else {
             let (offset, available) = (self.offset, left.len());
             self.stop();
-            return Some(Err(LayoutError::Short {
-                field: field.name,
-                offset,
-                available,
-                needed,
-            }));
+            return Some(Err(LayoutError::Short { field: field.name, offset, available, needed }));
         };
         let group = self.group.map(|(_, begun)| begun.saturating_sub(1));
-        let item = Item {
-            field,
-            group,
-            offset: self.offset,
-            bytes,
-        };
+        let item = Item { field, group, offset: self.offset, bytes };
         self.offset += needed;
         if matches!(field.size, Size::Bytes(_)) {
             self.hold(field.name, bytes);
@@ -207,10 +183,7 @@ impl<'a> Fields<'a> {
             }
             _ if left.is_empty() => None,
             _ => {
-                let error = LayoutError::Extra {
-                    offset: self.offset,
-                    bytes: left.len(),
-                };
+                let error = LayoutError::Extra { offset: self.offset, bytes: left.len() };
                 self.stop();
                 Some(Err(error))
             }
@@ -233,11 +206,7 @@ impl<'a> Fields<'a> {
     }
 
     fn held_by(&self, name: &str) -> usize {
-        self.held
-            .iter()
-            .flatten()
-            .find(|held| held.0 == name)
-            .map_or(0, |held| held.1)
+        self.held.iter().flatten().find(|held| held.0 == name).map_or(0, |held| held.1)
     }
 }
 

@@ -23,10 +23,8 @@ impl Device {
     /// The register that begins at this address.
     #[must_use]
     pub fn register(&self, address: u16) -> Option<&'static Register> {
-        let index = self
-            .registers
-            .binary_search_by_key(&address, |register| register.address)
-            .ok()?;
+        let index =
+            self.registers.binary_search_by_key(&address, |register| register.address).ok()?;
         self.registers.get(index)
     }
 
@@ -98,10 +96,7 @@ impl Register {
     /// The name of a value, if it has one.
     #[must_use]
     pub fn value_name(&self, value: i64) -> Option<&'static str> {
-        self.values
-            .iter()
-            .find(|row| row.value == value)
-            .map(|row| row.name)
+        self.values.iter().find(|row| row.value == value).map(|row| row.name)
     }
 }
 
@@ -223,9 +218,7 @@ impl BitField {
     /// ```
     #[must_use]
     pub fn of(&self, value: i64) -> i64 {
-        let mask = 1_i64
-            .checked_shl(self.width.into())
-            .map_or(-1, |end| end - 1);
+        let mask = 1_i64.checked_shl(self.width.into()).map_or(-1, |end| end - 1);
         value.checked_shr(self.lowest.into()).unwrap_or(0) & mask
     }
 }

@@ -25,10 +25,7 @@ impl Frame<'_> {
     /// The error byte of a status packet; `None` for an instruction packet.
     #[must_use]
     pub fn error(&self) -> Option<StatusError> {
-        let error = self
-            .params()
-            .next()
-            .filter(|_| self.instruction() == Instruction::Status);
+        let error = self.params().next().filter(|_| self.instruction() == Instruction::Status);
         error.map(StatusError)
     }
 }

@@ -51,10 +51,7 @@ impl fmt::Display for UnstuffError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Bare { at } => {
-                write!(
-                    f,
-                    "FF FF FD ends before byte {at} of the body, which is not FD"
-                )
+                write!(f, "FF FF FD ends before byte {at} of the body, which is not FD")
             }
             Self::Buffer(error) => error.fmt(f),
         }
@@ -83,10 +80,7 @@ pub fn stuffed_len(body: &[u8]) -> usize {
 /// # Errors
 /// If `buffer` is smaller than [`stuffed_len`].
 pub fn stuff<'b>(body: &[u8], buffer: &'b mut [u8]) -> Result<&'b [u8], BufferTooSmall> {
-    let too_small = BufferTooSmall {
-        needed: stuffed_len(body),
-        available: buffer.len(),
-    };
+    let too_small = BufferTooSmall { needed: stuffed_len(body), available: buffer.len() };
     let target = buffer.get_mut(..too_small.needed).ok_or(too_small)?;
     let mut matcher = Matcher::default();
     let stuffed = body.iter().flat_map(|byte| {
@@ -140,12 +134,7 @@ pub(crate) struct Unstuffed<'a> {
 
 impl<'a> Unstuffed<'a> {
     pub(crate) fn new(stuffed: &'a [u8]) -> Self {
-        Self {
-            stuffed,
-            next: 0,
-            matcher: Matcher::default(),
-            after_pattern: false,
-        }
+        Self { stuffed, next: 0, matcher: Matcher::default(), after_pattern: false }
     }
 }
 

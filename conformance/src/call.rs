@@ -43,32 +43,19 @@ impl Call {
     /// instruction, or its parameters do not fit the instruction.
     #[must_use]
     pub fn of(packet: &Packet) -> Option<Self> {
-        let Packet::Instruction {
-            instruction,
-            params,
-            ..
-        } = packet
-        else {
+        let Packet::Instruction { instruction, params, .. } = packet else {
             return None;
         };
         let instruction = Instruction::from_code(*instruction);
         let layout = instruction.parameters()?;
         let name = instruction.name().to_lowercase().replace(' ', "_");
-        let mut call = Self {
-            name,
-            ..Self::default()
-        };
+        let mut call = Self { name, ..Self::default() };
         // The meaning of their bytes is a device's own; a call takes them as they are.
-        if matches!(
-            instruction,
-            Instruction::Clear | Instruction::ControlTableBackup
-        ) {
+        if matches!(instruction, Instruction::Clear | Instruction::ControlTableBackup) {
             call.params = Some(params.clone());
             return Some(call);
         }
-        let items: Vec<_> = layout::fields(layout, params)
-            .collect::<Result<_, _>>()
-            .ok()?;
+        let items: Vec<_> = layout::fields(layout, params).collect::<Result<_, _>>().ok()?;
         for item in items.iter().filter(|item| item.group.is_none()) {
             match item.field.name {
                 "address" => call.address = item.number(),
@@ -78,10 +65,7 @@ impl Call {
             }
         }
         let targets = targets(&items);
-        if matches!(
-            instruction,
-            Instruction::SyncRead | Instruction::FastSyncRead
-        ) {
+        if matches!(instruction, Instruction::SyncRead | Instruction::FastSyncRead) {
             call.ids = Some(targets.iter().map(|target| target.id).collect());
         } else if !targets.is_empty() {
             call.devices = Some(targets);
@@ -120,11 +104,7 @@ mod tests {
 
     fn call(instruction: u8, params: &str) -> String {
         let params = HexBytes::parse(params).unwrap();
-        let packet = Packet::Instruction {
-            id: 1,
-            instruction,
-            params,
-        };
+        let packet = Packet::Instruction { id: 1, instruction, params };
         serde_json::to_string(&Call::of(&packet)).unwrap()
     }
 
@@ -141,7 +121,17 @@ mod tests {
             call(0x92, "0190000200 0292000100"),
             call(0x93, "0120000200a000 021f00010050"),
         ];
-        insta::assert_snapshot!(calls.join("\n"), @"");
+        insta::assert_snapshot!(calls.join("\n"), @r#"
+        {"name":"ping"}
+        {"name":"read","address":580,"length":4}
+        {"name":"write","address":564,"data":"d0070000"}
+        {"name":"factory_reset","option":1}
+        {"name":"clear","params":"0144584c22"}
+        {"name":"fast_sync_read","address":580,"length":4,"ids":[1,2]}
+        {"name":"sync_write","address":116,"length":4,"devices":[{"id":1,"data":"96000000"},{"id":2,"data":"aa000000"}]}
+        {"name":"bulk_read","devices":[{"id":1,"address":144,"length":2},{"id":2,"address":146,"length":1}]}
+        {"name":"bulk_write","devices":[{"id":1,"address":32,"data":"a000"},{"id":2,"address":31,"data":"50"}]}
+        "#);
     }
 
     #[test]

@@ -17,6 +17,9 @@ pub struct Check {
     pub level: Level,
     /// Where the packet stands that it asks about.
     pub source: Citation,
+    /// The check that shows whether this one makes sense: one that is skipped there is skipped
+    /// here. A host's library reads no instruction packets, alone or in a stream.
+    pub presumes: Option<String>,
     /// What is asked.
     pub op: Op,
     /// What is demanded.
@@ -105,18 +108,14 @@ impl Check {
             return (Verdict::Fail, format!("broke down: {detail}"), None);
         }
         match &self.demand {
-            Demand::Yield(_) => (
-                Verdict::Fail,
-                format!("rejected ({class}: {detail}), but is valid"),
-                None,
-            ),
+            Demand::Yield(_) => {
+                (Verdict::Fail, format!("rejected ({class}: {detail}), but is valid"), None)
+            }
             Demand::YieldOrReject(_) => (Verdict::Pass, String::new(), None),
             Demand::Reject(fault) if fault == class => (Verdict::Pass, String::new(), None),
-            Demand::Reject(fault) => (
-                Verdict::Warn,
-                format!("rejected as {class}, the fault is {fault}"),
-                None,
-            ),
+            Demand::Reject(fault) => {
+                (Verdict::Warn, format!("rejected as {class}, the fault is {fault}"), None)
+            }
         }
     }
 }

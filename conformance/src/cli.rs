@@ -143,10 +143,7 @@ fn fast(text: &str) -> Result<Fast, String> {
     let parse = || {
         let (length, ids) = text.split_once(':')?;
         let ids = ids.split(',').map(|id| id.trim().parse().ok());
-        Some(Fast {
-            length: length.trim().parse().ok()?,
-            ids: ids.collect::<Option<_>>()?,
-        })
+        Some(Fast { length: length.trim().parse().ok()?, ids: ids.collect::<Option<_>>()? })
     };
     parse()
         .ok_or_else(|| "expected the bytes a device and the devices' IDs, such as 4:1,2".to_owned())

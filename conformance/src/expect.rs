@@ -1,6 +1,8 @@
 //! Audited expected failures: what an implementation is known to get wrong, and why that is.
 
+use std::fmt;
 use std::path::Path;
+use std::rc::Rc;
 
 use globset::GlobMatcher;
 use serde::Deserialize;
@@ -50,8 +52,8 @@ struct ExpectationsFile {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Row {
-    /// A check's id, or a glob over ids.
-    id: String,
+    /// Ids of checks, or globs over ids.
+    ids: Vec<String>,
     /// Why the failure is the implementation's own and known.
     reason: String,
     /// Where that is reported or can be seen.
@@ -61,7 +63,8 @@ struct Row {
 /// The failures that are expected of an implementation.
 #[derive(Debug, Default)]
 pub struct Expectations {
-    rows: Vec<(Row, GlobMatcher)>,
+    /// A glob and the row that it stands in.
+    globs: Vec<(GlobMatcher, Rc<Row>)>,
 }
 
 impl Expectations {
@@ -71,64 +74,52 @@ impl Expectations {
     /// If it can't be read, is malformed, or has a row that is about none of `checks`.
     pub fn read(path: &Path, checks: &[Check]) -> Result<Self, ExpectError> {
         let name = path.display().to_string();
-        let text = std::fs::read_to_string(path).map_err(|error| ExpectError::Read {
-            path: name.clone(),
-            error,
+        let text = std::fs::read_to_string(path)
+            .map_err(|error| ExpectError::Read { path: name.clone(), error })?;
+        let file: ExpectationsFile = serde_yaml::from_str(&text).map_err(|error| {
+            ExpectError::Parse { path: name.clone(), message: error.to_string() }
         })?;
-        let file: ExpectationsFile =
-            serde_yaml::from_str(&text).map_err(|error| ExpectError::Parse {
-                path: name.clone(),
-                message: error.to_string(),
-            })?;
-        let mut rows = Vec::new();
+        let mut globs = Vec::new();
         for (index, row) in file.expected_failures.into_iter().enumerate() {
-            let fault = |message| ExpectError::Row {
-                path: name.clone(),
-                row: index + 1,
-                message,
-            };
-            let matcher = glob(&row.id).map_err(fault)?.compile_matcher();
-            if !checks.iter().any(|check| matcher.is_match(&check.id)) {
-                return Err(fault(format!("`{}` is the id of no check", row.id)));
+            let fault = |message| ExpectError::Row { path: name.clone(), row: index + 1, message };
+            let row = Rc::new(row);
+            for id in &row.ids {
+                let matcher = glob(id).map_err(fault)?.compile_matcher();
+                if !checks.iter().any(|check| matcher.is_match(&check.id)) {
+                    return Err(fault(format!("`{id}` is the id of no check")));
+                }
+                globs.push((matcher, Rc::clone(&row)));
             }
-            rows.push((row, matcher));
         }
-        Ok(Self { rows })
+        Ok(Self { globs })
     }
 
-    /// Turns expected failures into [`Verdict::ExpectedFailure`], and the passes of a row none of
-    /// whose checks failed into [`Verdict::UnexpectedPass`].
+    /// Turns expected failures into [`Verdict::ExpectedFailure`]. Where none of the checks that an
+    /// id or glob stands for failed, their passes become [`Verdict::UnexpectedPass`].
     pub fn apply(&self, outcomes: &mut [Outcome]) {
-        for (row, matcher) in &self.rows {
-            let mut failed = false;
-            for outcome in outcomes
-                .iter_mut()
-                .filter(|outcome| matcher.is_match(&outcome.id))
-            {
+        for (glob, row) in &self.globs {
+            let mut matched: Vec<_> =
+                outcomes.iter_mut().filter(|outcome| glob.is_match(&outcome.id)).collect();
+            let failed = matched.iter().any(|outcome| outcome.verdict.is_failure());
+            for outcome in &mut matched {
                 if outcome.verdict.is_failure() {
-                    failed = true;
                     outcome.verdict = Verdict::ExpectedFailure;
-                    outcome.detail = format!("{}; expected: {}", outcome.detail, row.reason);
-                    if let Some(upstream) = &row.upstream {
-                        outcome.detail = format!("{} ({upstream})", outcome.detail);
-                    }
-                }
-            }
-            if failed {
-                continue;
-            }
-            for outcome in outcomes
-                .iter_mut()
-                .filter(|outcome| matcher.is_match(&outcome.id))
-            {
-                if outcome.verdict == Verdict::Pass {
+                    outcome.detail = format!("{}; expected: {row}", outcome.detail);
+                } else if outcome.verdict == Verdict::Pass && !failed {
                     outcome.verdict = Verdict::UnexpectedPass;
                     outcome.detail = format!(
-                        "passes, though `{}` is an expected failure; take the row out",
-                        row.id
+                        "passes, though `{}` is an expected failure; take it out of the file",
+                        glob.glob()
                     );
                 }
             }
         }
+    }
+}
+
+impl fmt::Display for Row {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.reason)?;
+        self.upstream.as_ref().map_or(Ok(()), |upstream| write!(f, " ({upstream})"))
     }
 }

@@ -1,5 +1,7 @@
 //! Asks an implementation every check, and keeps what was found whatever happens.
 
+use std::collections::BTreeSet;
+
 use actucheck_spec::model::Level;
 
 use crate::check::Check;
@@ -16,12 +18,18 @@ pub fn run(
 ) -> Vec<Outcome> {
     let mut outcomes = Vec::with_capacity(checks.len() + 1);
     outcomes.extend(invented_op(testee));
+    let mut skipped = BTreeSet::new();
     for check in checks {
-        let answer = match not_offered(testee.hello(), check) {
-            Some(reason) => Answer::Skipped(reason),
-            None => testee.ask(&check.op),
+        let presumed = check.presumes.as_ref().filter(|id| skipped.contains(id.as_str()));
+        let answer = match (presumed, not_offered(testee.hello(), check)) {
+            (Some(id), _) => Answer::Skipped(format!("{id} is skipped too")),
+            (None, Some(reason)) => Answer::Skipped(reason),
+            (None, None) => testee.ask(&check.op),
         };
         let outcome = check.judge(answer);
+        if outcome.verdict == Verdict::Skip {
+            skipped.insert(check.id.as_str());
+        }
         done(&outcome);
         outcomes.push(outcome);
     }
@@ -39,11 +47,7 @@ fn invented_op(testee: &mut dyn Testee) -> Option<Outcome> {
         }
     };
     let rule = "an op that the adapter does not know must be answered with `skip`";
-    let detail = if detail.is_empty() {
-        rule.to_owned()
-    } else {
-        format!("{rule}: {detail}")
-    };
+    let detail = if detail.is_empty() { rule.to_owned() } else { format!("{rule}: {detail}") };
     Some(Outcome {
         id: "adapter.unknown-op".to_owned(),
         requirement: "adapter.unknown-op".to_owned(),

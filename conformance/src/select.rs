@@ -34,8 +34,5 @@ pub fn select(checks: Vec<Check>, patterns: &[String]) -> Result<Vec<Check>, Str
         set.add(glob);
     }
     let set: GlobSet = set.build().map_err(|error| error.to_string())?;
-    Ok(checks
-        .into_iter()
-        .filter(|check| set.is_match(&check.id))
-        .collect())
+    Ok(checks.into_iter().filter(|check| set.is_match(&check.id)).collect())
 }

@@ -52,10 +52,7 @@ impl Verdict {
     /// Whether an expected-failures file may excuse it.
     #[must_use]
     pub const fn is_failure(self) -> bool {
-        matches!(
-            self,
-            Self::Fail | Self::Timeout | Self::Crash | Self::AdapterFault
-        )
+        matches!(self, Self::Fail | Self::Timeout | Self::Crash | Self::AdapterFault)
     }
 }
 
@@ -148,12 +145,8 @@ impl Totals {
         let judged = any(&[Verdict::Pass, Verdict::Warn, Verdict::ExpectedFailure]);
         if any(&[Verdict::Fail, Verdict::UnexpectedPass]) {
             1
-        } else if any(&[
-            Verdict::Timeout,
-            Verdict::Crash,
-            Verdict::AdapterFault,
-            Verdict::NotRun,
-        ]) || !judged
+        } else if any(&[Verdict::Timeout, Verdict::Crash, Verdict::AdapterFault, Verdict::NotRun])
+            || !judged
         {
             3
         } else {

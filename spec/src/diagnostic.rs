@@ -28,13 +28,7 @@ impl Diagnostic {
         (line, column): (usize, usize),
         message: String,
     ) -> Self {
-        Self {
-            path: path.to_owned(),
-            line,
-            column,
-            message,
-            text: text.to_owned(),
-        }
+        Self { path: path.to_owned(), line, column, message, text: text.to_owned() }
     }
 
     /// The message with the line that it is about and a caret, over several lines and without
@@ -49,14 +43,16 @@ impl Diagnostic {
         Renderer::plain().render(&report)
     }
 
-    /// The bytes from the column to the end of its line.
+    /// The bytes of the node at the column: to the end of its line, or of its row's field.
     fn span(&self) -> std::ops::Range<usize> {
         let mut start = 0;
         for (number, line) in self.text.split_inclusive('\n').enumerate() {
             if number + 1 == self.line {
-                let line = line.trim_end();
-                let skip: usize = line.chars().take(self.column - 1).map(char::len_utf8).sum();
-                return start + skip..start + line.len().max(skip);
+                let before: usize = line.chars().take(self.column - 1).map(char::len_utf8).sum();
+                let node = line.get(before..).unwrap_or_default().trim_end();
+                let nested = node.starts_with(['[', '{']);
+                let end = node.find([',', '}', ']']).filter(|_| !nested).unwrap_or(node.len());
+                return start + before..start + before + end;
             }
             start += line.len();
         }
@@ -66,11 +62,7 @@ impl Diagnostic {
 
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "{}:{}:{}: {}",
-            self.path, self.line, self.column, self.message
-        )
+        write!(f, "{}:{}:{}: {}", self.path, self.line, self.column, self.message)
     }
 }
 

@@ -17,15 +17,7 @@ const CRC: usize = 2;
 pub(super) fn checks(spec: &Spec, wire: Wire) -> Vec<Check> {
     spec.vectors()
         .filter(|(file, _)| file.wire == wire.id())
-        .flat_map(|(file, vector)| {
-            Golden {
-                spec,
-                wire,
-                file,
-                vector,
-            }
-            .checks()
-        })
+        .flat_map(|(file, vector)| Golden { spec, wire, file, vector }.checks())
         .collect()
 }
 
@@ -49,11 +41,8 @@ impl Golden<'_> {
                 checks.push(self.decode(own, packet, frame));
                 checks.extend(self.streams(packet, frame));
             }
-            None => checks.extend(
-                self.vector
-                    .fault
-                    .map(|fault| self.rejects("decode", own, frame, fault)),
-            ),
+            None => checks
+                .extend(self.vector.fault.map(|fault| self.rejects("decode", own, frame, fault))),
         }
         if let (Some(printed), Some(fault)) = (self.vector.defective(), self.vector.printed_fault) {
             checks.push(self.rejects("decode-printed", "ja40.defects", printed, fault));
@@ -66,11 +55,9 @@ impl Golden<'_> {
             id: format!("{}/{name}", self.vector.id),
             requirement: requirement.to_owned(),
             // The rule on references keeps out vectors that name no requirement.
-            level: self
-                .spec
-                .requirement(requirement)
-                .map_or(Level::Must, |row| row.level),
+            level: self.spec.requirement(requirement).map_or(Level::Must, |row| row.level),
             source: self.source().clone(),
+            presumes: None,
             op,
             demand,
         }
@@ -90,14 +77,8 @@ impl Golden<'_> {
 
     fn crc(&self, frame: &[u8]) -> Check {
         let (bytes, crc) = frame.split_at(frame.len().saturating_sub(CRC));
-        let value = crc
-            .iter()
-            .rev()
-            .fold(0, |value, byte| value << 8 | u64::from(*byte));
-        let op = Op::Crc {
-            wire: self.wire,
-            bytes: bytes.to_vec().into(),
-        };
+        let value = crc.iter().rev().fold(0, |value, byte| value << 8 | u64::from(*byte));
+        let op = Op::Crc { wire: self.wire, bytes: bytes.to_vec().into() };
         let demand = Demand::Yield(Output::Crc(value));
         self.check("crc", "dynamixel2.crc.value", op, demand)
     }
@@ -105,11 +86,9 @@ impl Golden<'_> {
     /// The body alone, both ways. A fast status has no stuffing.
     fn stuffing(&self, packet: &Packet, frame: &[u8]) -> Vec<Check> {
         let plain: HexBytes = match packet {
-            Packet::Instruction {
-                instruction,
-                params,
-                ..
-            } => [&[*instruction], params.0.as_slice()].concat().into(),
+            Packet::Instruction { instruction, params, .. } => {
+                [&[*instruction], params.0.as_slice()].concat().into()
+            }
             Packet::Status { error, params, .. } => {
                 [&[0x55, *error], params.0.as_slice()].concat().into()
             }
@@ -125,55 +104,36 @@ impl Golden<'_> {
             self.check(
                 "stuff",
                 "dynamixel2.stuffing.transmit",
-                Op::Stuff {
-                    wire,
-                    bytes: plain.clone(),
-                },
+                Op::Stuff { wire, bytes: plain.clone() },
                 Demand::Yield(Output::Bytes(stuffed.clone())),
             ),
             self.check(
                 "unstuff",
                 "dynamixel2.stuffing.receive",
-                Op::Unstuff {
-                    wire,
-                    bytes: stuffed,
-                },
+                Op::Unstuff { wire, bytes: stuffed },
                 Demand::Yield(Output::Bytes(plain)),
             ),
         ]
     }
 
     fn encode(&self, requirement: &str, packet: &Packet, frame: &[u8]) -> Check {
-        let packet = Called {
-            call: Call::of(packet),
-            packet: packet.clone(),
-        };
-        let op = Op::Encode {
-            wire: self.wire,
-            packet,
-        };
+        let packet = Called { call: Call::of(packet), packet: packet.clone() };
+        let op = Op::Encode { wire: self.wire, packet };
         let demand = self.demand(Output::Bytes(frame.to_vec().into()));
         self.check("encode", requirement, op, demand)
     }
 
     fn decode(&self, requirement: &str, packet: &Packet, frame: &[u8]) -> Check {
-        let op = Op::Decode {
-            wire: self.wire,
-            bytes: frame.to_vec().into(),
-            fast: asked_for(packet),
-        };
-        self.check(
-            "decode",
-            requirement,
-            op,
-            self.demand(Output::Packet(packet.clone())),
-        )
+        let op =
+            Op::Decode { wire: self.wire, bytes: frame.to_vec().into(), fast: asked_for(packet) };
+        self.check("decode", requirement, op, self.demand(Output::Packet(packet.clone())))
     }
 
     /// The frame as a stream, whole and byte by byte. What a fast status answers can't be told
-    /// from the stream.
+    /// from the stream; a packet that may be rejected may be missing from it.
     fn streams(&self, packet: &Packet, frame: &[u8]) -> Vec<Check> {
-        if matches!(packet, Packet::FastStatus { .. }) {
+        let open = self.vector.result == Outcome::Acceptable;
+        if open || matches!(packet, Packet::FastStatus { .. }) {
             return Vec::new();
         }
         let whole = vec![frame.to_vec().into()];
@@ -181,27 +141,17 @@ impl Golden<'_> {
         [("stream", whole), ("stream-bytewise", bytewise)]
             .into_iter()
             .map(|(name, chunks)| {
-                let op = Op::Stream {
-                    wire: self.wire,
-                    chunks,
-                };
-                let demand = match self.vector.result {
-                    Outcome::Acceptable => return None,
-                    _ => Demand::Yield(Output::Packets(vec![packet.clone()])),
-                };
-                Some(self.check(name, "dynamixel2.receive.stream", op, demand))
+                let op = Op::Stream { wire: self.wire, chunks };
+                let demand = Demand::Yield(Output::Packets(vec![packet.clone()]));
+                let check = self.check(name, "dynamixel2.receive.stream", op, demand);
+                Check { presumes: Some(format!("{}/decode", self.vector.id)), ..check }
             })
-            .flatten()
             .collect()
     }
 
     fn rejects(&self, name: &str, requirement: &str, bytes: &[u8], fault: Fault) -> Check {
         let packet_asked = self.vector.packet.as_ref().and_then(asked_for);
-        let op = Op::Decode {
-            wire: self.wire,
-            bytes: bytes.to_vec().into(),
-            fast: packet_asked,
-        };
+        let op = Op::Decode { wire: self.wire, bytes: bytes.to_vec().into(), fast: packet_asked };
         self.check(name, requirement, op, Demand::Reject(fault))
     }
 }
@@ -213,8 +163,5 @@ fn asked_for(packet: &Packet) -> Option<Fast> {
     };
     let length = blocks.first().map_or(0, |block| block.data.len());
     let ids = blocks.iter().map(|block| block.id).collect();
-    Some(Fast {
-        length: u16::try_from(length).unwrap_or(u16::MAX),
-        ids,
-    })
+    Some(Fast { length: u16::try_from(length).unwrap_or(u16::MAX), ids })
 }

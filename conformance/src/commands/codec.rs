@@ -57,10 +57,7 @@ fn testee(options: &Codec) -> Result<Box<dyn Testee>, Failure> {
     if options.command.is_empty() {
         return Ok(Box::new(Builtin::default()));
     }
-    let timeouts = Timeouts {
-        start: options.start_timeout,
-        request: options.timeout,
-    };
+    let timeouts = Timeouts { start: options.start_timeout, request: options.timeout };
     let process = Process::start(&options.command, timeouts)
         .map_err(|error| Failure::new(Failure::NOT_STARTED, error))?;
     Ok(Box::new(process))
@@ -87,10 +84,7 @@ fn open_reports(options: &Codec) -> Result<Vec<(String, Box<dyn Write>)>, Failur
 
 /// Standard output, unless a report for programs goes there.
 fn write_text(run: &Run<'_>, options: &Codec) -> Result<(), Failure> {
-    let taken = options
-        .report
-        .iter()
-        .any(|report| report.path == Path::new("-"));
+    let taken = options.report.iter().any(|report| report.path == Path::new("-"));
     let written = if taken {
         report::text::write(run, &mut anstream::stderr())
     } else {

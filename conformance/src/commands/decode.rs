@@ -26,11 +26,7 @@ pub(crate) fn run(options: &Decode) -> Result<ExitCode, Failure> {
         None => explain(&bytes, device, options.address),
     }
     .map_err(|error| invalid(&error))?;
-    let text = if options.json {
-        json(options, bytes)?
-    } else {
-        table(&explanation)
-    };
+    let text = if options.json { json(options, bytes)? } else { table(&explanation) };
     // A reader that has seen enough is no failure.
     let _ = write!(anstream::stdout(), "{text}");
     Ok(ExitCode::SUCCESS)
@@ -41,29 +37,20 @@ fn bytes(arguments: &[String]) -> Result<Vec<u8>, Failure> {
     if text == "-" {
         text.clear();
         io::stdin().read_to_string(&mut text).map_err(|error| {
-            Failure::new(
-                Failure::USAGE,
-                format!("cannot read standard input: {error}"),
-            )
+            Failure::new(Failure::USAGE, format!("cannot read standard input: {error}"))
         })?;
     }
-    let plain = text
-        .replace("0x", " ")
-        .replace("0X", " ")
-        .replace([',', ':', ';'], " ");
+    let plain = text.replace("0x", " ").replace("0X", " ").replace([',', ':', ';'], " ");
     let bytes = HexBytes::parse(&plain).map_err(|error| Failure::new(Failure::USAGE, error))?;
     Ok(bytes.0)
 }
 
 fn device(name: &str) -> Result<&'static Device, Failure> {
-    DEVICES
-        .into_iter()
-        .find(|device| device.id == name)
-        .ok_or_else(|| {
-            let ids: Vec<_> = DEVICES.iter().map(|device| device.id).collect();
-            let message = format!("unknown device `{name}`; known are {}", ids.join(", "));
-            Failure::new(Failure::USAGE, message)
-        })
+    DEVICES.into_iter().find(|device| device.id == name).ok_or_else(|| {
+        let ids: Vec<_> = DEVICES.iter().map(|device| device.id).collect();
+        let message = format!("unknown device `{name}`; known are {}", ids.join(", "));
+        Failure::new(Failure::USAGE, message)
+    })
 }
 
 fn invalid(error: &FrameError) -> Failure {
@@ -75,20 +62,13 @@ fn invalid(error: &FrameError) -> Failure {
 
 /// The packet as the adapter protocol has it.
 fn json(options: &Decode, bytes: Vec<u8>) -> Result<String, Failure> {
-    let op = Op::Decode {
-        wire: options.wire,
-        bytes: bytes.into(),
-        fast: options.fast.clone(),
-    };
+    let op = Op::Decode { wire: options.wire, bytes: bytes.into(), fast: options.fast.clone() };
     match Builtin::default().ask(&op) {
         Answer::Ok(Output::Packet(packet)) => serde_json::to_string(&packet)
             .map(|text| text + "\n")
             .map_err(|error| Failure::new(Failure::INCOMPLETE, error)),
         Answer::Rejected(rejection) => Err(Failure::new(Failure::FAILED, rejection.detail)),
-        other => Err(Failure::new(
-            Failure::INCOMPLETE,
-            format!("no packet: {other:?}"),
-        )),
+        other => Err(Failure::new(Failure::INCOMPLETE, format!("no packet: {other:?}"))),
     }
 }
 

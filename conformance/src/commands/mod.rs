@@ -28,10 +28,7 @@ impl Failure {
 
     /// A failure with its exit status and one sentence that tells the user what to do.
     pub(crate) fn new(status: u8, message: impl fmt::Display) -> Self {
-        Self {
-            status,
-            message: message.to_string(),
-        }
+        Self { status, message: message.to_string() }
     }
 }
 

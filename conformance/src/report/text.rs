@@ -50,12 +50,7 @@ pub fn write(run: &Run<'_>, out: &mut impl Write) -> io::Result<()> {
 
 /// A line a requirement: how its checks came out.
 fn requirements(run: &Run<'_>, out: &mut impl Write) -> io::Result<()> {
-    let width = run
-        .outcomes
-        .iter()
-        .map(|outcome| outcome.requirement.len())
-        .max()
-        .unwrap_or(0);
+    let width = run.outcomes.iter().map(|outcome| outcome.requirement.len()).max().unwrap_or(0);
     for (requirement, outcomes) in by_requirement(run.outcomes) {
         let totals = Totals::of(outcomes);
         let counts = counts(&totals);
@@ -66,10 +61,7 @@ fn requirements(run: &Run<'_>, out: &mut impl Write) -> io::Result<()> {
 
 /// All outcomes with this verdict, grouped by requirement.
 fn outcomes(run: &Run<'_>, verdict: Verdict, out: &mut impl Write) -> io::Result<()> {
-    let with_verdict = run
-        .outcomes
-        .iter()
-        .filter(|outcome| outcome.verdict == verdict);
+    let with_verdict = run.outcomes.iter().filter(|outcome| outcome.verdict == verdict);
     let style = style(verdict);
     for (requirement, outcomes) in by_requirement(with_verdict) {
         let word = verdict.to_string().to_uppercase().replace('-', " ");
@@ -77,12 +69,7 @@ fn outcomes(run: &Run<'_>, verdict: Verdict, out: &mut impl Write) -> io::Result
         writeln!(out, "{style}{word}{style:#} {BOLD}{requirement}{BOLD:#}")?;
         if let Some(row) = run.spec.requirement(requirement) {
             writeln!(out, "  {:9} {}", row.level, row.text)?;
-            writeln!(
-                out,
-                "  {:9} {DIM}{}{DIM:#}",
-                "says who",
-                run.spec.place(&row.source)
-            )?;
+            writeln!(out, "  {:9} {DIM}{}{DIM:#}", "says who", run.spec.place(&row.source))?;
         }
         for outcome in outcomes.iter().take(SHOWN) {
             self::outcome(outcome, out)?;
@@ -136,12 +123,7 @@ fn shown(output: &Output) -> String {
 
 /// What the adapter logged, where something went wrong with the adapter itself.
 fn log(run: &Run<'_>, totals: &Totals, out: &mut impl Write) -> io::Result<()> {
-    let broke = [
-        Verdict::Timeout,
-        Verdict::Crash,
-        Verdict::AdapterFault,
-        Verdict::NotRun,
-    ];
+    let broke = [Verdict::Timeout, Verdict::Crash, Verdict::AdapterFault, Verdict::NotRun];
     if run.log.is_empty() || broke.iter().all(|verdict| totals.count(*verdict) == 0) {
         return Ok(());
     }
@@ -190,10 +172,7 @@ fn by_requirement<'a>(
 ) -> BTreeMap<&'a str, Vec<&'a Outcome>> {
     let mut groups: BTreeMap<&str, Vec<&Outcome>> = BTreeMap::new();
     for outcome in outcomes {
-        groups
-            .entry(&outcome.requirement)
-            .or_default()
-            .push(outcome);
+        groups.entry(&outcome.requirement).or_default().push(outcome);
     }
     groups
 }

@@ -31,17 +31,10 @@ impl Default for Builtin {
                 url: None,
             },
             wires: vec![Wire::Dynamixel2.id().to_owned()],
-            ops: ["crc", "stuff", "unstuff", "encode", "decode"]
-                .map(str::to_owned)
-                .to_vec(),
-            limits: Limits {
-                max_packet: Some(MAX_FRAME),
-            },
+            ops: ["crc", "stuff", "unstuff", "encode", "decode"].map(str::to_owned).to_vec(),
+            limits: Limits { max_packet: Some(MAX_FRAME) },
         };
-        Self {
-            hello,
-            buffer: vec![0; MAX_FRAME],
-        }
+        Self { hello, buffer: vec![0; MAX_FRAME] }
     }
 }
 
@@ -56,14 +49,8 @@ impl Testee for Builtin {
             Op::Stuff { bytes, .. } => self.stuff(bytes),
             Op::Unstuff { bytes, .. } => self.unstuff(bytes),
             Op::Encode { packet, .. } => self.encode(&packet.packet),
-            Op::Decode {
-                bytes, fast: None, ..
-            } => self.decode(bytes),
-            Op::Decode {
-                bytes,
-                fast: Some(fast),
-                ..
-            } => decode_fast(bytes, fast),
+            Op::Decode { bytes, fast: None, .. } => self.decode(bytes),
+            Op::Decode { bytes, fast: Some(fast), .. } => decode_fast(bytes, fast),
             Op::Hello { .. } | Op::Stream { .. } | Op::Invented | Op::Bye => {
                 return Answer::Skipped(format!("the codec has no {}", op.name()));
             }
@@ -81,32 +68,26 @@ impl Builtin {
     fn stuff(&mut self, body: &[u8]) -> Result {
         self.room(stuffing::stuffed_len(body));
         let bytes = stuffing::stuff(body, &mut self.buffer);
-        bytes
-            .map(output)
-            .map_err(|error| rejection(Fault::Oversize, &error))
+        bytes.map(output).map_err(|error| rejection(Fault::Oversize, &error))
     }
 
     fn unstuff(&mut self, stuffed: &[u8]) -> Result {
         self.room(stuffed.len());
-        stuffing::unstuff(stuffed, &mut self.buffer)
-            .map(output)
-            .map_err(|error| {
-                let class = match error {
-                    UnstuffError::Bare { .. } => Fault::Stuffing,
-                    UnstuffError::Buffer(_) => Fault::Oversize,
-                };
-                rejection(class, &error)
-            })
+        stuffing::unstuff(stuffed, &mut self.buffer).map(output).map_err(|error| {
+            let class = match error {
+                UnstuffError::Bare { .. } => Fault::Stuffing,
+                UnstuffError::Buffer(_) => Fault::Oversize,
+            };
+            rejection(class, &error)
+        })
     }
 
     fn encode(&mut self, packet: &Packet) -> Result {
         let buffer = &mut self.buffer;
         let bytes = match packet {
-            Packet::Instruction {
-                id,
-                instruction,
-                params,
-            } => frame::encode(*id, Instruction::from_code(*instruction), &[params], buffer),
+            Packet::Instruction { id, instruction, params } => {
+                frame::encode(*id, Instruction::from_code(*instruction), &[params], buffer)
+            }
             Packet::Status { id, error, params } => {
                 status::encode(*id, StatusError(*error), params, buffer)
             }
@@ -129,11 +110,7 @@ impl Builtin {
         let params = frame.params().collect::<Vec<_>>();
         let (id, instruction) = (frame.id(), frame.instruction().code());
         Ok(Output::Packet(match frame.error() {
-            None => Packet::Instruction {
-                id,
-                instruction,
-                params: params.into(),
-            },
+            None => Packet::Instruction { id, instruction, params: params.into() },
             Some(StatusError(error)) => {
                 let params = params.into_iter().skip(1).collect::<Vec<_>>().into();
                 Packet::Status { id, error, params }
@@ -155,17 +132,11 @@ fn decode_fast(bytes: &[u8], fast: &Fast) -> Result {
         id: block.id,
         data: block.data.to_vec().into(),
     });
-    Ok(Output::Packet(Packet::FastStatus {
-        blocks: blocks.collect(),
-    }))
+    Ok(Output::Packet(Packet::FastStatus { blocks: blocks.collect() }))
 }
 
 fn block(block: &model::Block) -> Block<'_> {
-    Block {
-        error: StatusError(block.error),
-        id: block.id,
-        data: &block.data,
-    }
+    Block { error: StatusError(block.error), id: block.id, data: &block.data }
 }
 
 fn output(bytes: &[u8]) -> Output {
@@ -177,10 +148,7 @@ fn frame_rejection(error: FrameError) -> Rejection {
 }
 
 fn rejection(class: Fault, error: &impl ToString) -> Rejection {
-    Rejection {
-        class,
-        detail: error.to_string(),
-    }
+    Rejection { class, detail: error.to_string() }
 }
 
 /// The error class of the adapter protocol that a codec's error belongs to.

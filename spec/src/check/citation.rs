@@ -59,25 +59,14 @@ fn wrong(spec: &Spec, sources: &[Citation]) -> impl Iterator<Item = String> {
     let missing = sources
         .is_empty()
         .then(|| "no citation; name the document and section as `DOCUMENT §SECTION`".to_owned());
-    missing
-        .into_iter()
-        .chain(sources.iter().filter_map(|source| unknown(spec, source)))
+    missing.into_iter().chain(sources.iter().filter_map(|source| unknown(spec, source)))
 }
 
 fn unknown(spec: &Spec, source: &Citation) -> Option<String> {
     let known = spec.document(&source.document).is_some();
     (!known).then(|| {
-        let ids: Vec<_> = spec
-            .documents
-            .content
-            .documents
-            .iter()
-            .map(|row| row.id.as_str())
-            .collect();
-        format!(
-            "unknown document `{}`; documents.yaml has {}",
-            source.document,
-            ids.join(", ")
-        )
+        let ids: Vec<_> =
+            spec.documents.content.documents.iter().map(|row| row.id.as_str()).collect();
+        format!("unknown document `{}`; documents.yaml has {}", source.document, ids.join(", "))
     })
 }

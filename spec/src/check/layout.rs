@@ -7,11 +7,8 @@ pub(super) fn check(spec: &Spec) -> Vec<Diagnostic> {
     let mut defects = Vec::new();
     for file in &spec.protocols {
         for (index, instruction) in file.content.instructions.iter().enumerate() {
-            let parameters: Vec<_> = instruction
-                .parameters
-                .iter()
-                .map(|f| f.name.as_str())
-                .collect();
+            let parameters: Vec<_> =
+                instruction.parameters.iter().map(|f| f.name.as_str()).collect();
             let layouts = [
                 ("parameters", Some(&instruction.parameters), Vec::new()),
                 ("status", instruction.status.as_ref(), Vec::new()),
@@ -43,10 +40,8 @@ fn fields<'a>(list: &'a [Field], node: &str, mut known: Vec<&'a str>) -> Vec<(St
                 faults.push((here, message));
             }
             (Some(Size::Bytes(size)), _) if !(1..=8).contains(size) => {
-                faults.push((
-                    here,
-                    format!("{} has {size} bytes; 1 to 8 are possible", field.name),
-                ));
+                faults
+                    .push((here, format!("{} has {size} bytes; 1 to 8 are possible", field.name)));
             }
             (Some(Size::Named(name)), _) if name == "rest" && !ends => {
                 let message = format!("{} takes the rest, so it must be the last", field.name);

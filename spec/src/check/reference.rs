@@ -44,11 +44,7 @@ fn devices(spec: &Spec, defects: &mut Vec<Diagnostic>) {
             continue;
         };
         for (index, name) in device.instructions.iter().enumerate() {
-            if !protocol
-                .instructions
-                .iter()
-                .any(|instruction| instruction.name == *name)
-            {
+            if !protocol.instructions.iter().any(|instruction| instruction.name == *name) {
                 let message = format!("{} has no instruction `{name}`", protocol.title);
                 defects.push(file.diagnostic(&format!("instructions[{index}]"), message));
             }

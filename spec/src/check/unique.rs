@@ -9,51 +9,28 @@ use crate::{Diagnostic, Spec};
 pub(super) fn check(spec: &Spec) -> Vec<Diagnostic> {
     let mut defects = Vec::new();
     let documents = &spec.documents.content.documents;
-    defects.extend(repeated(
-        [(&spec.documents, documents.as_slice())],
-        "documents",
-        "id",
-        |row| &row.id,
-    ));
+    defects.extend(repeated([(&spec.documents, documents.as_slice())], "documents", "id", |row| {
+        &row.id
+    }));
     for file in &spec.protocols {
         let rows = file.content.instructions.as_slice();
-        defects.extend(repeated([(file, rows)], "instructions", "name", |row| {
-            &row.name
-        }));
-        defects.extend(repeated([(file, rows)], "instructions", "code", |row| {
-            row.code
-        }));
+        defects.extend(repeated([(file, rows)], "instructions", "name", |row| &row.name));
+        defects.extend(repeated([(file, rows)], "instructions", "code", |row| row.code));
         let errors = file.content.status.errors.as_slice();
-        defects.extend(repeated(
-            [(file, errors)],
-            "status.errors",
-            "number",
-            |row| row.number,
-        ));
+        defects.extend(repeated([(file, errors)], "status.errors", "number", |row| row.number));
     }
     for file in &spec.devices {
         let rows = file.content.registers.as_slice();
-        defects.extend(repeated([(file, rows)], "registers", "name", |row| {
-            &row.name
-        }));
-        defects.extend(repeated([(file, rows)], "registers", "address", |row| {
-            row.address
-        }));
+        defects.extend(repeated([(file, rows)], "registers", "name", |row| &row.name));
+        defects.extend(repeated([(file, rows)], "registers", "address", |row| row.address));
     }
-    let vectors = spec
-        .vectors
-        .iter()
-        .map(|file| (file, file.content.vectors.as_slice()));
+    let vectors = spec.vectors.iter().map(|file| (file, file.content.vectors.as_slice()));
     defects.extend(repeated(vectors, "vectors", "id", |row| &row.id));
-    let requirements = spec
-        .requirements
-        .iter()
-        .map(|file| (file, file.content.requirements.as_slice()));
+    let requirements =
+        spec.requirements.iter().map(|file| (file, file.content.requirements.as_slice()));
     defects.extend(repeated(requirements, "requirements", "id", |row| &row.id));
     let errata = spec.errata.content.errata.as_slice();
-    defects.extend(repeated([(&spec.errata, errata)], "errata", "id", |row| {
-        &row.id
-    }));
+    defects.extend(repeated([(&spec.errata, errata)], "errata", "id", |row| &row.id));
     defects
 }
 

@@ -8,11 +8,7 @@ pub(super) fn check(spec: &Spec) -> Vec<Diagnostic> {
     let mut defects = Vec::new();
     for file in &spec.devices {
         for (index, register) in file.content.registers.iter().enumerate() {
-            let row = Row {
-                file,
-                register,
-                node: format!("registers[{index}]"),
-            };
+            let row = Row { file, register, node: format!("registers[{index}]") };
             row.initial(&mut defects);
             row.range(&mut defects);
             row.values(&mut defects);
@@ -57,10 +53,7 @@ impl Row<'_> {
         if let (Some(Bound::Value(min)), Some(Bound::Value(max))) = (&range.min, &range.max)
             && min > max
         {
-            defects.push(self.at(
-                "range",
-                &format!("the range begins at {min} and ends at {max}"),
-            ));
+            defects.push(self.at("range", &format!("the range begins at {min} and ends at {max}")));
         }
         let bounds = [("range.min", &range.min), ("range.max", &range.max)];
         for (node, bound) in bounds {
@@ -72,8 +65,7 @@ impl Row<'_> {
         }
         for value in range.one_of.iter().flatten() {
             defects.extend(
-                self.misfit("value", *value)
-                    .map(|message| self.at("range.one_of", &message)),
+                self.misfit("value", *value).map(|message| self.at("range.one_of", &message)),
             );
         }
     }
@@ -81,10 +73,7 @@ impl Row<'_> {
     fn values(&self, defects: &mut Vec<Diagnostic>) {
         for (index, row) in self.register.values.iter().enumerate() {
             let node = format!("values[{index}].value");
-            defects.extend(
-                self.misfit("value", row.value)
-                    .map(|message| self.at(&node, &message)),
-            );
+            defects.extend(self.misfit("value", row.value).map(|message| self.at(&node, &message)));
         }
     }
 
@@ -117,21 +106,13 @@ impl Row<'_> {
     fn misfit(&self, what: &str, value: i64) -> Option<String> {
         let kind = self.register.kind;
         let (min, max) = kind.limits();
-        (!kind.holds(value)).then(|| {
-            format!(
-                "{what} {value} does not fit {} bytes, {min} to {max}",
-                kind.size()
-            )
-        })
+        (!kind.holds(value))
+            .then(|| format!("{what} {value} does not fit {} bytes, {min} to {max}", kind.size()))
     }
 
     fn at(&self, node: &str, message: &str) -> Diagnostic {
-        let message = format!(
-            "{}({}): {message}",
-            self.register.name, self.register.address
-        );
-        self.file
-            .diagnostic(&format!("{}.{node}", self.node), message)
+        let message = format!("{}({}): {message}", self.register.name, self.register.address);
+        self.file.diagnostic(&format!("{}.{node}", self.node), message)
     }
 }
 
@@ -139,9 +120,6 @@ impl Row<'_> {
 fn outside(range: &Range, value: i64) -> bool {
     let below = matches!(range.min, Some(Bound::Value(min)) if value < min);
     let above = matches!(range.max, Some(Bound::Value(max)) if value > max);
-    let missing = range
-        .one_of
-        .as_ref()
-        .is_some_and(|values| !values.contains(&value));
+    let missing = range.one_of.as_ref().is_some_and(|values| !values.contains(&value));
     below || above || missing
 }

@@ -52,11 +52,7 @@ fn contents(protocol: &Protocol, vector: &Vector) -> Option<String> {
     let built = frame(protocol, vector.packet.as_ref()?);
     let given = vector.frame();
     (built != given).then(|| {
-        let at = built
-            .iter()
-            .zip(given)
-            .take_while(|(built, given)| built == given)
-            .count();
+        let at = built.iter().zip(given).take_while(|(built, given)| built == given).count();
         format!(
             "the fields yield {}, the bytes are {}; they part at byte {at}",
             HexBytes(built),
@@ -69,11 +65,7 @@ fn frame(protocol: &Protocol, packet: &Packet) -> Vec<u8> {
     let status = protocol.status.instruction;
     let broadcast = protocol.framing.id.broadcast;
     match packet {
-        Packet::Instruction {
-            id,
-            instruction,
-            params,
-        } => {
+        Packet::Instruction { id, instruction, params } => {
             let body = [&[*instruction], params.0.as_slice()].concat();
             let body = stuffed(protocol, &body);
             let mut frame = header(protocol, *id, body.len() + 2);
@@ -127,10 +119,7 @@ fn stuffed(protocol: &Protocol, body: &[u8]) -> Vec<u8> {
     let mut out = Vec::new();
     for (index, byte) in body.iter().enumerate() {
         out.push(*byte);
-        if body
-            .get(..=index)
-            .is_some_and(|head| head.ends_with(&protocol.stuffing.pattern))
-        {
+        if body.get(..=index).is_some_and(|head| head.ends_with(&protocol.stuffing.pattern)) {
             out.push(protocol.stuffing.insert);
         }
     }

@@ -11,11 +11,7 @@ use crate::model::{Access, Area, BitField, Bound, Device, Range, Register, Type}
 
 pub(super) fn module(device: &Device) -> TokenStream {
     let name = module_name(&device.device);
-    let doc = format!(
-        " The {} control table: {}.",
-        device.title,
-        places(&device.source)
-    );
+    let doc = format!(" The {} control table: {}.", device.title, places(&device.source));
     let (id, title) = (&device.device, &device.title);
     let model_number = option(device.model_number.map(|number| quote!(#number)));
     let instructions = device.instructions.iter().map(|name| type_name(name));
@@ -23,11 +19,8 @@ pub(super) fn module(device: &Device) -> TokenStream {
         let address = device.register(name)?.address;
         Some(quote!(#address))
     }));
-    let names: Vec<_> = device
-        .registers
-        .iter()
-        .map(|register| constant_name(&register.name))
-        .collect();
+    let names: Vec<_> =
+        device.registers.iter().map(|register| constant_name(&register.name)).collect();
     let registers = device.registers.iter().zip(&names).map(|(row, name)| {
         let (doc, value) = (register_doc(row), register(device, row));
         quote! {
@@ -72,17 +65,10 @@ fn register_doc(register: &Register) -> Vec<String> {
         size => format!("{size} bytes"),
     };
     let mut facts = Vec::new();
-    facts.extend(
-        register
-            .initial
-            .map(|initial| format!("initially {initial}")),
-    );
+    facts.extend(register.initial.map(|initial| format!("initially {initial}")));
     facts.extend(register.range.as_ref().map(range_words));
     facts.extend(
-        register
-            .unit
-            .as_ref()
-            .map(|unit| format!("one count is {} {}", unit.factor, unit.symbol)),
+        register.unit.as_ref().map(|unit| format!("one count is {} {}", unit.factor, unit.symbol)),
     );
     let mut lines = vec![format!(
         " {}: address {}, {size}, {area}, {access}.",
@@ -130,10 +116,8 @@ fn register(device: &Device, register: &Register) -> TokenStream {
         Access::Rw => quote!(ReadWrite),
     };
     let initial = option(register.initial.map(number));
-    let range = register
-        .range
-        .as_ref()
-        .map_or_else(|| quote!(Range::Any), |row| range(device, row));
+    let range =
+        register.range.as_ref().map_or_else(|| quote!(Range::Any), |row| range(device, row));
     let unit = option(register.unit.as_ref().map(|unit| {
         let (factor, symbol) = (Literal::f64_unsuffixed(unit.factor), &unit.symbol);
         quote!(Unit { factor: #factor, symbol: #symbol })
@@ -161,10 +145,7 @@ fn range(device: &Device, range: &Range) -> TokenStream {
         let values = values.iter().map(|value| number(*value));
         return quote!(Range::OneOf(&[#(#values),*]));
     }
-    let (min, max) = (
-        bound(device, range.min.as_ref()),
-        bound(device, range.max.as_ref()),
-    );
+    let (min, max) = (bound(device, range.min.as_ref()), bound(device, range.max.as_ref()));
     quote!(Range::Between { min: #min, max: #max })
 }
 

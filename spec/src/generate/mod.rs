@@ -44,10 +44,7 @@ pub fn codec(spec: &Spec) -> Result<Vec<Module>, GenerateError> {
     for file in &spec.protocols {
         modules.push(protocol(&file.content)?);
     }
-    let devices = spec
-        .devices
-        .iter()
-        .map(|file| device::module(&file.content));
+    let devices = spec.devices.iter().map(|file| device::module(&file.content));
     modules.push(format("devices", &quote!(#(#devices)*))?);
     Ok(modules)
 }
@@ -69,18 +66,11 @@ pub fn device(device: &Device) -> Result<Module, GenerateError> {
 }
 
 fn format(name: &str, tokens: &TokenStream) -> Result<Module, GenerateError> {
-    let file = syn::parse2(tokens.clone()).map_err(|error| GenerateError {
-        module: name.to_owned(),
-        reason: error.to_string(),
-    })?;
-    let source = format!(
-        "// Generated from the YAML in spec/.\n\n{}",
-        prettyplease::unparse(&file)
-    );
-    Ok(Module {
-        name: name.to_owned(),
-        source,
-    })
+    let file = syn::parse2(tokens.clone())
+        .map_err(|error| GenerateError { module: name.to_owned(), reason: error.to_string() })?;
+    let source =
+        format!("// Generated from the YAML in spec/.\n\n{}", prettyplease::unparse(&file));
+    Ok(Module { name: name.to_owned(), source })
 }
 
 /// The sections of a list of citations: `ja40 §2.3, ja40 §2.4.22`.

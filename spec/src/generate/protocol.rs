@@ -43,14 +43,9 @@ fn constants(protocol: &Protocol) -> TokenStream {
     let (polynomial, initial, check) =
         (hex16(crc.polynomial), hex16(crc.initial), hex16(crc.check));
     let crc_source = format!(" {}.", places(&crc.source));
-    let crc_doc = format!(
-        " The polynomial of {}, highest power in the highest bit.",
-        crc.name
-    );
+    let crc_doc = format!(" The polynomial of {}, highest power in the highest bit.", crc.name);
 
-    let alert = 1_u8
-        .checked_shl(protocol.status.alert_bit.into())
-        .unwrap_or(0);
+    let alert = 1_u8.checked_shl(protocol.status.alert_bit.into()).unwrap_or(0);
     let alert = hex8(alert);
     let status_source = format!(" {}.", places(&protocol.status.source));
     quote! {
@@ -91,9 +86,7 @@ fn wire_enum(name: &Ident, doc: &str, rows: &[(u8, &str, String)]) -> TokenStrea
     let variants: Vec<_> = rows.iter().map(|(_, name, _)| type_name(name)).collect();
     let codes: Vec<_> = rows.iter().map(|(code, ..)| hex8(*code)).collect();
     let names = rows.iter().map(|(_, name, _)| *name);
-    let docs = rows
-        .iter()
-        .map(|(code, _, doc)| format!(" `{code:#04X}`: {doc}"));
+    let docs = rows.iter().map(|(code, _, doc)| format!(" `{code:#04X}`: {doc}"));
     quote! {
         #[doc = #doc]
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -146,18 +139,11 @@ fn instructions(protocol: &Protocol) -> TokenStream {
             (row.code, row.name.as_str(), doc)
         })
         .collect();
-    let status = format!(
-        "What a device answers.\n\n {}.",
-        places(&protocol.status.source)
-    );
+    let status = format!("What a device answers.\n\n {}.", places(&protocol.status.source));
     rows.push((protocol.status.instruction, "Status", status));
     rows.sort_by_key(|(code, ..)| *code);
     let name = type_name("Instruction");
-    let declaration = wire_enum(
-        &name,
-        " What a packet asks for, or that it is an answer.",
-        &rows,
-    );
+    let declaration = wire_enum(&name, " What a packet asks for, or that it is an answer.", &rows);
 
     let arms = |pick: fn(&Instruction) -> Option<&Vec<Field>>| {
         let arms = protocol.instructions.iter().filter_map(|row| {

@@ -35,11 +35,7 @@ pub(super) fn hex16(value: u16) -> impl ToTokens {
 /// A number that may be negative.
 pub(super) fn number(value: i64) -> TokenStream {
     let digits = Literal::u64_unsuffixed(value.unsigned_abs());
-    if value < 0 {
-        quote!(-#digits)
-    } else {
-        quote!(#digits)
-    }
+    if value < 0 { quote!(-#digits) } else { quote!(#digits) }
 }
 
 /// An option of tokens.
@@ -71,12 +67,7 @@ fn words(name: &str) -> Vec<&str> {
 /// The same text with a capital letter at its front.
 pub(super) fn capitalised(word: &str) -> String {
     let mut letters = word.chars();
-    letters
-        .next()
-        .into_iter()
-        .flat_map(char::to_uppercase)
-        .chain(letters)
-        .collect()
+    letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect()
 }
 
 /// An identifier; a name that is none becomes one that says so and does not compile.
@@ -92,10 +83,7 @@ mod tests {
     fn names_take_the_form_that_rust_expects() {
         assert_eq!(type_name("Fast Sync Read").to_string(), "FastSyncRead");
         assert_eq!(type_name("CRC Error").to_string(), "CRCError");
-        assert_eq!(
-            constant_name("Feedforward 2nd Gain").to_string(),
-            "FEEDFORWARD_2ND_GAIN"
-        );
+        assert_eq!(constant_name("Feedforward 2nd Gain").to_string(), "FEEDFORWARD_2ND_GAIN");
         assert_eq!(constant_name("In-Position").to_string(), "IN_POSITION");
         assert_eq!(module_name("ja-variant").to_string(), "ja_variant");
     }

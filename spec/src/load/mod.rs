@@ -26,10 +26,7 @@ impl Source {
     /// `requirements`.
     #[must_use]
     pub fn new(path: &str, text: &str) -> Self {
-        Self {
-            path: format!("spec/{path}"),
-            text: text.to_owned(),
-        }
+        Self { path: format!("spec/{path}"), text: text.to_owned() }
     }
 }
 
@@ -39,10 +36,7 @@ static EMBEDDED: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/sources.r
 /// The files that this crate was built with.
 #[must_use]
 pub fn embedded() -> Vec<Source> {
-    EMBEDDED
-        .iter()
-        .map(|(path, text)| Source::new(path, text))
-        .collect()
+    EMBEDDED.iter().map(|(path, text)| Source::new(path, text)).collect()
 }
 
 /// What one YAML file says, with the text that it was read from.
@@ -56,15 +50,10 @@ pub struct File<T> {
 impl<T: DeserializeOwned> File<T> {
     fn read(source: &Source) -> Result<Self, Diagnostic> {
         let content = serde_yaml::from_str(&source.text).map_err(|error| {
-            let place = error
-                .location()
-                .map_or((1, 1), |at| (at.line(), at.column()));
+            let place = error.location().map_or((1, 1), |at| (at.line(), at.column()));
             Diagnostic::new(&source.path, &source.text, place, plain_message(&error))
         })?;
-        Ok(Self {
-            source: source.clone(),
-            content,
-        })
+        Ok(Self { source: source.clone(), content })
     }
 }
 
@@ -126,18 +115,11 @@ impl Spec {
     pub fn read(sources: &[Source]) -> Result<Self, Vec<Diagnostic>> {
         let spec = Self::parse(sources)?;
         let defects = check::all(&spec);
-        if defects.is_empty() {
-            Ok(spec)
-        } else {
-            Err(defects)
-        }
+        if defects.is_empty() { Ok(spec) } else { Err(defects) }
     }
 
     fn parse(sources: &[Source]) -> Result<Self, Vec<Diagnostic>> {
-        let mut reader = Reader {
-            sources,
-            defects: Vec::new(),
-        };
+        let mut reader = Reader { sources, defects: Vec::new() };
         let documents = reader.one("documents.yaml");
         let protocols = reader.folder("protocols/");
         let devices = reader.folder("devices/");
@@ -145,14 +127,9 @@ impl Spec {
         let requirements = reader.folder("requirements/");
         let errata = reader.one("errata.yaml");
         match (documents, errata) {
-            (Some(documents), Some(errata)) if reader.defects.is_empty() => Ok(Self {
-                documents,
-                protocols,
-                devices,
-                vectors,
-                requirements,
-                errata,
-            }),
+            (Some(documents), Some(errata)) if reader.defects.is_empty() => {
+                Ok(Self { documents, protocols, devices, vectors, requirements, errata })
+            }
             _ => Err(reader.defects),
         }
     }
@@ -160,29 +137,19 @@ impl Spec {
     /// The document with this id.
     #[must_use]
     pub fn document(&self, id: &str) -> Option<&Document> {
-        self.documents
-            .content
-            .documents
-            .iter()
-            .find(|document| document.id == id)
+        self.documents.content.documents.iter().find(|document| document.id == id)
     }
 
     /// The protocol with this id.
     #[must_use]
     pub fn protocol(&self, id: &str) -> Option<&Protocol> {
-        self.protocols
-            .iter()
-            .map(|file| &file.content)
-            .find(|protocol| protocol.protocol == id)
+        self.protocols.iter().map(|file| &file.content).find(|protocol| protocol.protocol == id)
     }
 
     /// The device with this id.
     #[must_use]
     pub fn device(&self, id: &str) -> Option<&Device> {
-        self.devices
-            .iter()
-            .map(|file| &file.content)
-            .find(|device| device.device == id)
+        self.devices.iter().map(|file| &file.content).find(|device| device.device == id)
     }
 
     /// The requirement with this id.
@@ -197,21 +164,14 @@ impl Spec {
     /// The erratum with this id.
     #[must_use]
     pub fn erratum(&self, id: &str) -> Option<&Erratum> {
-        self.errata
-            .content
-            .errata
-            .iter()
-            .find(|erratum| erratum.id == id)
+        self.errata.content.errata.iter().find(|erratum| erratum.id == id)
     }
 
     /// Every vector with the file it stands in, in the order of files and of rows.
     pub fn vectors(&self) -> impl Iterator<Item = (&VectorsFile, &Vector)> {
-        self.vectors.iter().flat_map(|file| {
-            file.content
-                .vectors
-                .iter()
-                .map(move |vector| (&file.content, vector))
-        })
+        self.vectors
+            .iter()
+            .flat_map(|file| file.content.vectors.iter().map(move |vector| (&file.content, vector)))
     }
 
     /// A citation in words: the document's title and the section.
@@ -219,9 +179,7 @@ impl Spec {
     pub fn place(&self, citation: &Citation) -> String {
         let title = self
             .document(&citation.document)
-            .map_or(citation.document.as_str(), |document| {
-                document.title.as_str()
-            });
+            .map_or(citation.document.as_str(), |document| document.title.as_str());
         format!("{title}, {}", citation.section)
     }
 }
@@ -237,12 +195,7 @@ impl Reader<'_> {
         let files = self.folder(name);
         if files.is_empty() && self.defects.is_empty() {
             let message = format!("the file {name} is missing from the spec folder");
-            self.defects.push(Diagnostic::new(
-                &format!("spec/{name}"),
-                "",
-                (1, 1),
-                message,
-            ));
+            self.defects.push(Diagnostic::new(&format!("spec/{name}"), "", (1, 1), message));
         }
         files.into_iter().next()
     }
@@ -250,11 +203,7 @@ impl Reader<'_> {
     fn folder<T: DeserializeOwned>(&mut self, prefix: &str) -> Vec<File<T>> {
         let prefix = format!("spec/{prefix}");
         let mut files = Vec::new();
-        for source in self
-            .sources
-            .iter()
-            .filter(|source| source.path.starts_with(&prefix))
-        {
+        for source in self.sources.iter().filter(|source| source.path.starts_with(&prefix)) {
             match File::read(source) {
                 Ok(file) => files.push(file),
                 Err(defect) => self.defects.push(defect),
@@ -278,14 +227,9 @@ mod tests {
 
     #[test]
     fn a_missing_file_is_a_defect() {
-        let without: Vec<_> = embedded()
-            .into_iter()
-            .filter(|file| file.path != "spec/errata.yaml")
-            .collect();
+        let without: Vec<_> =
+            embedded().into_iter().filter(|file| file.path != "spec/errata.yaml").collect();
         let defects = Spec::read(&without).unwrap_err();
-        assert_eq!(
-            defects[0].message,
-            "the file errata.yaml is missing from the spec folder"
-        );
+        assert_eq!(defects[0].message, "the file errata.yaml is missing from the spec folder");
     }
 }

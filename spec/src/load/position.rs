@@ -6,11 +6,7 @@ use saphyr_parser::{Event, Parser, Span};
 /// Line and column, both from 1, of the node that `path` names (`registers[3].range.min`), or of
 /// the nearest node around it.
 pub(super) fn find(text: &str, path: &str) -> (usize, usize) {
-    let mut walk = Walk {
-        parser: Parser::new_from_str(text),
-        wanted: path,
-        best: (0, (1, 1)),
-    };
+    let mut walk = Walk { parser: Parser::new_from_str(text), wanted: path, best: (0, (1, 1)) };
     walk.document();
     walk.best.1
 }
@@ -93,10 +89,7 @@ mod tests {
 
     #[test]
     fn a_missing_node_falls_back_to_the_one_around_it() {
-        assert_eq!(
-            find(TEXT, "registers[1].range.min"),
-            find(TEXT, "registers[1]")
-        );
+        assert_eq!(find(TEXT, "registers[1].range.min"), find(TEXT, "registers[1]"));
         assert_eq!(find(TEXT, "registers[10]"), find(TEXT, "registers"));
     }
 }

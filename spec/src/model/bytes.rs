@@ -54,11 +54,7 @@ impl HexBytes {
                 Some(high) => bytes.push(high << 4 | digit),
             }
         }
-        if high.is_some() {
-            Err(HexError::OddDigits)
-        } else {
-            Ok(Self(bytes))
-        }
+        if high.is_some() { Err(HexError::OddDigits) } else { Ok(Self(bytes)) }
     }
 }
 

@@ -17,14 +17,9 @@ impl TryFrom<String> for Citation {
     fn try_from(text: String) -> Result<Self, String> {
         match text.split_once(" §") {
             Some((document, section)) if !document.is_empty() && !section.trim().is_empty() => {
-                Ok(Self {
-                    document: document.to_owned(),
-                    section: section.trim().to_owned(),
-                })
+                Ok(Self { document: document.to_owned(), section: section.trim().to_owned() })
             }
-            _ => Err(format!(
-                "`{text}` is no citation; one is written `DOCUMENT §SECTION`"
-            )),
+            _ => Err(format!("`{text}` is no citation; one is written `DOCUMENT §SECTION`")),
         }
     }
 }

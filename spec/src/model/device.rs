@@ -153,10 +153,7 @@ pub struct Range {
 
 /// An end of a range.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
-#[serde(
-    untagged,
-    expecting = "a bound is a number or a register's name, `-` before it to negate"
-)]
+#[serde(untagged, expecting = "a bound is a number or a register's name, `-` before it to negate")]
 pub enum Bound {
     /// A number.
     Value(i64),
@@ -206,9 +203,7 @@ impl BitField {
     /// The bits that it takes.
     #[must_use]
     pub fn mask(&self) -> u64 {
-        let ones = 1_u64
-            .checked_shl(self.width.into())
-            .map_or(u64::MAX, |end| end - 1);
+        let ones = 1_u64.checked_shl(self.width.into()).map_or(u64::MAX, |end| end - 1);
         ones.checked_shl(self.lowest.into()).unwrap_or(0)
     }
 }

@@ -44,7 +44,7 @@ pub enum Status {
 
 impl fmt::Display for Status {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
+        f.pad(match self {
             Self::Resolved => "resolved",
             Self::Chosen => "chosen",
             Self::Open => "open",

@@ -110,11 +110,7 @@ impl Crc {
     pub fn compute(&self, bytes: &[u8]) -> u16 {
         let mut crc = self.initial;
         for byte in bytes {
-            let byte = if self.reflected {
-                byte.reverse_bits()
-            } else {
-                *byte
-            };
+            let byte = if self.reflected { byte.reverse_bits() } else { *byte };
             for bit in (0..8).rev() {
                 let feedback = (crc >> 15) ^ u16::from(byte >> bit & 1);
                 crc <<= 1;
@@ -123,11 +119,7 @@ impl Crc {
                 }
             }
         }
-        (if self.reflected {
-            crc.reverse_bits()
-        } else {
-            crc
-        }) ^ self.final_xor
+        (if self.reflected { crc.reverse_bits() } else { crc }) ^ self.final_xor
     }
 }
 
@@ -259,10 +251,6 @@ mod tests {
             errata: Vec::new(),
         };
         assert_eq!(crc(0, false).compute(b"123456789"), 0xFEE8, "CRC-16/UMTS");
-        assert_eq!(
-            crc(0xFFFF, true).compute(b"123456789"),
-            0x4B37,
-            "CRC-16/MODBUS"
-        );
+        assert_eq!(crc(0xFFFF, true).compute(b"123456789"), 0x4B37, "CRC-16/MODBUS");
     }
 }

@@ -51,10 +51,7 @@ impl Vector {
     /// which [`crate::check`] does not let pass.
     #[must_use]
     pub fn frame(&self) -> &[u8] {
-        self.bytes
-            .as_ref()
-            .or(self.printed.as_ref())
-            .map_or(&[], |bytes| bytes)
+        self.bytes.as_ref().or(self.printed.as_ref()).map_or(&[], |bytes| bytes)
     }
 
     /// The printed bytes where they are not the right ones.
@@ -109,7 +106,7 @@ pub enum Fault {
 
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
+        f.pad(match self {
             Self::Header => "header",
             Self::Id => "id",
             Self::Length => "length",

@@ -44,10 +44,7 @@ impl Running {
             .ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "the command is empty"))?;
         let mut command = Command::new(program);
         command.args(arguments);
-        command
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped());
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut command, 0);
         let mut child = command.spawn()?;
@@ -65,12 +62,7 @@ impl Running {
             let log = Arc::clone(&log);
             thread::spawn(move || keep_log(stderr, &log));
         }
-        Ok(Self {
-            child,
-            requests,
-            lines,
-            log,
-        })
+        Ok(Self { child, requests, lines, log })
     }
 
     /// Sends one line. An adapter that does not read it is found out by its silence.
@@ -137,10 +129,7 @@ fn read_lines(stdout: ChildStdout, lines: &SyncSender<Line>) {
     let mut stdout = BufReader::new(stdout);
     loop {
         let mut line = Vec::new();
-        let read = stdout
-            .by_ref()
-            .take(MAX_LINE + 1)
-            .read_until(b'\n', &mut line);
+        let read = stdout.by_ref().take(MAX_LINE + 1).read_until(b'\n', &mut line);
         let complete = line.last() == Some(&b'\n');
         let line = match read {
             Ok(_) if complete => {

@@ -27,10 +27,7 @@ pub struct Timeouts {
 
 impl Default for Timeouts {
     fn default() -> Self {
-        Self {
-            start: Duration::from_secs(10),
-            request: Duration::from_secs(1),
-        }
+        Self { start: Duration::from_secs(10), request: Duration::from_secs(1) }
     }
 }
 
@@ -103,9 +100,7 @@ impl Process {
                 }
             }
         }
-        self.running
-            .as_mut()
-            .ok_or_else(|| "the adapter is not running".to_owned())
+        self.running.as_mut().ok_or_else(|| "the adapter is not running".to_owned())
     }
 
     fn end(&mut self) {
@@ -139,9 +134,7 @@ impl Testee for Process {
     }
 
     fn log(&self) -> String {
-        self.running
-            .as_ref()
-            .map_or_else(|| self.last_log.clone(), Running::log)
+        self.running.as_ref().map_or_else(|| self.last_log.clone(), Running::log)
     }
 }
 
@@ -165,10 +158,8 @@ impl Answer {
 
 fn start(command: &[String], timeouts: Timeouts) -> Result<(Running, Hello), StartError> {
     let name = command.join(" ");
-    let mut running = Running::start(command).map_err(|error| StartError::Spawn {
-        command: name.clone(),
-        error,
-    })?;
+    let mut running = Running::start(command)
+        .map_err(|error| StartError::Spawn { command: name.clone(), error })?;
     match greet(&mut running, timeouts.start) {
         Ok(hello) => Ok((running, hello)),
         Err(problem) => {
@@ -177,22 +168,19 @@ fn start(command: &[String], timeouts: Timeouts) -> Result<(Running, Hello), Sta
                 // Writing to a string can't fail.
                 let _ = write!(log, "\n  {line}");
             }
-            Err(StartError::Hello {
-                command: name,
-                problem,
-                log,
-            })
+            Err(StartError::Hello { command: name, problem, log })
         }
     }
 }
 
 /// Says hello; what the adapter did wrong if it did.
 fn greet(running: &mut Running, limit: Duration) -> Result<Hello, String> {
-    let op = Op::Hello {
-        protocol: vec![VERSION],
-    };
+    let op = Op::Hello { protocol: vec![VERSION] };
     let reply = exchange(running, 0, &op, limit).map_err(|failure| match failure {
-        Answer::TimedOut(_) => format!("did not say hello within {} s", limit.as_secs_f32()),
+        Answer::TimedOut(_) => format!(
+            "did not say hello within {} s; --start-timeout gives it more time",
+            limit.as_secs_f32()
+        ),
         Answer::Crashed(detail) => format!("ended before it said hello: {detail}"),
         Answer::Faulty(detail) => format!("answered hello wrongly: {detail}"),
         _ => "did not say hello".to_owned(),
@@ -235,13 +223,8 @@ fn exchange(running: &mut Running, id: u64, op: &Op, limit: Duration) -> Result<
         .map_err(|error| Answer::Faulty(format!("{error}: {}", shown(&line))))?;
     match reply.id {
         Some(reply_id) if reply_id == id => Ok(reply),
-        Some(other) => Err(Answer::Faulty(format!(
-            "a reply to request {other}, not {id}"
-        ))),
-        None => Err(Answer::Faulty(format!(
-            "a reply without an id: {}",
-            shown(&line)
-        ))),
+        Some(other) => Err(Answer::Faulty(format!("a reply to request {other}, not {id}"))),
+        None => Err(Answer::Faulty(format!("a reply without an id: {}", shown(&line)))),
     }
 }
 
@@ -252,10 +235,8 @@ fn send(running: &Running, id: u64, op: &Op) {
 
 fn answer(op: &Op, reply: Reply) -> Answer {
     match (reply.ok, reply.err, reply.skip) {
-        (Some(ok), None, None) => Output::read(op, ok).map_or_else(
-            |error| Answer::Faulty(format!("a wrong `ok`: {error}")),
-            Answer::Ok,
-        ),
+        (Some(ok), None, None) => Output::read(op, ok)
+            .map_or_else(|error| Answer::Faulty(format!("a wrong `ok`: {error}")), Answer::Ok),
         (None, Some(rejection), None) => Answer::Rejected(rejection),
         (None, None, Some(skip)) => Answer::Skipped(skip.reason),
         _ => Answer::Faulty("a reply has one of `ok`, `err` and `skip`".to_owned()),

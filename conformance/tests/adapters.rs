@@ -1,0 +1,194 @@
+//! Adapters that misbehave: the run ends in bounded time with a report and the right exit status.
+#![cfg(unix)]
+
+use std::process::{Command, Output};
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+/// Answers `hello`, then runs `$1` for every request, in which `$id` is the request's id.
+const WELL_BEHAVED: &str = r#"
+while read -r line; do
+    id=$(printf '%s' "$line" | sed 's/^{"id":\([0-9]*\),.*/\1/')
+    case $line in
+        *'"op":"hello"'*)
+            printf '{"id":%s,"ok":{"protocol":1,"implementation":{"name":"fake","version":"1","language":"sh"},"wires":["dynamixel2"],"ops":["crc","decode"]}}\n' "$id" ;;
+        *'"op":"no-such-op"'*) printf '{"id":%s,"skip":{"reason":"unknown"}}\n' "$id" ;;
+        *'"op":"bye"'*) exit ;;
+        *) ANSWER ;;
+    esac
+done
+"#;
+
+struct Run {
+    output: Output,
+    report: Value,
+    took: Duration,
+}
+
+impl Run {
+    fn exit(&self) -> i32 {
+        self.output.status.code().unwrap()
+    }
+
+    fn stderr(&self) -> String {
+        String::from_utf8_lossy(&self.output.stderr).into_owned()
+    }
+
+    fn total(&self, verdict: &str) -> u64 {
+        self.report["totals"][verdict].as_u64().unwrap()
+    }
+
+    fn detail(&self, verdict: &str) -> String {
+        let results = self.report["results"].as_array().unwrap();
+        let result = results.iter().find(|result| result["verdict"] == verdict).unwrap();
+        result["detail"].as_str().unwrap().to_owned()
+    }
+}
+
+/// Runs the crc checks against a shell script.
+fn check(script: &str) -> Run {
+    let folder = tempfile::tempdir().unwrap();
+    let report = folder.path().join("report.json");
+    let started = Instant::now();
+    let output = Command::new(env!("CARGO_BIN_EXE_actucheck"))
+        .args(["codec", "--select", "ja40.*/crc", "--timeout", "0.3", "--start-timeout", "5"])
+        .arg("--report")
+        .arg(format!("json={}", report.display()))
+        .args(["--", "sh", "-c", script])
+        .output()
+        .unwrap();
+    let took = started.elapsed();
+    let report = std::fs::read_to_string(report).unwrap_or_default();
+    Run { output, report: serde_json::from_str(&report).unwrap_or(Value::Null), took }
+}
+
+fn answering(answer: &str) -> Run {
+    check(&WELL_BEHAVED.replace("ANSWER", answer))
+}
+
+#[test]
+fn one_that_skips_all_leaves_the_run_incomplete() {
+    let run = answering(r#"printf '{"id":%s,"skip":{"reason":"no"}}\n' "$id""#);
+    assert_eq!(run.exit(), 3);
+    assert!(run.total("skip") > 10);
+}
+
+#[test]
+fn a_wrong_answer_fails_with_both_values() {
+    let run = answering(r#"printf '{"id":%s,"ok":{"crc":1}}\n' "$id""#);
+    assert_eq!(run.exit(), 1);
+    let text = String::from_utf8_lossy(&run.output.stdout).into_owned();
+    assert!(text.contains("expected  0x5121\n  got       0x0001"), "{text}");
+}
+
+#[test]
+fn one_that_hangs_times_out_and_is_given_up() {
+    let run = answering("sleep 60");
+    assert_eq!(run.exit(), 3);
+    assert_eq!(run.total("timeout"), 11, "the first try and ten restarts");
+    assert!(run.total("not-run") > 0);
+    assert!(run.took < Duration::from_secs(20), "{:?}", run.took);
+}
+
+#[test]
+fn one_that_dies_is_a_crash_with_its_status_and_log() {
+    let run = answering("echo 'out of luck' >&2; exit 7");
+    assert_eq!(run.exit(), 3);
+    assert_eq!(run.detail("crash"), "the adapter ended with exit status: 7");
+    let text = String::from_utf8_lossy(&run.output.stdout).into_owned();
+    assert!(text.contains("out of luck"), "{text}");
+}
+
+#[test]
+fn nothing_found_before_a_crash_is_lost() {
+    let answer =
+        r#"case $line in *2102*) exit 1 ;; *) printf '{"id":%s,"ok":{"crc":1}}\n' "$id" ;; esac"#;
+    let run = answering(answer);
+    assert_eq!(run.exit(), 1);
+    assert!(run.total("fail") > 10, "{}", run.report["totals"]);
+}
+
+#[test]
+fn garbage_is_an_adapter_fault() {
+    let run = answering("echo hello there");
+    assert_eq!(run.exit(), 3);
+    assert!(run.detail("adapter-fault").contains("`hello there`"));
+}
+
+#[test]
+fn a_reply_to_another_request_is_an_adapter_fault() {
+    let run = answering(r#"printf '{"id":999999,"ok":{"crc":1}}\n'"#);
+    assert_eq!(run.exit(), 3);
+    assert!(run.detail("adapter-fault").starts_with("a reply to request 999999, not "));
+}
+
+#[test]
+fn a_reply_with_ok_and_err_is_an_adapter_fault() {
+    let answer = r#"printf '{"id":%s,"ok":{"crc":1},"err":{"class":"crc"}}\n' "$id""#;
+    assert_eq!(answering(answer).total("pass"), 0);
+    assert_eq!(answering(answer).exit(), 3);
+}
+
+#[test]
+fn a_flood_without_a_line_end_is_an_adapter_fault() {
+    let run = answering("yes | tr -d '\\n'");
+    assert_eq!(run.exit(), 3);
+    let flooded = run.total("adapter-fault") + run.total("timeout");
+    assert_eq!(flooded, 11, "{}", run.report["totals"]);
+}
+
+#[test]
+fn answering_an_op_that_does_not_exist_is_an_adapter_fault() {
+    let script = WELL_BEHAVED
+        .replace(r#"'{"id":%s,"skip":{"reason":"unknown"}}\n'"#, r#"'{"id":%s,"ok":{}}\n'"#)
+        .replace("ANSWER", r#"printf '{"id":%s,"skip":{}}\n' "$id""#);
+    let run = check(&script);
+    assert_eq!(run.exit(), 3);
+    assert!(run.detail("adapter-fault").contains("must be answered with `skip`"));
+}
+
+#[test]
+fn one_that_never_says_hello_is_not_started() {
+    let started = Instant::now();
+    let output = Command::new(env!("CARGO_BIN_EXE_actucheck"))
+        .args(["codec", "--start-timeout", "0.2", "--", "sleep", "60"])
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(4));
+    let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(stderr.contains("did not say hello within 0.2 s"), "{stderr}");
+    assert!(started.elapsed() < Duration::from_secs(5));
+}
+
+#[test]
+fn one_that_ends_or_babbles_at_the_start_is_not_started() {
+    let run = check("echo 'no module named x' >&2; exit 1");
+    assert_eq!(run.exit(), 4);
+    assert!(run.stderr().contains("ended before it said hello"), "{}", run.stderr());
+    assert!(run.stderr().contains("no module named x"), "{}", run.stderr());
+    let run = check("echo hi; sleep 60");
+    assert_eq!(run.exit(), 4);
+    assert!(run.stderr().contains("answered hello wrongly"), "{}", run.stderr());
+}
+
+#[test]
+fn its_children_end_with_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let pid_file = folder.path().join("pid");
+    let answer = format!("sleep 600 & echo $! > {}; sleep 600", pid_file.display());
+    let run = answering(&answer);
+    assert_eq!(run.exit(), 3);
+    let pid = std::fs::read_to_string(pid_file).unwrap();
+    // A killed process that nobody waits for stays as a zombie, which is as good as gone.
+    let ended = || {
+        let state = Command::new("ps").args(["-o", "stat=", "-p", pid.trim()]).output().unwrap();
+        let state = String::from_utf8_lossy(&state.stdout).into_owned();
+        state.trim().is_empty() || state.starts_with('Z')
+    };
+    let patience = Instant::now() + Duration::from_secs(5);
+    while !ended() {
+        assert!(Instant::now() < patience, "process {pid} is still there");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+}

@@ -1,0 +1,167 @@
+//! The program as a user meets it: what it prints and how it exits.
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+fn actucheck(arguments: &[&str]) -> (i32, String, String) {
+    let output = Command::cargo_bin("actucheck").unwrap().args(arguments).output().unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+}
+
+const WRITE: &str = "FF FF FD 00 01 09 00 03 34 02 D0 07 00 00 1E C9";
+
+#[test]
+fn the_main_job_passes_on_the_builtin_codec() {
+    let (status, stdout, stderr) = actucheck(&["codec"]);
+    assert_eq!((status, stderr.as_str()), (0, ""));
+    assert!(stdout.starts_with("actucheck-codec "), "{stdout}");
+    assert!(stdout.contains("\npassed  "), "{stdout}");
+}
+
+#[test]
+fn the_json_report_counts_every_verdict_and_lists_every_check() {
+    let (status, stdout, _) = actucheck(&["codec", "--report", "json=-"]);
+    let report: Value = serde_json::from_str(&stdout).unwrap();
+    assert_eq!((status, &report["version"]), (0, &Value::from(1)));
+    let totals = report["totals"].as_object().unwrap();
+    assert_eq!(totals.len(), 10);
+    let sum: u64 = totals.values().map(|count| count.as_u64().unwrap()).sum();
+    let results = report["results"].as_array().unwrap();
+    assert_eq!(sum, results.len() as u64);
+    for key in ["id", "requirement", "level", "verdict", "detail"] {
+        assert!(results[0][key].is_string(), "{key}");
+    }
+}
+
+#[test]
+fn a_write_is_explained_field_by_field() {
+    insta::assert_snapshot!(actucheck(&["decode", WRITE]).1, @r"
+    instruction packet: Write to device 1
+        0  ff ff fd 00  header
+        4  01           ID           1
+        5  09 00        length       9 bytes follow
+        7  03           instruction  Write
+        8  34 02        address      564 (Goal Position, JA40)
+       10  d0 07 00 00  data         Goal Position = 2000 (2000 count)
+       14  1e c9        CRC          0xC91E, right
+    ");
+}
+
+#[test]
+fn stuffing_bytes_are_marked() {
+    let frame = "ffff fd00 01 0a00 03 3402 fffffdfdff 2351";
+    insta::assert_snapshot!(actucheck(&["decode", frame]).1, @r"
+    instruction packet: Write to device 1
+        0  ff ff fd 00       header
+        4  01                ID           1
+        5  0a 00             length       10 bytes follow
+        7  03                instruction  Write
+        8  34 02             address      564 (Goal Position, JA40)
+       10  ff ff fd (fd) ff  data         Goal Position = -131073 (-131073 count)
+       15  23 51             CRC          0x5123, right
+    ");
+}
+
+#[test]
+fn bits_and_names_are_explained_where_the_address_is_known() {
+    // Drive Mode and Operating Mode, read in one go; the CRC by long division.
+    let frame = "ff ff fd 00 01 06 00 55 00 05 11 A0 C5";
+    let (status, stdout, stderr) = actucheck(&["decode", "--address", "10", frame]);
+    assert_eq!(status, 0, "{stderr}");
+    insta::assert_snapshot!(stdout, @r"
+    status packet of device 1: no error
+        0  ff ff fd 00  header
+        4  01           ID           1
+        5  06 00        length       6 bytes follow
+        7  55           instruction  Status
+        8  00           error        no error
+        9  05           data         Drive Mode = 5 (Reverse Mode: Reverse (positive is clockwise), Disable Profile: Profile enabled, Profile Configuration: Time-based profile)
+       10  11           data         Operating Mode = 17 (Calibration Mode)
+       11  a0 c5        CRC          0xC5A0, right
+    ");
+}
+
+#[test]
+fn a_packet_is_printed_as_the_adapter_protocol_has_it() {
+    let (status, stdout, _) = actucheck(&["decode", "--json", WRITE]);
+    assert_eq!(status, 0);
+    assert_eq!(
+        stdout,
+        "{\"kind\":\"instruction\",\"id\":1,\"instruction\":3,\"params\":\"3402d0070000\"}\n"
+    );
+}
+
+#[test]
+fn bytes_come_from_standard_input_too() {
+    let mut command = Command::cargo_bin("actucheck").unwrap();
+    let output = command.args(["decode", "--json", "-"]).write_stdin(WRITE).output().unwrap();
+    assert!(output.status.success());
+}
+
+#[test]
+fn what_is_no_packet_is_told_with_reason_offset_and_expectation() {
+    let damaged = WRITE.replace("1E C9", "1E C8");
+    let (status, stdout, stderr) = actucheck(&["decode", &damaged]);
+    assert_eq!((status, stdout.as_str()), (1, ""));
+    insta::assert_snapshot!(stderr, @"actucheck: no valid packet, from byte 14 on: crc: bytes 14 and 15 are 1E C8, 1E C9 is expected");
+    let (status, _, stderr) = actucheck(&["decode", "ff ff fd 00 01"]);
+    assert_eq!(status, 1);
+    insta::assert_snapshot!(stderr, @"actucheck: no valid packet, from byte 5 on: truncated: 5 bytes are there, 7 are needed");
+}
+
+#[test]
+fn wrong_usage_is_one_line_and_status_2() {
+    for arguments in [
+        &["decode", "0G"][..],
+        &["decode", "FFF"],
+        &["decode"],
+        &["decode", "--device", "nobody", WRITE],
+        &["codec", "--select", "no.such.check"],
+        &["codec", "--select", "[", "--"],
+        &["codec", "--report", "yaml=x"],
+        &["codec", "--report", "json=/no/such/folder/report.json"],
+        &["codec", "--timeout", "0"],
+        &["codec", "--wire", "modbus"],
+        &["codec", "--expect", "/no/such/file"],
+        &["codec", "--frobnicate"],
+        &["frobnicate"],
+    ] {
+        let (status, stdout, stderr) = actucheck(arguments);
+        assert_eq!((status, stdout.as_str()), (2, ""), "{arguments:?}: {stderr}");
+        assert!(!stderr.contains("panicked"), "{arguments:?}: {stderr}");
+    }
+    assert_eq!(
+        actucheck(&["decode", "0G"]).2,
+        "actucheck: `G` at position 1 is no hex digit; bytes are written as `FF FF FD 00`\n"
+    );
+}
+
+#[test]
+fn an_expected_failure_that_does_not_fail_fails_the_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("expected.yaml");
+    let rows = "expected_failures:\n  - ids: [ja40.ping.instruction/crc]\n    reason: none\n";
+    std::fs::write(&file, rows).unwrap();
+    let (status, stdout, _) = actucheck(&["codec", "--expect", file.to_str().unwrap()]);
+    assert_eq!(status, 1);
+    assert!(stdout.contains("UNEXPECTED PASS"), "{stdout}");
+
+    std::fs::write(&file, rows.replace("ping", "pong")).unwrap();
+    let (status, _, stderr) = actucheck(&["codec", "--expect", file.to_str().unwrap()]);
+    assert_eq!(status, 2);
+    assert!(stderr.contains("row 1: `ja40.pong.instruction/crc` is the id of no check"));
+}
+
+#[test]
+fn a_pipe_gets_no_colour_and_no_progress() {
+    let (_, stdout, stderr) = actucheck(&["codec"]);
+    assert!(!stdout.contains('\u{1b}') && stderr.is_empty());
+}
+
+#[test]
+fn completions_are_there_for_a_shell() {
+    let (status, stdout, _) = actucheck(&["completions", "bash"]);
+    assert_eq!(status, 0);
+    assert!(stdout.contains("_actucheck"));
+}

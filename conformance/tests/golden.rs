@@ -1,0 +1,157 @@
+//! The golden checks pass on the built-in codec, and each kind of check fails on an
+//! implementation that is wrong in just that.
+
+use std::collections::BTreeSet;
+
+use actucheck::cases;
+use actucheck::check::Check;
+use actucheck::protocol::{Hello, Op, Output, Wire};
+use actucheck::run::run;
+use actucheck::testee::{Answer, Builtin, Testee};
+use actucheck::verdict::{Outcome, Totals, Verdict};
+use actucheck_spec::Spec;
+use actucheck_spec::model::{Fault, Packet};
+
+fn checks() -> Vec<Check> {
+    cases::all(&Spec::embedded().unwrap(), Wire::Dynamixel2)
+}
+
+/// The built-in codec with its answers to one op bent.
+struct Bent<F> {
+    codec: Builtin,
+    bend: F,
+}
+
+impl<F: Fn(&Op, Answer) -> Answer> Testee for Bent<F> {
+    fn hello(&self) -> &Hello {
+        self.codec.hello()
+    }
+
+    fn ask(&mut self, op: &Op) -> Answer {
+        let answer = self.codec.ask(op);
+        (self.bend)(op, answer)
+    }
+}
+
+fn outcomes(bend: impl Fn(&Op, Answer) -> Answer) -> Vec<Outcome> {
+    run(&mut Bent { codec: Builtin::default(), bend }, &checks(), |_| {})
+}
+
+/// The ops whose checks failed.
+fn failed_ops(outcomes: &[Outcome]) -> BTreeSet<&'static str> {
+    let failed = outcomes.iter().filter(|outcome| outcome.verdict == Verdict::Fail);
+    failed.filter_map(|outcome| outcome.request.as_ref()).map(Op::name).collect()
+}
+
+#[test]
+fn the_builtin_codec_passes_every_golden_vector() {
+    let outcomes = outcomes(|_, answer| answer);
+    let bad: Vec<_> = outcomes
+        .iter()
+        .filter(|outcome| !matches!(outcome.verdict, Verdict::Pass | Verdict::Skip))
+        .collect();
+    assert_eq!(bad, Vec::<&Outcome>::new());
+    assert_eq!(Totals::of(&outcomes).exit_status(), 0);
+}
+
+#[test]
+fn ids_are_unique_and_requirements_exist() {
+    let spec = Spec::embedded().unwrap();
+    let mut ids = BTreeSet::new();
+    for check in checks() {
+        assert!(spec.requirement(&check.requirement).is_some(), "{}", check.requirement);
+        assert!(ids.insert(check.id.clone()), "{} is there twice", check.id);
+    }
+}
+
+#[test]
+fn a_wrong_crc_fails_the_crc_checks() {
+    let outcomes = outcomes(|_, answer| match answer {
+        Answer::Ok(Output::Crc(crc)) => Answer::Ok(Output::Crc(crc ^ 1)),
+        answer => answer,
+    });
+    assert_eq!(failed_ops(&outcomes), ["crc"].into());
+}
+
+#[test]
+fn bytes_without_stuffing_fail_encode_and_stuff() {
+    let outcomes = outcomes(|op, answer| match (op, answer) {
+        (Op::Stuff { bytes, .. }, _) => Answer::Ok(Output::Bytes(bytes.clone())),
+        (Op::Encode { .. }, Answer::Ok(Output::Bytes(mut bytes))) => {
+            bytes.0.pop();
+            Answer::Ok(Output::Bytes(bytes))
+        }
+        (_, answer) => answer,
+    });
+    assert_eq!(failed_ops(&outcomes), ["encode", "stuff"].into());
+}
+
+#[test]
+fn stuffing_that_is_left_in_fails_unstuff() {
+    let outcomes = outcomes(|op, answer| match op {
+        Op::Unstuff { bytes, .. } => Answer::Ok(Output::Bytes(bytes.clone())),
+        _ => answer,
+    });
+    assert_eq!(failed_ops(&outcomes), ["unstuff"].into());
+}
+
+#[test]
+fn a_wrong_field_fails_decode() {
+    let outcomes = outcomes(|_, answer| match answer {
+        Answer::Ok(Output::Packet(Packet::Status { id, error, params })) => {
+            Answer::Ok(Output::Packet(Packet::Status { id, error: error ^ 0x80, params }))
+        }
+        answer => answer,
+    });
+    assert_eq!(failed_ops(&outcomes), ["decode"].into());
+}
+
+#[test]
+fn accepting_damaged_packets_fails_each_negative_check() {
+    let accepted =
+        Packet::Status { id: 1, error: 0, params: actucheck_spec::model::HexBytes::default() };
+    let outcomes = outcomes(|_, answer| match answer {
+        Answer::Rejected(_) => Answer::Ok(Output::Packet(accepted.clone())),
+        answer => answer,
+    });
+    let failed: Vec<_> =
+        outcomes.iter().filter(|outcome| outcome.verdict == Verdict::Fail).collect();
+    let negative = checks()
+        .into_iter()
+        .filter(|check| matches!(check.demand, actucheck::check::Demand::Reject(_)));
+    assert_eq!(failed.len(), negative.count());
+}
+
+#[test]
+fn another_class_is_a_warning_and_a_breakdown_a_failure() {
+    let with_class = |class| {
+        outcomes(move |_, answer| match answer {
+            Answer::Rejected(mut rejection) => {
+                rejection.class = class;
+                Answer::Rejected(rejection)
+            }
+            answer => answer,
+        })
+    };
+    let other = Totals::of(&with_class(Fault::Parameter));
+    assert_eq!((other.count(Verdict::Fail), other.exit_status()), (0, 0));
+    assert!(other.count(Verdict::Warn) > 0);
+    let broken = Totals::of(&with_class(Fault::Internal));
+    assert_eq!(broken.count(Verdict::Fail), other.count(Verdict::Warn));
+}
+
+#[test]
+fn rejecting_everything_fails_all_that_is_valid_but_not_what_is_open() {
+    let outcomes = outcomes(|op, answer| match answer {
+        Answer::Ok(_) if matches!(op, Op::Decode { .. }) => {
+            let detail = String::new();
+            Answer::Rejected(actucheck::protocol::Rejection { class: Fault::Crc, detail })
+        }
+        answer => answer,
+    });
+    let passed = |id: &str| {
+        outcomes.iter().any(|outcome| outcome.id == id && outcome.verdict == Verdict::Pass)
+    };
+    assert!(passed("ja40.clear.instruction.with-parameters/decode"));
+    assert!(!passed("ja40.clear.status/decode"));
+}

@@ -1,0 +1,295 @@
+// Generated from the YAML in spec/.
+
+/// Wire.
+pub mod wire {
+    use crate::layout::{Field, Size};
+    use crate::register::NamedValue;
+    /// What every packet begins with, the reserved byte included.
+    ///
+    /// book §1.
+    pub const HEADER: [u8; 4usize] = [0xFF, 0xFF, 0xFD, 0x00];
+    /// The largest ID that a device may have.
+    pub const MAX_ID: u8 = 0xFC;
+    /// The ID that every device obeys.
+    pub const BROADCAST_ID: u8 = 0xFE;
+    /// The smallest length that a packet may have.
+    pub const MIN_LENGTH: u16 = 3u16;
+    /// The bytes that never stand in a body without [`STUFFING_BYTE`] behind them.
+    ///
+    /// book §1.
+    pub const STUFFING_PATTERN: [u8; 3usize] = [0xFF, 0xFF, 0xFD];
+    /// The byte that stuffing puts behind [`STUFFING_PATTERN`].
+    pub const STUFFING_BYTE: u8 = 0xFD;
+    /// The polynomial of CRC-16/UMTS, highest power in the highest bit.
+    ///
+    /// book §1.
+    pub const CRC_POLYNOMIAL: u16 = 0x8005;
+    /// The CRC's value before the first byte.
+    pub const CRC_INITIAL: u16 = 0x0000;
+    /// The CRC of the nine ASCII characters `123456789`.
+    pub const CRC_CHECK: u16 = 0xFEE8;
+    /// The bit of a status packet's error byte that tells of a hardware error.
+    ///
+    /// book §1.
+    pub const ALERT_BIT: u8 = 0x80;
+    /// What a packet asks for, or that it is an answer.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum Instruction {
+        /** `0x01`: Asks.
+
+ book §1.*/
+        Ping,
+        /** `0x55`: What a device answers.
+
+ book §1.*/
+        Status,
+        /// A byte that the documents give no name.
+        Unknown(u8),
+    }
+    impl Instruction {
+        /// Every one with a name, by rising code.
+        pub const ALL: [Self; 2usize] = [Self::Ping, Self::Status];
+        /// What this byte stands for.
+        #[must_use]
+        pub const fn from_code(code: u8) -> Self {
+            match code {
+                0x01 => Self::Ping,
+                0x55 => Self::Status,
+                code => Self::Unknown(code),
+            }
+        }
+        /// The byte on the wire.
+        #[must_use]
+        pub const fn code(self) -> u8 {
+            match self {
+                Self::Ping => 0x01,
+                Self::Status => 0x55,
+                Self::Unknown(code) => code,
+            }
+        }
+        /// Its name in the documents, or `unknown`.
+        #[must_use]
+        pub const fn name(self) -> &'static str {
+            match self {
+                Self::Ping => "Ping",
+                Self::Status => "Status",
+                Self::Unknown(_) => "unknown",
+            }
+        }
+    }
+    impl Instruction {
+        /// Layout of the parameters of an instruction packet; `None` for
+        /// [`Instruction::Status`] and for an unknown one.
+        #[must_use]
+        pub const fn parameters(self) -> Option<&'static [Field]> {
+            match self {
+                Self::Ping => Some(&[]),
+                _ => None,
+            }
+        }
+        /// Layout of the parameters of a device's status packet; `None` if it answers with
+        /// no packet of its own.
+        #[must_use]
+        pub const fn status(self) -> Option<&'static [Field]> {
+            match self {
+                Self::Ping => Some(&[]),
+                _ => None,
+            }
+        }
+        /// Layout of one device's block in the status packet that all devices share; `None`
+        /// if they share none.
+        #[must_use]
+        pub const fn fast_status(self) -> Option<&'static [Field]> {
+            match self {
+                _ => None,
+            }
+        }
+        /// Whether it goes to the broadcast ID only.
+        #[must_use]
+        pub const fn broadcast_only(self) -> bool {
+            matches!(self,)
+        }
+        /// Whether devices answer it when it goes to the broadcast ID.
+        #[must_use]
+        pub const fn answers_broadcast(self) -> bool {
+            matches!(self,)
+        }
+    }
+    /// How an instruction went: a status packet's error byte without the alert bit.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum ErrorNumber {
+        /// `0x00`: The instruction was carried out.
+        None,
+        /// `0x01`: It failed.
+        ResultFail,
+        /// A byte that the documents give no name.
+        Unknown(u8),
+    }
+    impl ErrorNumber {
+        /// Every one with a name, by rising code.
+        pub const ALL: [Self; 2usize] = [Self::None, Self::ResultFail];
+        /// What this byte stands for.
+        #[must_use]
+        pub const fn from_code(code: u8) -> Self {
+            match code {
+                0x00 => Self::None,
+                0x01 => Self::ResultFail,
+                code => Self::Unknown(code),
+            }
+        }
+        /// The byte on the wire.
+        #[must_use]
+        pub const fn code(self) -> u8 {
+            match self {
+                Self::None => 0x00,
+                Self::ResultFail => 0x01,
+                Self::Unknown(code) => code,
+            }
+        }
+        /// Its name in the documents, or `unknown`.
+        #[must_use]
+        pub const fn name(self) -> &'static str {
+            match self {
+                Self::None => "None",
+                Self::ResultFail => "Result Fail",
+                Self::Unknown(_) => "unknown",
+            }
+        }
+    }
+}
+
+// Generated from the YAML in spec/.
+
+/// The Motor control table: book §2.
+pub mod motor {
+    use crate::dynamixel2::Instruction;
+    use crate::register::{
+        Access, Area, BitField, Bound, Device, Kind, NamedValue, Range, Register, Unit,
+    };
+    /// The device as a whole.
+    pub const DEVICE: Device = Device {
+        id: "motor",
+        name: "Motor",
+        model_number: None,
+        instructions: &[Instruction::Ping],
+        eeprom_lock: Some(2u16),
+        registers: &[LIMIT, TORQUE, GOAL, MODE, STATE],
+    };
+    /// Limit: address 0, 2 bytes, EEPROM area, read and write.
+    ///
+    /// Initially 5, 0 to 10.
+    /// Source: book §2.
+    pub const LIMIT: Register = Register {
+        name: "Limit",
+        address: 0u16,
+        kind: Kind::U16,
+        area: Area::Eeprom,
+        access: Access::ReadWrite,
+        initial: Some(5),
+        range: Range::Between {
+            min: Bound::Value(0),
+            max: Bound::Value(10),
+        },
+        unit: None,
+        values: &[],
+        bits: &[],
+    };
+    /// Torque: address 2, 1 byte, RAM area, read and write.
+    ///
+    /// Source: book §2.
+    pub const TORQUE: Register = Register {
+        name: "Torque",
+        address: 2u16,
+        kind: Kind::U8,
+        area: Area::Ram,
+        access: Access::ReadWrite,
+        initial: None,
+        range: Range::Any,
+        unit: None,
+        values: &[],
+        bits: &[],
+    };
+    /// Goal: address 4, 2 bytes, RAM area, read and write.
+    ///
+    /// -Limit to Limit.
+    /// Source: book §2.
+    pub const GOAL: Register = Register {
+        name: "Goal",
+        address: 4u16,
+        kind: Kind::I16,
+        area: Area::Ram,
+        access: Access::ReadWrite,
+        initial: None,
+        range: Range::Between {
+            min: Bound::Register {
+                address: 0u16,
+                negated: true,
+            },
+            max: Bound::Register {
+                address: 0u16,
+                negated: false,
+            },
+        },
+        unit: None,
+        values: &[],
+        bits: &[],
+    };
+    /// Mode: address 8, 1 byte, EEPROM area, read and write.
+    ///
+    /// Initially 4, one of 4, 17.
+    /// Source: book §2.
+    pub const MODE: Register = Register {
+        name: "Mode",
+        address: 8u16,
+        kind: Kind::U8,
+        area: Area::Eeprom,
+        access: Access::ReadWrite,
+        initial: Some(4),
+        range: Range::OneOf(&[4, 17]),
+        unit: None,
+        values: &[
+            NamedValue {
+                value: 4,
+                name: "Turning",
+            },
+        ],
+        bits: &[],
+    };
+    /// State: address 9, 4 bytes, RAM area, read-only.
+    ///
+    /// One count is 0.01 rev/min.
+    /// Source: book §2, book §3.
+    pub const STATE: Register = Register {
+        name: "State",
+        address: 9u16,
+        kind: Kind::U32,
+        area: Area::Ram,
+        access: Access::ReadOnly,
+        initial: None,
+        range: Range::Any,
+        unit: Some(Unit {
+            factor: 0.01,
+            symbol: "rev/min",
+        }),
+        values: &[],
+        bits: &[
+            BitField {
+                name: "Moving",
+                lowest: 0u8,
+                width: 1u8,
+                values: &[],
+            },
+            BitField {
+                name: "Profile",
+                lowest: 4u8,
+                width: 2u8,
+                values: &[
+                    NamedValue {
+                        value: 3,
+                        name: "Trapezoidal",
+                    },
+                ],
+            },
+        ],
+    };
+}
