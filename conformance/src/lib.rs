@@ -3,6 +3,8 @@
 //! [`cases`] turns the spec into [`check::Check`]s, [`run`] asks a [`testee`] for each, judges the
 //! answers, and [`report`] tells a person or a program what came out.
 
+#![forbid(unsafe_code)]
+
 pub mod call;
 pub mod cases;
 pub mod check;

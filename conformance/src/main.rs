@@ -1,5 +1,7 @@
 //! The command line: `actucheck codec`, `actucheck decode`.
 
+#![forbid(unsafe_code)]
+
 mod cli;
 mod commands;
 

@@ -1,4 +1,6 @@
 //! Adapters that misbehave: the run ends in bounded time with a report and the right exit status.
+
+#![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 #![cfg(unix)]
 
 use std::process::{Command, Output};

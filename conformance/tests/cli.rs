@@ -1,5 +1,7 @@
 //! The program as a user meets it: what it prints and how it exits.
 
+#![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
+
 use assert_cmd::Command;
 use serde_json::Value;
 

@@ -1,6 +1,8 @@
 //! The golden checks pass on the built-in codec, and each kind of check fails on an
 //! implementation that is wrong in just that.
 
+#![allow(clippy::unwrap_used)] // in what the tests share
+
 use std::collections::BTreeSet;
 
 use actucheck::cases;

@@ -4,6 +4,8 @@
 //! into the source of the codec's tables. The YAML is part of this crate, so nothing here needs
 //! the folder at run time.
 
+#![forbid(unsafe_code)]
+
 pub mod check;
 pub mod diagnostic;
 pub mod generate;

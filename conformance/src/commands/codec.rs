@@ -63,8 +63,11 @@ fn testee(options: &Codec) -> Result<Box<dyn Testee>, Failure> {
     Ok(Box::new(process))
 }
 
+/// A report's name and where it goes.
+type OpenReport = (String, Box<dyn Write>);
+
 /// Opens the reports before the run, so that a wrong path costs no time.
-fn open_reports(options: &Codec) -> Result<Vec<(String, Box<dyn Write>)>, Failure> {
+fn open_reports(options: &Codec) -> Result<Vec<OpenReport>, Failure> {
     let open = |path: &Path| -> io::Result<Box<dyn Write>> {
         if path == Path::new("-") {
             return Ok(Box::new(io::stdout()));

@@ -53,16 +53,13 @@ pub fn explain(
     table.push(PREFIX, wire.text(0, 1), "instruction", instruction.name());
 
     let params = body.get(1..).unwrap_or_default();
-    let title = match frame.error() {
-        Some(error) => {
-            table.push(wire.place(1), wire.text(1, 2), "error", &error_words(error));
-            status_data(&mut table, &wire, params.get(1..).unwrap_or_default(), device, address);
-            format!("status packet of {}: {}", whom(frame.id()), error_words(error))
-        }
-        None => {
-            instruction_params(&mut table, &wire, instruction, params, device);
-            format!("instruction packet: {} to {}", instruction.name(), whom(frame.id()))
-        }
+    let title = if let Some(error) = frame.error() {
+        table.push(wire.place(1), wire.text(1, 2), "error", &error_words(error));
+        status_data(&mut table, &wire, params.get(1..).unwrap_or_default(), device, address);
+        format!("status packet of {}: {}", whom(frame.id()), error_words(error))
+    } else {
+        instruction_params(&mut table, &wire, instruction, params, device);
+        format!("instruction packet: {} to {}", instruction.name(), whom(frame.id()))
     };
     table.crc();
     Ok(Explanation { title, rows: table.rows })
@@ -81,7 +78,7 @@ pub fn explain_fast(bytes: &[u8], fast: &Fast) -> Result<Explanation, FrameError
         table.take(1, "error", |_| error_words(block.error));
         table.take(1, "ID", |_| block.id.to_string());
         if !block.data.is_empty() {
-            table.take(block.data.len(), "data", |bytes| numbers(bytes));
+            table.take(block.data.len(), "data", numbers);
         }
         table.take(2, "CRC", |_| "of all bytes before it, right".to_owned());
     }
@@ -224,13 +221,11 @@ fn param(
         || item.field.name.to_owned(),
         |group| format!("device {} {}", group + 1, item.field.name),
     );
-    match item.field.name {
-        "data" => data(table, wire, start, &name, item.bytes, device, address),
-        _ => {
-            let meaning = meaning(item, device);
-            let text = wire.text(start, start + item.bytes.len());
-            table.push(wire.place(start), text, &name, &meaning);
-        }
+    if item.field.name == "data" {
+        data(table, wire, start, &name, item.bytes, device, address);
+    } else {
+        let text = wire.text(start, start + item.bytes.len());
+        table.push(wire.place(start), text, &name, &meaning(item, device));
     }
 }
 

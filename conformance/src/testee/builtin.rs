@@ -49,7 +49,7 @@ impl Testee for Builtin {
             Op::Stuff { bytes, .. } => self.stuff(bytes),
             Op::Unstuff { bytes, .. } => self.unstuff(bytes),
             Op::Encode { packet, .. } => self.encode(&packet.packet),
-            Op::Decode { bytes, fast: None, .. } => self.decode(bytes),
+            Op::Decode { bytes, fast: None, .. } => decode(bytes),
             Op::Decode { bytes, fast: Some(fast), .. } => decode_fast(bytes, fast),
             Op::Hello { .. } | Op::Stream { .. } | Op::Invented | Op::Bye => {
                 return Answer::Skipped(format!("the codec has no {}", op.name()));
@@ -105,24 +105,24 @@ impl Builtin {
         })
     }
 
-    fn decode(&mut self, bytes: &[u8]) -> Result {
-        let frame = Frame::parse(bytes).map_err(frame_rejection)?;
-        let params = frame.params().collect::<Vec<_>>();
-        let (id, instruction) = (frame.id(), frame.instruction().code());
-        Ok(Output::Packet(match frame.error() {
-            None => Packet::Instruction { id, instruction, params: params.into() },
-            Some(StatusError(error)) => {
-                let params = params.into_iter().skip(1).collect::<Vec<_>>().into();
-                Packet::Status { id, error, params }
-            }
-        }))
-    }
-
     fn room(&mut self, size: usize) {
         if self.buffer.len() < size {
             self.buffer.resize(size, 0);
         }
     }
+}
+
+fn decode(bytes: &[u8]) -> Result {
+    let frame = Frame::parse(bytes).map_err(frame_rejection)?;
+    let params = frame.params().collect::<Vec<_>>();
+    let (id, instruction) = (frame.id(), frame.instruction().code());
+    Ok(Output::Packet(match frame.error() {
+        None => Packet::Instruction { id, instruction, params: params.into() },
+        Some(StatusError(error)) => {
+            let params = params.into_iter().skip(1).collect::<Vec<_>>().into();
+            Packet::Status { id, error, params }
+        }
+    }))
 }
 
 fn decode_fast(bytes: &[u8], fast: &Fast) -> Result {
