@@ -152,6 +152,28 @@ fn every_example_packet_is_a_vector_and_every_printed_vector_an_example() {
 }
 
 #[test]
+fn the_printed_table_is_that_of_the_crc() {
+    let spec = spec();
+    let documents = documents(&spec);
+    let Some((document, _)) = documents.iter().find(|(document, _)| document.id == "ja40") else {
+        return;
+    };
+    let printed: Vec<_> = document
+        .lines
+        .iter()
+        .filter(|line| line.is_under("1.4.7"))
+        .map(|line| line.text.trim())
+        .filter(|text| text.starts_with("0x"))
+        .flat_map(|text| text.split(','))
+        .filter_map(|entry| u16::from_str_radix(entry.trim().strip_prefix("0x")?, 16).ok())
+        .collect();
+    let right: Vec<_> = (0..=u8::MAX)
+        .map(|byte| protocol(&spec).crc.compute(&[byte]))
+        .collect();
+    assert_eq!(printed, right);
+}
+
+#[test]
 fn every_register_is_a_row_of_its_document() {
     let spec = spec();
     let mut faults = Vec::new();
