@@ -23,11 +23,8 @@ use support::{Finding, numbers, packets, ranges, references, rows};
 /// The wire of the documents whose examples are tables.
 const WIRE: &str = "dynamixel2";
 /// Those documents, and the device that each is about.
-const DOCUMENTS: [(&str, &str); 3] = [
-    ("ja40", "ja40"),
-    ("ja-variant", "ja-variant"),
-    ("dynamixel2", "xm430-w210"),
-];
+const DOCUMENTS: [(&str, &str); 3] =
+    [("ja40", "ja40"), ("ja-variant", "ja-variant"), ("dynamixel2", "xm430-w210")];
 
 fn spec() -> Spec {
     Spec::embedded().expect("the spec is free of defects")
@@ -48,9 +45,7 @@ fn documents(spec: &Spec) -> Vec<(Document, &Device)> {
 
 fn errata(spec: &Spec, kind: ProofKind) -> impl Iterator<Item = &Erratum> {
     let errata = &spec.errata.content.errata;
-    errata
-        .iter()
-        .filter(move |row| row.proof.as_ref().is_some_and(|proof| proof.kind == kind))
+    errata.iter().filter(move |row| row.proof.as_ref().is_some_and(|proof| proof.kind == kind))
 }
 
 fn assert_none(faults: &[String]) {
@@ -59,10 +54,7 @@ fn assert_none(faults: &[String]) {
 
 /// Ids of the errata of one kind that `named` holds.
 fn named<'a>(spec: &Spec, kind: ProofKind, named: &'a [String]) -> Vec<&'a String> {
-    named
-        .iter()
-        .filter(|id| errata(spec, kind).any(|row| row.id == **id))
-        .collect()
+    named.iter().filter(|id| errata(spec, kind).any(|row| row.id == **id)).collect()
 }
 
 #[test]
@@ -80,10 +72,8 @@ fn defective_vectors_and_errata_about_packets_name_each_other() {
                 "{} of {}: the printed bytes are wrong; name an erratum with proof kind packet",
                 vector.id, file.source
             )),
-            (true, false) => faults.push(format!(
-                "{}: the printed bytes are right, yet it names {ids:?}",
-                vector.id
-            )),
+            (true, false) => faults
+                .push(format!("{}: the printed bytes are right, yet it names {ids:?}", vector.id)),
             _ => used.extend(ids),
         }
     }
@@ -142,11 +132,8 @@ fn every_example_packet_is_a_vector_and_every_printed_vector_an_example() {
                 )),
             }
         }
-        faults.extend(
-            vectors
-                .iter()
-                .map(|(source, id, _)| format!("{id}: not printed in {source}")),
-        );
+        faults
+            .extend(vectors.iter().map(|(source, id, _)| format!("{id}: not printed in {source}")));
     }
     assert_none(&faults);
 }
@@ -167,9 +154,7 @@ fn the_printed_table_is_that_of_the_crc() {
         .flat_map(|text| text.split(','))
         .filter_map(|entry| u16::from_str_radix(entry.trim().strip_prefix("0x")?, 16).ok())
         .collect();
-    let right: Vec<_> = (0..=u8::MAX)
-        .map(|byte| protocol(&spec).crc.compute(&[byte]))
-        .collect();
+    let right: Vec<_> = (0..=u8::MAX).map(|byte| protocol(&spec).crc.compute(&[byte])).collect();
     assert_eq!(printed, right);
 }
 

@@ -84,6 +84,10 @@ fn alarms(file: &File<Device>, defects: &mut Vec<Diagnostic>) {
             let message = format!("{} has no bit `{}`", device.title, alarm.bit);
             defects.push(file.diagnostic(&format!("alarms[{index}].bit"), message));
         }
+        if alarm.below.is_none() && alarm.above.is_none() {
+            let message = "an alarm has `below`, `above` or both".to_owned();
+            defects.push(file.diagnostic(&format!("alarms[{index}]"), message));
+        }
         let names = [
             ("register", Some(&alarm.register)),
             ("below", alarm.below.as_ref()),
@@ -140,48 +144,4 @@ fn unknown_erratum(spec: &Spec, ids: &[String]) -> impl Iterator<Item = String> 
 
 fn no_register(device: &Device, name: &str) -> String {
     format!("{} has no register `{name}`", device.title)
-}
-
-#[cfg(test)]
-mod tests {
-    use crate::Spec;
-    use crate::load::{Source, embedded};
-
-    /// What is wrong with the JA40 after one replacement in its file.
-    fn defects_with(text: &str, other: &str) -> Vec<String> {
-        let replaced = |file: Source| match file.path.as_str() {
-            "spec/devices/ja40.yaml" => {
-                Source::new("devices/ja40.yaml", &file.text.replacen(text, other, 1))
-            }
-            _ => file,
-        };
-        let sources: Vec<_> = embedded().into_iter().map(replaced).collect();
-        let defects = Spec::read(&sources).unwrap_err();
-        defects.into_iter().map(|defect| defect.message).collect()
-    }
-
-    #[test]
-    fn a_backup_names_registers_of_the_ram_area() {
-        let item = "  - Position I Gain";
-        assert_eq!(
-            defects_with(item, "  - Position X Gain"),
-            ["JA40 has no register `Position X Gain`"]
-        );
-        assert_eq!(
-            defects_with(item, "  - Homing Offset"),
-            ["Homing Offset is in the EEPROM area, which every backup holds"]
-        );
-    }
-
-    #[test]
-    fn an_alarm_names_a_bit_and_registers() {
-        assert_eq!(
-            defects_with("{bit: Overheating Error", "{bit: Overheated"),
-            ["JA40 has no bit `Overheated`"]
-        );
-        assert_eq!(
-            defects_with("above: Temperature Limit", "above: Heat Limit"),
-            ["JA40 has no register `Heat Limit`"]
-        );
-    }
 }

@@ -48,10 +48,7 @@ impl Document {
                 text: text.to_owned(),
             });
         }
-        Self {
-            id: id.to_owned(),
-            lines,
-        }
+        Self { id: id.to_owned(), lines }
     }
 
     /// Whether a heading begins with the section that a citation names.
@@ -76,9 +73,7 @@ impl Line {
             return Vec::new();
         };
         let row = row.strip_suffix('|').unwrap_or(row);
-        row.split('|')
-            .map(|cell| cell.replace(['*', '`'], "").trim().to_owned())
-            .collect()
+        row.split('|').map(|cell| cell.replace(['*', '`'], "").trim().to_owned()).collect()
     }
 }
 
@@ -93,10 +88,8 @@ fn heading(line: &str) -> Option<(usize, String)> {
 
 /// The documents with these ids; `None`, and a line that says so, where the folder is not there.
 pub(crate) fn read(spec: &Spec, ids: &[&str]) -> Option<Vec<Document>> {
-    let folder = env::var_os("ACTUCHECK_DOCUMENTS").map_or_else(
-        || Path::new(env!("CARGO_MANIFEST_DIR")).join(FOLDER),
-        PathBuf::from,
-    );
+    let folder = env::var_os("ACTUCHECK_DOCUMENTS")
+        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join(FOLDER), PathBuf::from);
     if !folder.is_dir() {
         // Past the test harness, which hides what a test that passes prints.
         let note = || writeln!(stderr(), "skipped: no documents in {}", folder.display());

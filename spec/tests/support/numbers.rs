@@ -35,19 +35,13 @@ fn pair(before: &str, after: &str) -> Option<(u64, u64)> {
     if !rest.starts_with([')', ',']) {
         return None;
     }
-    let before = before
-        .strip_suffix('(')
-        .map(str::trim_end)
-        .or_else(|| before.strip_suffix(", "))?;
+    let before =
+        before.strip_suffix('(').map(str::trim_end).or_else(|| before.strip_suffix(", "))?;
     let words = before.trim_end_matches(|c: char| c.is_ascii_digit() || c == ',');
     if words.ends_with(|c: char| c.is_ascii_alphanumeric()) {
         return None;
     }
-    let decimal = before
-        .strip_prefix(words)?
-        .replace(',', "")
-        .parse::<u64>()
-        .ok()?;
+    let decimal = before.strip_prefix(words)?.replace(',', "").parse::<u64>().ok()?;
     let decimal = if words.ends_with("Bit ") {
         1_u64.checked_shl(u32::try_from(decimal).ok()?)?
     } else {

@@ -39,11 +39,7 @@ fn row(line: &Line) -> Option<Vec<u8>> {
         for word in cell.split_whitespace() {
             let digits = word.trim_start_matches("0x");
             let digits = if digits.is_empty() { word } else { digits };
-            bytes.push(
-                u8::from_str_radix(digits, 16)
-                    .ok()
-                    .filter(|_| word.len() > 1)?,
-            );
+            bytes.push(u8::from_str_radix(digits, 16).ok().filter(|_| word.len() > 1)?);
         }
     }
     Some(bytes)
@@ -73,10 +69,7 @@ pub(crate) fn findings(protocol: &Protocol, document: &Document) -> Vec<Finding>
             document: document.id.clone(),
             line: example.line.number,
             kind: ProofKind::Packet,
-            what: format!(
-                "length or CRC of {} is wrong",
-                HexBytes(example.bytes.clone())
-            ),
+            what: format!("length or CRC of {} is wrong", HexBytes(example.bytes.clone())),
         })
         .collect()
 }
@@ -93,9 +86,6 @@ fn split_rows_are_joined_and_a_wrong_crc_is_found() {
     let examples = examples(protocol, &document);
     assert_eq!(examples.len(), 2);
     assert!(is_intact(protocol, &examples[0].bytes));
-    let lines: Vec<_> = findings(protocol, &document)
-        .iter()
-        .map(|f| f.line)
-        .collect();
+    let lines: Vec<_> = findings(protocol, &document).iter().map(|f| f.line).collect();
     assert_eq!(lines, [6]);
 }

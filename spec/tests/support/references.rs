@@ -44,19 +44,11 @@ impl Reference {
         let inside = text.strip_prefix('(')?.split(')').next()?;
         if let Some((inside, _)) = inside.split_once("[byte]") {
             let (address, size) = (inside.split(", ").next()?, inside.rsplit(", ").next()?);
-            return Some(Self {
-                address: address.parse().ok()?,
-                size: Some(size.parse().ok()?),
-            });
+            return Some(Self { address: address.parse().ok()?, size: Some(size.parse().ok()?) });
         }
-        let about_registers = line
-            .headings
-            .iter()
-            .any(|heading| heading.to_lowercase().contains("control table"));
-        Some(Self {
-            address: inside.parse().ok().filter(|_| about_registers)?,
-            size: None,
-        })
+        let about_registers =
+            line.headings.iter().any(|heading| heading.to_lowercase().contains("control table"));
+        Some(Self { address: inside.parse().ok().filter(|_| about_registers)?, size: None })
     }
 
     fn is_right(&self, device: &Device, before: &str) -> bool {

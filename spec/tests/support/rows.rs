@@ -22,11 +22,7 @@ pub(crate) fn rows(document: &Document) -> Vec<Row<'_>> {
     let row = |line| {
         let cells = Line::cells(line);
         let address = cells.first()?.parse().ok()?;
-        (cells.len() == COLUMNS).then_some(Row {
-            line,
-            address,
-            cells,
-        })
+        (cells.len() == COLUMNS).then_some(Row { line, address, cells })
     };
     document.lines.iter().filter_map(row).collect()
 }
@@ -63,10 +59,7 @@ fn plain(cell: &str) -> String {
     let cell = cell.replace("&deg;", "°").replace("<br>", "");
     let cell = cell.replace("<br />", "").replace(['^', ','], "");
     let cell = cell.replace("<sup>", "").replace("</sup>", "");
-    let cell = match cell
-        .strip_prefix('[')
-        .and_then(|link| link.split_once("]("))
-    {
+    let cell = match cell.strip_prefix('[').and_then(|link| link.split_once("](")) {
         Some((name, _)) => name.to_owned(),
         None => cell,
     };
@@ -90,11 +83,7 @@ fn range(range: &Range) -> String {
         None => String::new(),
     };
     match &range.one_of {
-        Some(values) => values
-            .iter()
-            .map(i64::to_string)
-            .collect::<Vec<_>>()
-            .join(" "),
+        Some(values) => values.iter().map(i64::to_string).collect::<Vec<_>>().join(" "),
         None => format!("{} ~ {}", bound(&range.min), bound(&range.max)),
     }
 }
