@@ -39,6 +39,7 @@ pub mod stuffing;
 
 /// What the build script makes of the documents' YAML: a module a protocol and a module a device.
 #[allow(
+    unused_imports,             // a small device has no use for every type
     clippy::unreadable_literal, // numbers keep the form that they have in the YAML
     clippy::match_same_arms,    // an arm a row, whatever the other rows say
     clippy::too_many_lines      // tables are as long as the documents' are

@@ -1,6 +1,7 @@
 //! What is named exists: registers, instructions, protocols, requirements, errata.
 
-use crate::model::{Bound, Device};
+use crate::load::File;
+use crate::model::{Area, Bound, Device};
 use crate::{Diagnostic, Spec};
 
 pub(super) fn check(spec: &Spec) -> Vec<Diagnostic> {
@@ -54,6 +55,8 @@ fn devices(spec: &Spec, defects: &mut Vec<Diagnostic>) {
         {
             defects.push(file.diagnostic("eeprom_lock", no_register(device, name)));
         }
+        alarms(file, defects);
+        backup(file, defects);
         for (index, register) in device.registers.iter().enumerate() {
             let node = format!("registers[{index}]");
             let unknown = unknown_erratum(spec, &register.errata);
@@ -70,6 +73,46 @@ fn devices(spec: &Spec, defects: &mut Vec<Diagnostic>) {
                 }
             }
         }
+    }
+}
+
+fn alarms(file: &File<Device>, defects: &mut Vec<Diagnostic>) {
+    let device = &file.content;
+    for (index, alarm) in device.alarms.iter().enumerate() {
+        let bits = device.registers.iter().flat_map(|register| &register.bits);
+        if !bits.into_iter().any(|bit| bit.name == alarm.bit) {
+            let message = format!("{} has no bit `{}`", device.title, alarm.bit);
+            defects.push(file.diagnostic(&format!("alarms[{index}].bit"), message));
+        }
+        if alarm.below.is_none() && alarm.above.is_none() {
+            let message = "an alarm has `below`, `above` or both".to_owned();
+            defects.push(file.diagnostic(&format!("alarms[{index}]"), message));
+        }
+        let names = [
+            ("register", Some(&alarm.register)),
+            ("below", alarm.below.as_ref()),
+            ("above", alarm.above.as_ref()),
+        ];
+        for (field, name) in names {
+            if let Some(name) = name.filter(|name| device.register(name).is_none()) {
+                let node = format!("alarms[{index}].{field}");
+                defects.push(file.diagnostic(&node, no_register(device, name)));
+            }
+        }
+    }
+}
+
+fn backup(file: &File<Device>, defects: &mut Vec<Diagnostic>) {
+    let device = &file.content;
+    for (index, name) in device.backup.iter().enumerate() {
+        let message = match device.register(name) {
+            None => no_register(device, name),
+            Some(register) if register.area == Area::Eeprom => {
+                format!("{name} is in the EEPROM area, which every backup holds")
+            }
+            Some(_) => continue,
+        };
+        defects.push(file.diagnostic(&format!("backup[{index}]"), message));
     }
 }
 

@@ -23,6 +23,12 @@ pub struct Device {
     pub instructions: Vec<String>,
     /// The register that keeps the EEPROM area read-only while it is not 0.
     pub eeprom_lock: Option<String>,
+    /// Registers of the RAM area that a backup holds beside the whole EEPROM area.
+    #[serde(default)]
+    pub backup: Vec<String>,
+    /// Bits that the device sets when a measurement passes a limit.
+    #[serde(default)]
+    pub alarms: Vec<Alarm>,
     /// The control table, by rising address.
     pub registers: Vec<Register>,
 }
@@ -33,6 +39,20 @@ impl Device {
     pub fn register(&self, name: &str) -> Option<&Register> {
         self.registers.iter().find(|register| register.name == name)
     }
+}
+
+/// A bit that the device sets when a measurement passes a limit.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Alarm {
+    /// Name of the bit.
+    pub bit: String,
+    /// The register that is watched.
+    pub register: String,
+    /// The register that holds the smallest value without an alarm.
+    pub below: Option<String>,
+    /// The register that holds the largest value without an alarm.
+    pub above: Option<String>,
 }
 
 /// A row of a control table.

@@ -28,6 +28,35 @@ pub struct Erratum {
     pub evidence: String,
     /// How sure that is.
     pub status: Status,
+    /// How a test finds the defect by itself, where it can.
+    pub proof: Option<Proof>,
+}
+
+/// How a test finds a defect.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Proof {
+    /// What it looks at.
+    pub kind: ProofKind,
+    /// The document's lines on which it finds the defect, from 1.
+    #[serde(default)]
+    pub lines: Vec<usize>,
+}
+
+/// What a test looks at to find a defect.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ProofKind {
+    /// A printed packet whose length or CRC does not compute.
+    Packet,
+    /// A number printed in decimal and in hexadecimal that are not equal.
+    Number,
+    /// A register's name with an address that is not its own.
+    Reference,
+    /// A row of a control table that is not the register held right.
+    Row,
+    /// A register's range that its own bits or named values do not fit; found without the document.
+    Range,
 }
 
 /// How sure the right reading of an erratum is.

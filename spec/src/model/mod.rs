@@ -13,9 +13,11 @@ mod vector;
 
 pub use bytes::HexBytes;
 pub use citation::Citation;
-pub use device::{Access, Area, BitField, Bound, Device, NamedValue, Range, Register, Type, Unit};
+pub use device::{
+    Access, Alarm, Area, BitField, Bound, Device, NamedValue, Range, Register, Type, Unit,
+};
 pub use document::{Document, DocumentsFile};
-pub use erratum::{ErrataFile, Erratum, Status};
+pub use erratum::{ErrataFile, Erratum, Proof, ProofKind, Status};
 pub use packet::{Block, Packet};
 pub use protocol::{
     ByteOrder, Crc, ErrorNumber, Field, Framing, Id, Instruction, Length, Protocol, Size,

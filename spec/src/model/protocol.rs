@@ -187,6 +187,9 @@ pub struct Instruction {
     /// Whether devices answer it when it goes to the broadcast ID.
     #[serde(default)]
     pub answers_broadcast: bool,
+    /// Whether a device answers it whatever its Status Return Level is.
+    #[serde(default)]
+    pub always_answered: bool,
     /// Layout of its parameters.
     #[serde(default)]
     pub parameters: Vec<Field>,

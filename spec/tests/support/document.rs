@@ -1,0 +1,116 @@
+//! A document's lines with the headings above them.
+
+use std::io::{Write, stderr};
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+use std::{env, fs};
+
+use actucheck_spec::Spec;
+
+/// The folder of the documents, which are not ours to publish. `ACTUCHECK_DOCUMENTS` names
+/// another.
+const FOLDER: &str = "../../shared/documents";
+
+/// Set once the absence of the documents was told.
+static TOLD: OnceLock<()> = OnceLock::new();
+
+/// A document as it was read.
+pub(crate) struct Document {
+    /// Its id in `documents.yaml`.
+    pub(crate) id: String,
+    /// Its lines.
+    pub(crate) lines: Vec<Line>,
+}
+
+/// A line of a document.
+pub(crate) struct Line {
+    /// From 1.
+    pub(crate) number: usize,
+    /// The headings that it stands under, the outermost first.
+    pub(crate) headings: Vec<String>,
+    /// The line itself.
+    pub(crate) text: String,
+}
+
+impl Document {
+    /// Splits a document into lines.
+    pub(crate) fn parse(id: &str, text: &str) -> Self {
+        let mut open: Vec<(usize, String)> = Vec::new();
+        let mut lines = Vec::new();
+        for (index, text) in text.lines().enumerate() {
+            if let Some((level, title)) = heading(text) {
+                open.retain(|(outer, _)| *outer < level);
+                open.push((level, title));
+            }
+            lines.push(Line {
+                number: index + 1,
+                headings: open.iter().map(|(_, title)| title.clone()).collect(),
+                text: text.to_owned(),
+            });
+        }
+        Self { id: id.to_owned(), lines }
+    }
+
+    /// Whether a heading begins with the section that a citation names.
+    pub(crate) fn has(&self, section: &str) -> bool {
+        self.lines.iter().any(|line| line.is_under(section))
+    }
+}
+
+impl Line {
+    /// Whether the line stands in a section, given by its number or its heading.
+    pub(crate) fn is_under(&self, section: &str) -> bool {
+        self.headings.iter().any(|heading| {
+            heading
+                .strip_prefix(section)
+                .is_some_and(|rest| !rest.starts_with(|c: char| c.is_ascii_digit()))
+        })
+    }
+
+    /// The cells of a table's row, without emphasis; none in any other line.
+    pub(crate) fn cells(&self) -> Vec<String> {
+        let Some(row) = self.text.trim().strip_prefix('|') else {
+            return Vec::new();
+        };
+        let row = row.strip_suffix('|').unwrap_or(row);
+        row.split('|').map(|cell| cell.replace(['*', '`'], "").trim().to_owned()).collect()
+    }
+}
+
+/// The level and the words of a heading.
+fn heading(line: &str) -> Option<(usize, String)> {
+    let words = line.trim_start_matches('#');
+    let level = line.len() - words.len();
+    let words = words.strip_prefix(' ').filter(|_| level > 0)?;
+    let words = words.split("](").next().unwrap_or(words);
+    Some((level, words.replace(['*', '['], "").trim().to_owned()))
+}
+
+/// The documents with these ids; `None`, and a line that says so, where the folder is not there.
+pub(crate) fn read(spec: &Spec, ids: &[&str]) -> Option<Vec<Document>> {
+    let folder = env::var_os("ACTUCHECK_DOCUMENTS")
+        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join(FOLDER), PathBuf::from);
+    if !folder.is_dir() {
+        // Past the test harness, which hides what a test that passes prints.
+        let note = || writeln!(stderr(), "skipped: no documents in {}", folder.display());
+        TOLD.get_or_init(|| drop(note()));
+        return None;
+    }
+    let documents = ids.iter().map(|id| {
+        let file = &spec.document(id).expect("documents.yaml has it").file;
+        let text = fs::read_to_string(folder.join(file)).expect("the document is there");
+        Document::parse(id, &text)
+    });
+    Some(documents.collect())
+}
+
+#[test]
+fn a_line_knows_its_headings_and_cells() {
+    let text = "# [1.A](#a)\n## **1.1 B**\n| 0x01 | **2** |\n# 2.C\nwords\n";
+    let document = Document::parse("x", text);
+    assert_eq!(document.lines[2].headings, ["1.A", "1.1 B"]);
+    assert_eq!(document.lines[2].cells(), ["0x01", "2"]);
+    assert_eq!(document.lines[4].headings, ["2.C"]);
+    assert!(document.lines[4].cells().is_empty());
+    assert!(document.has("1.1") && document.has("2.C") && !document.has("3"));
+}
