@@ -75,7 +75,7 @@ fn devices(spec: &Spec, defects: &mut Vec<Diagnostic>) {
 
 fn vectors(spec: &Spec, defects: &mut Vec<Diagnostic>) {
     for file in &spec.vectors {
-        if spec.protocol(&file.content.wire).is_none() {
+        if !spec.has_wire(&file.content.wire) {
             let message = format!("unknown protocol `{}`", file.content.wire);
             defects.push(file.diagnostic("wire", message));
         }

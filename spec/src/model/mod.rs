@@ -6,6 +6,7 @@ mod citation;
 mod device;
 mod document;
 mod erratum;
+mod innfos;
 mod packet;
 mod protocol;
 mod requirement;
@@ -16,6 +17,10 @@ pub use citation::Citation;
 pub use device::{Access, Area, BitField, Bound, Device, NamedValue, Range, Register, Type, Unit};
 pub use document::{Document, DocumentsFile};
 pub use erratum::{ErrataFile, Erratum, Status};
+pub use innfos::{
+    Actuator, Actuators, Alarm, Alarms, Command, CrcPresence, Direction, Envelope, Format,
+    FormatRow, FrameKind, FullScale, Innfos, Mode, Modes, Udp,
+};
 pub use packet::{Block, Packet};
 pub use protocol::{
     ByteOrder, Crc, ErrorNumber, Field, Framing, Id, Instruction, Length, Protocol, Size,
