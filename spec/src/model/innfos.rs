@@ -1,3 +1,4 @@
+use std::fmt;
 use std::net::Ipv4Addr;
 
 use serde::{Deserialize, Serialize};
@@ -137,6 +138,20 @@ pub enum Format {
     Mac,
 }
 
+impl fmt::Display for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Flag => "flag",
+            Self::Mode => "mode",
+            Self::Alarms => "alarms",
+            Self::Iq8 => "iq8",
+            Self::Iq24 => "iq24",
+            Self::Scaled => "scaled",
+            Self::Mac => "mac",
+        })
+    }
+}
+
 /// The size of a format.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -191,6 +206,15 @@ pub enum Direction {
     Read,
     /// The request carries the value.
     Write,
+}
+
+impl fmt::Display for Direction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Read => "read",
+            Self::Write => "write",
+        })
+    }
 }
 
 /// A column of [`Actuators`].
