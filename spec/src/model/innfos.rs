@@ -134,7 +134,7 @@ pub enum Format {
     Iq24,
     /// A signed number, the true value times [`Command::factor`].
     Scaled,
-    /// A MAC address.
+    /// What the document calls a MAC address.
     Mac,
 }
 
