@@ -83,7 +83,7 @@ impl Golden<'_> {
         self.check("crc", "dynamixel2.crc.value", op, demand)
     }
 
-    /// The body alone, both ways. A fast status has no stuffing.
+    /// The body alone, both ways. A fast status has no stuffing, nor has INNFOS.
     fn stuffing(&self, packet: &Packet, frame: &[u8]) -> Vec<Check> {
         let plain: HexBytes = match packet {
             Packet::Instruction { instruction, params, .. } => {
@@ -92,7 +92,9 @@ impl Golden<'_> {
             Packet::Status { error, params, .. } => {
                 [&[0x55, *error], params.0.as_slice()].concat().into()
             }
-            Packet::FastStatus { .. } => return Vec::new(),
+            Packet::FastStatus { .. } | Packet::Request { .. } | Packet::Reply { .. } => {
+                return Vec::new();
+            }
         };
         let stuffed: HexBytes = frame
             .get(PREFIX..frame.len().saturating_sub(CRC))

@@ -95,6 +95,10 @@ impl Builtin {
                 let blocks: Vec<_> = blocks.iter().map(block).collect();
                 fast_status::encode(&blocks, buffer)
             }
+            Packet::Request { .. } | Packet::Reply { .. } => {
+                let error = "a packet of a wire that the codec does not offer";
+                return Err(rejection(Fault::Internal, &error));
+            }
         };
         bytes.map(output).map_err(|error| {
             let class = match error {

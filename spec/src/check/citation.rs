@@ -1,5 +1,6 @@
 //! Everything cites a document that there is.
 
+use super::innfos;
 use crate::model::Citation;
 use crate::{Diagnostic, Spec};
 
@@ -20,6 +21,11 @@ pub(super) fn check(spec: &Spec) -> Vec<Diagnostic> {
             let node = format!("instructions[{index}].source");
             defects.extend(wrong(spec, &row.source).map(|message| file.diagnostic(&node, message)));
         }
+    }
+    for part in innfos::parts(&spec.innfos.content) {
+        let node = format!("{}.source", part.node);
+        let wrong = wrong(spec, part.source);
+        defects.extend(wrong.map(|message| spec.innfos.diagnostic(&node, message)));
     }
     for file in &spec.devices {
         let device = &file.content;

@@ -1,22 +1,31 @@
 //! A CRC's parameters yield its check value.
 
+use crate::model::Crc;
 use crate::{Diagnostic, Spec};
 
 pub(super) fn check(spec: &Spec) -> Vec<Diagnostic> {
     let mut defects = Vec::new();
     for file in &spec.protocols {
-        let crc = &file.content.crc;
-        let computed = crc.compute(b"123456789");
-        if crc.width != 16 {
-            let message = format!("a CRC of {} bits; only 16 are supported", crc.width);
-            defects.push(file.diagnostic("crc.width", message));
-        } else if computed != crc.check {
-            let message = format!(
-                "check value {:#06X}, but the parameters of {} yield {computed:#06X}",
-                crc.check, crc.name
-            );
-            defects.push(file.diagnostic("crc.check", message));
-        }
+        let fault = fault(&file.content.crc);
+        defects.extend(fault.map(|(node, message)| file.diagnostic(node, message)));
     }
+    let fault = fault(&spec.innfos.content.crc);
+    defects.extend(fault.map(|(node, message)| spec.innfos.diagnostic(node, message)));
     defects
+}
+
+fn fault(crc: &Crc) -> Option<(&'static str, String)> {
+    let computed = crc.compute(b"123456789");
+    if crc.width != 16 {
+        let message = format!("a CRC of {} bits; only 16 are supported", crc.width);
+        Some(("crc.width", message))
+    } else if computed != crc.check {
+        let message = format!(
+            "check value {:#06X}, but the parameters of {} yield {computed:#06X}",
+            crc.check, crc.name
+        );
+        Some(("crc.check", message))
+    } else {
+        None
+    }
 }

@@ -1,8 +1,13 @@
 //! What serde can't see: rules over whole files and between them, one a file. Each returns what
 //! it finds wrong, with its place.
 
+mod alarm;
 mod citation;
+mod command;
 mod crc;
+mod fixed_point;
+mod full_scale;
+mod innfos;
 mod layout;
 mod overlap;
 mod reference;
@@ -15,7 +20,7 @@ use crate::{Diagnostic, Spec};
 /// Every defect that the rules find, in the order of the rules.
 #[must_use]
 pub fn all(spec: &Spec) -> Vec<Diagnostic> {
-    let rules: [fn(&Spec) -> Vec<Diagnostic>; 8] = [
+    let rules: [fn(&Spec) -> Vec<Diagnostic>; 12] = [
         citation::check,
         unique::check,
         reference::check,
@@ -23,6 +28,10 @@ pub fn all(spec: &Spec) -> Vec<Diagnostic> {
         value::check,
         layout::check,
         crc::check,
+        fixed_point::check,
+        command::check,
+        alarm::check,
+        full_scale::check,
         vector::check,
     ];
     rules.iter().flat_map(|rule| rule(spec)).collect()

@@ -1,5 +1,6 @@
 //! What is named exists: registers, instructions, protocols, requirements, errata.
 
+use super::innfos;
 use crate::load::File;
 use crate::model::{Area, Bound, Device};
 use crate::{Diagnostic, Spec};
@@ -7,6 +8,7 @@ use crate::{Diagnostic, Spec};
 pub(super) fn check(spec: &Spec) -> Vec<Diagnostic> {
     let mut defects = Vec::new();
     protocols(spec, &mut defects);
+    commands(spec, &mut defects);
     devices(spec, &mut defects);
     vectors(spec, &mut defects);
     defects
@@ -29,6 +31,21 @@ fn protocols(spec: &Spec, defects: &mut Vec<Diagnostic>) {
             let node = format!("instructions[{index}].errata");
             let unknown = unknown_erratum(spec, &row.errata);
             defects.extend(unknown.map(|text| file.diagnostic(&node, text)));
+        }
+    }
+}
+
+fn commands(spec: &Spec, defects: &mut Vec<Diagnostic>) {
+    let file = &spec.innfos;
+    for part in innfos::parts(&file.content) {
+        let node = format!("{}.errata", part.node);
+        let unknown = unknown_erratum(spec, part.errata);
+        defects.extend(unknown.map(|text| file.diagnostic(&node, text)));
+    }
+    for (index, code) in file.content.crc_presence.open.iter().enumerate() {
+        if file.content.command(*code).is_none() {
+            let message = format!("there is no command {code:#04X}");
+            defects.push(file.diagnostic(&format!("crc_presence.open[{index}]"), message));
         }
     }
 }
@@ -118,7 +135,7 @@ fn backup(file: &File<Device>, defects: &mut Vec<Diagnostic>) {
 
 fn vectors(spec: &Spec, defects: &mut Vec<Diagnostic>) {
     for file in &spec.vectors {
-        if spec.protocol(&file.content.wire).is_none() {
+        if !spec.has_wire(&file.content.wire) {
             let message = format!("unknown protocol `{}`", file.content.wire);
             defects.push(file.diagnostic("wire", message));
         }

@@ -19,6 +19,20 @@ pub(super) fn check(spec: &Spec) -> Vec<Diagnostic> {
         let errors = file.content.status.errors.as_slice();
         defects.extend(repeated([(file, errors)], "status.errors", "number", |row| row.number));
     }
+    let innfos = &spec.innfos.content;
+    let commands = [(&spec.innfos, innfos.commands.as_slice())];
+    defects.extend(repeated(commands, "commands", "code", |row| row.code));
+    defects.extend(repeated(commands, "commands", "name", |row| {
+        format!("{} ({})", row.name, row.direction)
+    }));
+    let formats = [(&spec.innfos, innfos.formats.as_slice())];
+    defects.extend(repeated(formats, "formats", "format", |row| row.format));
+    let modes = [(&spec.innfos, innfos.modes.rows.as_slice())];
+    defects.extend(repeated(modes, "modes.rows", "code", |row| row.code));
+    let alarms = [(&spec.innfos, innfos.alarms.rows.as_slice())];
+    defects.extend(repeated(alarms, "alarms.rows", "mask", |row| row.mask));
+    let actuators = [(&spec.innfos, innfos.actuators.rows.as_slice())];
+    defects.extend(repeated(actuators, "actuators.rows", "name", |row| &row.name));
     for file in &spec.devices {
         let rows = file.content.registers.as_slice();
         defects.extend(repeated([(file, rows)], "registers", "name", |row| &row.name));

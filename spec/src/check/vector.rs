@@ -1,18 +1,22 @@
 //! A vector's bytes and fields say the same, and its kind of result has what it needs.
 
+mod innfos;
+
 use crate::load::File;
-use crate::model::{ByteOrder, HexBytes, Outcome, Packet, Protocol, Vector, VectorsFile};
+use crate::model::{ByteOrder, HexBytes, Innfos, Outcome, Packet, Protocol, Vector, VectorsFile};
 use crate::{Diagnostic, Spec};
 
 pub(super) fn check(spec: &Spec) -> Vec<Diagnostic> {
     let mut defects = Vec::new();
     for file in &spec.vectors {
-        let Some(protocol) = spec.protocol(&file.content.wire) else {
+        let Some(wire) = Wire::of(spec, &file.content.wire) else {
             continue;
         };
         for (index, vector) in file.content.vectors.iter().enumerate() {
             let node = format!("vectors[{index}]");
-            if let Some(message) = shape(vector).or_else(|| contents(protocol, vector)) {
+            let message =
+                shape(vector).or_else(|| wire.shape(vector)).or_else(|| wire.contents(vector));
+            if let Some(message) = message {
                 defects.push(defect(file, &node, vector, &message));
             }
         }
@@ -47,24 +51,63 @@ fn shape(vector: &Vector) -> Option<String> {
     Some(message.to_owned())
 }
 
-/// Whether the packet's fields, put together by the protocol's rules, yield the frame.
-fn contents(protocol: &Protocol, vector: &Vector) -> Option<String> {
-    let built = frame(protocol, vector.packet.as_ref()?);
-    let given = vector.frame();
-    (built != given).then(|| {
-        let at = built.iter().zip(given).take_while(|(built, given)| built == given).count();
-        format!(
-            "the fields yield {}, the bytes are {}; they part at byte {at}",
-            HexBytes(built),
-            HexBytes(given.to_vec())
-        )
-    })
+/// The rules by which packets become frames.
+enum Wire<'a> {
+    Dynamixel(&'a Protocol),
+    Innfos(&'a Innfos),
 }
 
-fn frame(protocol: &Protocol, packet: &Packet) -> Vec<u8> {
+impl<'a> Wire<'a> {
+    fn of(spec: &'a Spec, id: &str) -> Option<Self> {
+        let innfos = &spec.innfos.content;
+        if innfos.protocol == id {
+            Some(Self::Innfos(innfos))
+        } else {
+            spec.protocol(id).map(Self::Dynamixel)
+        }
+    }
+
+    /// Whether a damaged frame says which way it goes, where no frame tells so itself.
+    fn shape(&self, vector: &Vector) -> Option<String> {
+        let needed = matches!(self, Self::Innfos(_)) && vector.result == Outcome::Invalid;
+        let message = match (needed, vector.kind.is_some()) {
+            (true, false) => "an invalid frame of this wire needs its `kind`, request or reply",
+            (false, true) => "`kind` is for the invalid frames of a wire that does not tell it",
+            _ => return None,
+        };
+        Some(message.to_owned())
+    }
+
+    /// Whether the packet's fields, put together by the wire's rules, yield the frame.
+    fn contents(&self, vector: &Vector) -> Option<String> {
+        let packet = vector.packet.as_ref()?;
+        let frames = match self {
+            Self::Dynamixel(protocol) => frame(protocol, packet).into_iter().collect(),
+            Self::Innfos(innfos) => innfos::frames(innfos, packet),
+        };
+        let given = vector.frame();
+        let Some(built) = frames.first() else {
+            return Some("the wire has no packets of this kind".to_owned());
+        };
+        if frames.iter().any(|frame| frame == given) {
+            return (frames.len() > 1 && vector.result == Outcome::Valid).then(|| {
+                "this frame has other readings, so it can only be `acceptable`".to_owned()
+            });
+        }
+        let at = built.iter().zip(given).take_while(|(built, given)| built == given).count();
+        Some(format!(
+            "the fields yield {}, the bytes are {}; they part at byte {at}",
+            HexBytes(built.clone()),
+            HexBytes(given.to_vec())
+        ))
+    }
+}
+
+/// The packet's frame; `None` for a packet of another wire.
+fn frame(protocol: &Protocol, packet: &Packet) -> Option<Vec<u8>> {
     let status = protocol.status.instruction;
     let broadcast = protocol.framing.id.broadcast;
-    match packet {
+    let frame = match packet {
         Packet::Instruction { id, instruction, params } => {
             let body = [&[*instruction], params.0.as_slice()].concat();
             let body = stuffed(protocol, &body);
@@ -92,7 +135,9 @@ fn frame(protocol: &Protocol, packet: &Packet) -> Vec<u8> {
             }
             frame
         }
-    }
+        Packet::Request { .. } | Packet::Reply { .. } => return None,
+    };
+    Some(frame)
 }
 
 fn header(protocol: &Protocol, id: u8, length: usize) -> Vec<u8> {

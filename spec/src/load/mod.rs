@@ -7,7 +7,7 @@ use serde::de::DeserializeOwned;
 use crate::Diagnostic;
 use crate::check;
 use crate::model::{
-    Citation, Device, Document, DocumentsFile, ErrataFile, Erratum, Protocol, Requirement,
+    Citation, Device, Document, DocumentsFile, ErrataFile, Erratum, Innfos, Protocol, Requirement,
     RequirementsFile, Vector, VectorsFile,
 };
 
@@ -38,6 +38,9 @@ static EMBEDDED: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/sources.r
 pub fn embedded() -> Vec<Source> {
     EMBEDDED.iter().map(|(path, text)| Source::new(path, text)).collect()
 }
+
+/// The one file of `protocols/` that is of a shape of its own.
+const INNFOS: &str = "protocols/innfos.yaml";
 
 /// What one YAML file says, with the text that it was read from.
 #[derive(Clone, Debug)]
@@ -87,8 +90,10 @@ fn plain_message(error: &serde_yaml::Error) -> String {
 pub struct Spec {
     /// The documents that citations point to.
     pub documents: File<DocumentsFile>,
-    /// The wires, a file a protocol.
+    /// The wires of the DYNAMIXEL kind, a file a protocol.
     pub protocols: Vec<File<Protocol>>,
+    /// The wire of INNFOS, which has commands where the others have control tables.
+    pub innfos: File<Innfos>,
     /// The control tables, a file a device.
     pub devices: Vec<File<Device>>,
     /// The golden packets, a file a document section.
@@ -121,14 +126,15 @@ impl Spec {
     fn parse(sources: &[Source]) -> Result<Self, Vec<Diagnostic>> {
         let mut reader = Reader { sources, defects: Vec::new() };
         let documents = reader.one("documents.yaml");
-        let protocols = reader.folder("protocols/");
+        let protocols = reader.folder_without("protocols/", INNFOS);
+        let innfos = reader.one(INNFOS);
         let devices = reader.folder("devices/");
         let vectors = reader.folder("vectors/");
         let requirements = reader.folder("requirements/");
         let errata = reader.one("errata.yaml");
-        match (documents, errata) {
-            (Some(documents), Some(errata)) if reader.defects.is_empty() => {
-                Ok(Self { documents, protocols, devices, vectors, requirements, errata })
+        match (documents, innfos, errata) {
+            (Some(documents), Some(innfos), Some(errata)) if reader.defects.is_empty() => {
+                Ok(Self { documents, protocols, innfos, devices, vectors, requirements, errata })
             }
             _ => Err(reader.defects),
         }
@@ -144,6 +150,12 @@ impl Spec {
     #[must_use]
     pub fn protocol(&self, id: &str) -> Option<&Protocol> {
         self.protocols.iter().map(|file| &file.content).find(|protocol| protocol.protocol == id)
+    }
+
+    /// Whether there is a wire with this id, of either kind.
+    #[must_use]
+    pub fn has_wire(&self, id: &str) -> bool {
+        self.protocol(id).is_some() || self.innfos.content.protocol == id
     }
 
     /// The device with this id.
@@ -201,9 +213,20 @@ impl Reader<'_> {
     }
 
     fn folder<T: DeserializeOwned>(&mut self, prefix: &str) -> Vec<File<T>> {
-        let prefix = format!("spec/{prefix}");
+        self.read(|name| name.starts_with(prefix))
+    }
+
+    fn folder_without<T: DeserializeOwned>(&mut self, prefix: &str, other: &str) -> Vec<File<T>> {
+        self.read(|name| name.starts_with(prefix) && name != other)
+    }
+
+    fn read<T: DeserializeOwned>(&mut self, wanted: impl Fn(&str) -> bool) -> Vec<File<T>> {
         let mut files = Vec::new();
-        for source in self.sources.iter().filter(|source| source.path.starts_with(&prefix)) {
+        for source in self
+            .sources
+            .iter()
+            .filter(|source| source.path.strip_prefix("spec/").is_some_and(&wanted))
+        {
             match File::read(source) {
                 Ok(file) => files.push(file),
                 Err(defect) => self.defects.push(defect),

@@ -6,6 +6,7 @@ mod citation;
 mod device;
 mod document;
 mod erratum;
+mod innfos;
 mod packet;
 mod protocol;
 mod requirement;
@@ -18,6 +19,10 @@ pub use device::{
 };
 pub use document::{Document, DocumentsFile};
 pub use erratum::{ErrataFile, Erratum, Proof, ProofKind, Status};
+pub use innfos::{
+    Actuator, Actuators, AlarmBit, Alarms, Command, CrcPresence, Direction, Envelope, Format,
+    FormatRow, FrameKind, FullScale, Innfos, Mode, Modes, Udp,
+};
 pub use packet::{Block, Packet};
 pub use protocol::{
     ByteOrder, Crc, ErrorNumber, Field, Framing, Id, Instruction, Length, Protocol, Size,

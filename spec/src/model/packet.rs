@@ -30,6 +30,24 @@ pub enum Packet {
         /// One block a device, in the order asked for.
         blocks: Vec<Block>,
     },
+    /// INNFOS: what a host sends.
+    Request {
+        /// Whom it is for; 0 is the broadcast address.
+        address: u8,
+        /// The command's code.
+        command: u8,
+        /// Everything between the length and the CRC.
+        data: HexBytes,
+    },
+    /// INNFOS: what a device answers.
+    Reply {
+        /// Who answers.
+        address: u8,
+        /// The code of the command that it answers.
+        command: u8,
+        /// Everything between the length and the CRC.
+        data: HexBytes,
+    },
 }
 
 /// One device's part of a fast status packet.

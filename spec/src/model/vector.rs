@@ -2,7 +2,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Citation, HexBytes, Packet};
+use super::{Citation, FrameKind, HexBytes, Packet};
 
 /// A file of `vectors/`: the golden packets of one section.
 #[derive(Clone, Debug, Deserialize)]
@@ -42,6 +42,8 @@ pub struct Vector {
     pub errata: Vec<String>,
     /// Id of the requirement that it shows, if it is not the wire's general one.
     pub requirement: Option<String>,
+    /// For an invalid frame of a wire whose frames do not tell which way they go: the way.
+    pub kind: Option<FrameKind>,
     /// What the frame means; absent for an invalid one.
     pub packet: Option<Packet>,
 }

@@ -1,0 +1,14 @@
+//! An alarm is one bit.
+
+use crate::{Diagnostic, Spec};
+
+pub(super) fn check(spec: &Spec) -> Vec<Diagnostic> {
+    let file = &spec.innfos;
+    let rows = file.content.alarms.rows.iter().enumerate();
+    rows.filter(|(_, row)| !row.mask.is_power_of_two())
+        .map(|(index, row)| {
+            let message = format!("{}: {:#06X} is no single bit", row.name, row.mask);
+            file.diagnostic(&format!("alarms.rows[{index}].mask"), message)
+        })
+        .collect()
+}

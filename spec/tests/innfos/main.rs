@@ -1,0 +1,28 @@
+//! What arithmetic can prove of the INNFOS files: of the YAML alone, and against the document
+//! where the workspace stands beside it.
+
+#![allow(
+    clippy::expect_used,
+    clippy::indexing_slicing,
+    clippy::panic,
+    reason = "a test may stop at the first surprise, in its helpers too"
+)]
+
+mod document;
+mod frame;
+mod numbers;
+mod rules;
+mod tables;
+mod vectors;
+
+use actucheck_spec::Spec;
+use actucheck_spec::model::Vector;
+
+fn spec() -> Spec {
+    Spec::embedded().expect("the spec folder has defects")
+}
+
+/// The vectors of the wire.
+fn vectors(spec: &Spec) -> impl Iterator<Item = &Vector> {
+    spec.vectors().filter(|(file, _)| file.wire == "innfos").map(|(_, vector)| vector)
+}
