@@ -8,7 +8,7 @@ use clap::{Args, Parser, Subcommand};
 
 /// Checks implementations of robot actuators' protocols against the documents.
 #[derive(Debug, Parser)]
-#[command(version, arg_required_else_help = true, after_help = EXIT)]
+#[command(version, after_help = EXIT)]
 pub(crate) struct Cli {
     #[command(subcommand)]
     pub(crate) command: Command,
@@ -85,7 +85,7 @@ pub(crate) struct Decode {
     /// The wire that the packet is of
     #[arg(long, value_enum, default_value = "dynamixel2")]
     pub(crate) wire: Wire,
-    /// Which way the packet goes, for wires on which it can't tell itself
+    /// Which way the packet must go
     #[arg(long, value_enum)]
     pub(crate) kind: Option<Kind>,
     /// The device whose registers are meant

@@ -128,15 +128,26 @@ fn wrong_usage_is_one_line_and_status_2() {
         &["codec", "--expect", "/no/such/file"],
         &["codec", "--frobnicate"],
         &["frobnicate"],
+        &["codec", "--"],
+        &[],
     ] {
         let (status, stdout, stderr) = actucheck(arguments);
         assert_eq!((status, stdout.as_str()), (2, ""), "{arguments:?}: {stderr}");
-        assert!(!stderr.contains("panicked"), "{arguments:?}: {stderr}");
+        assert!(stderr.starts_with("actucheck: "), "{arguments:?}: {stderr}");
+        assert_eq!(stderr.lines().count(), 1, "{arguments:?}: {stderr}");
     }
     assert_eq!(
         actucheck(&["decode", "0G"]).2,
         "actucheck: `G` at position 1 is no hex digit; bytes are written as `FF FF FD 00`\n"
     );
+}
+
+#[test]
+fn a_packet_that_goes_the_other_way_is_refused() {
+    assert_eq!(actucheck(&["decode", "--kind", "request", WRITE]).0, 0);
+    let (status, _, stderr) = actucheck(&["decode", "--kind", "reply", WRITE]);
+    assert_eq!(status, 1);
+    insta::assert_snapshot!(stderr, @"actucheck: no valid reply: byte 7, the instruction, makes it a request");
 }
 
 #[test]

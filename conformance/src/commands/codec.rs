@@ -55,6 +55,11 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
 
 fn testee(options: &Codec) -> Result<Box<dyn Testee>, Failure> {
     if options.command.is_empty() {
+        // clap does not tell `--` with nothing behind it from no `--` at all.
+        if std::env::args_os().next_back().is_some_and(|last| last == "--") {
+            let message = "no command behind `--`; give the adapter's, such as python3 adapter.py";
+            return Err(Failure::new(Failure::USAGE, message));
+        }
         return Ok(Box::new(Builtin::default()));
     }
     let timeouts = Timeouts { start: options.start_timeout, request: options.timeout };

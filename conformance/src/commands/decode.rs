@@ -6,16 +6,20 @@ use std::process::ExitCode;
 use actucheck::explain::frame::{Explanation, explain, explain_fast};
 use actucheck::protocol::{Op, Output};
 use actucheck::testee::{Answer, Builtin, Testee as _};
+use actucheck_codec::dynamixel2::Instruction;
 use actucheck_codec::register::Device;
-use actucheck_codec::{FrameError, ja40};
+use actucheck_codec::{FrameError, ja_variant, ja40, xm430_w210};
 use actucheck_spec::model::HexBytes;
 use anstyle::Style;
 
 use super::Failure;
-use crate::cli::Decode;
+use crate::cli::{Decode, Kind};
 
 /// The devices whose registers can be named.
-const DEVICES: [&Device; 1] = [&ja40::DEVICE];
+const DEVICES: [&Device; 3] = [&ja40::DEVICE, &ja_variant::DEVICE, &xm430_w210::DEVICE];
+
+/// Where a packet has its instruction.
+const INSTRUCTION: usize = 7;
 
 /// Explains the packet, or prints it as an object.
 pub(crate) fn run(options: &Decode) -> Result<ExitCode, Failure> {
@@ -26,6 +30,7 @@ pub(crate) fn run(options: &Decode) -> Result<ExitCode, Failure> {
         None => explain(&bytes, device, options.address),
     }
     .map_err(|error| invalid(&error))?;
+    check_kind(options.kind, &bytes)?;
     let text = if options.json { json(options, bytes)? } else { table(&explanation) };
     // A reader that has seen enough is no failure.
     let _ = write!(anstream::stdout(), "{text}");
@@ -51,6 +56,23 @@ fn device(name: &str) -> Result<&'static Device, Failure> {
         let message = format!("unknown device `{name}`; known are {}", ids.join(", "));
         Failure::new(Failure::USAGE, message)
     })
+}
+
+/// Refuses a packet that goes the other way than the user says.
+fn check_kind(kind: Option<Kind>, bytes: &[u8]) -> Result<(), Failure> {
+    let found = match bytes.get(INSTRUCTION) {
+        Some(code) if *code == Instruction::Status.code() => Kind::Reply,
+        _ => Kind::Request,
+    };
+    match kind {
+        Some(kind) if kind != found => {
+            let message = format!(
+                "no valid {kind:?}: byte {INSTRUCTION}, the instruction, makes it a {found:?}"
+            );
+            Err(Failure::new(Failure::FAILED, message.to_lowercase()))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn invalid(error: &FrameError) -> Failure {
