@@ -13,7 +13,7 @@ fn crc(criterion: &mut Criterion) {
         let bytes = noise(size);
         group.throughput(Throughput::Bytes(size as u64));
         group.bench_with_input(BenchmarkId::from_parameter(size), &bytes, |bencher, bytes| {
-            bencher.iter(|| crc::of(black_box(bytes)));
+            bencher.iter(|| crc::umts(black_box(bytes)));
         });
     }
     group.finish();

@@ -61,7 +61,7 @@ impl<'a> FastStatus<'a> {
             let at = start + block_len - 2;
             if let (Some(before), Some([low, high])) = (bytes.get(..at), block.get(block_len - 2..))
             {
-                let (found, expected) = (u16::from_le_bytes([*low, *high]), crc::of(before));
+                let (found, expected) = (u16::from_le_bytes([*low, *high]), crc::umts(before));
                 if found != expected {
                     return Err(FrameError::Crc { at, found, expected });
                 }

@@ -142,7 +142,7 @@ impl<'a> Parts<'a> {
     }
 
     pub(crate) fn check_crc(&self) -> Result<(), FrameError> {
-        let (found, expected) = (self.crc, crc::of(self.before_crc));
+        let (found, expected) = (self.crc, crc::umts(self.before_crc));
         let at = self.before_crc.len();
         if found == expected { Ok(()) } else { Err(FrameError::Crc { at, found, expected }) }
     }
@@ -207,7 +207,7 @@ impl<'b> Writer<'b> {
 
     /// Appends the CRC of all that was written so far.
     pub(crate) fn put_crc(&mut self) {
-        let crc = crc::of(self.buffer.get(..self.written).unwrap_or_default());
+        let crc = crc::umts(self.buffer.get(..self.written).unwrap_or_default());
         let [low, high] = crc.to_le_bytes();
         self.put(low);
         self.put(high);

@@ -80,7 +80,7 @@ fn the_crc_of_an_inner_block_counts() {
     // The first block's CRC is wrong, the packet's own is right for what it covers.
     let mut bytes = FAST;
     bytes[14] ^= 0x01;
-    let crc = actucheck_codec::crc::of(&bytes[..22]).to_le_bytes();
+    let crc = actucheck_codec::crc::umts(&bytes[..22]).to_le_bytes();
     bytes[22..].copy_from_slice(&crc);
     let error = FrameError::Crc { at: 14, found: 0x830D, expected: 0x830C };
     assert_eq!(FastStatus::parse(&bytes, 4, &[1, 2]).map(drop), Err(error));

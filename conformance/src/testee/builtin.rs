@@ -45,7 +45,7 @@ impl Testee for Builtin {
 
     fn ask(&mut self, op: &Op) -> Answer {
         let output = match op {
-            Op::Crc { bytes, .. } => Ok(Output::Crc(crc::of(bytes).into())),
+            Op::Crc { bytes, .. } => Ok(Output::Crc(crc::umts(bytes).into())),
             Op::Stuff { bytes, .. } => self.stuff(bytes),
             Op::Unstuff { bytes, .. } => self.unstuff(bytes),
             Op::Encode { packet, .. } => self.encode(&packet.packet),

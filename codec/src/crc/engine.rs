@@ -1,0 +1,116 @@
+//! The choice of a back end.
+
+#[cfg(target_arch = "x86_64")]
+use super::clmul::{Narrow, Wide};
+use super::order::{Lsb, Msb, Order};
+use super::{MODBUS_INIT, UMTS_INIT, portable};
+
+/// The way this machine computes CRCs best, found once.
+///
+/// The free functions of [`crc`](super) look it up on every call, which costs a load and a
+/// branch. A parser of short packets keeps an `Engine` instead: one byte, and every call is a
+/// predictable branch away from the code for this processor.
+///
+/// With the feature `std` the processor is asked; without it, only instructions that the build
+/// was told to use are used (`-C target-feature`). All engines give the same results.
+///
+/// ```
+/// use actucheck_codec::crc::{self, Engine};
+///
+/// let engine = Engine::new();
+/// for packet in [&b"one"[..], b"another"] {
+///     assert_eq!(engine.umts(packet), crc::umts(packet));
+///     assert_eq!(engine.modbus(packet), Engine::portable().modbus(packet));
+/// }
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Engine(Kind);
+
+#[derive(Clone, Copy, Debug)]
+enum Kind {
+    Portable,
+    #[cfg(target_arch = "x86_64")]
+    Narrow(Narrow),
+    #[cfg(target_arch = "x86_64")]
+    Wide(Wide),
+}
+
+impl Default for Engine {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Engine {
+    /// The best engine for this machine.
+    #[must_use]
+    #[inline]
+    pub fn new() -> Self {
+        #[cfg(target_arch = "x86_64")]
+        {
+            if let Some(wide) = Wide::new() {
+                return Self(Kind::Wide(wide));
+            }
+            if let Some(narrow) = Narrow::new() {
+                return Self(Kind::Narrow(narrow));
+            }
+        }
+        Self::portable()
+    }
+
+    /// The engine that needs no particular processor.
+    #[must_use]
+    #[inline]
+    pub const fn portable() -> Self {
+        Self(Kind::Portable)
+    }
+
+    /// Every engine that this machine can run, the portable one first: for tests that compare
+    /// them.
+    pub fn all() -> impl Iterator<Item = Self> {
+        #[cfg(target_arch = "x86_64")]
+        let special = [Narrow::new().map(Kind::Narrow), Wide::new().map(Kind::Wide)];
+        #[cfg(not(target_arch = "x86_64"))]
+        let special = [];
+        [Self::portable()].into_iter().chain(special.into_iter().flatten().map(Self))
+    }
+
+    /// As [`crc::umts`](super::umts).
+    #[must_use]
+    #[inline]
+    pub fn umts(self, bytes: &[u8]) -> u16 {
+        self.umts_update(UMTS_INIT, bytes)
+    }
+
+    /// As [`crc::umts_update`](super::umts_update).
+    #[must_use]
+    #[inline]
+    pub fn umts_update(self, state: u16, bytes: &[u8]) -> u16 {
+        self.update::<Msb>(state, bytes)
+    }
+
+    /// As [`crc::modbus`](super::modbus).
+    #[must_use]
+    #[inline]
+    pub fn modbus(self, bytes: &[u8]) -> u16 {
+        self.modbus_update(MODBUS_INIT, bytes)
+    }
+
+    /// As [`crc::modbus_update`](super::modbus_update).
+    #[must_use]
+    #[inline]
+    pub fn modbus_update(self, state: u16, bytes: &[u8]) -> u16 {
+        self.update::<Lsb>(state, bytes)
+    }
+
+    #[inline]
+    fn update<O: Order>(self, state: u16, bytes: &[u8]) -> u16 {
+        match self.0 {
+            Kind::Portable => portable::update::<O>(state, bytes),
+            #[cfg(target_arch = "x86_64")]
+            Kind::Narrow(narrow) => narrow.update::<O>(state, bytes),
+            #[cfg(target_arch = "x86_64")]
+            Kind::Wide(wide) => wide.update::<O>(state, bytes),
+        }
+    }
+}
