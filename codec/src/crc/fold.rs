@@ -4,6 +4,7 @@
 //! in y; to reduce it modulo P^128, the highest block is added to the blocks one, 14 and 16
 //! places below. Each addition takes 16 whole bytes, so the order of the bits and bytes in a
 //! block does not matter and any vector unit will do.
+#![expect(clippy::indexing_slicing, reason = "arrays of a fixed size, indices below it")]
 
 use super::order::Order;
 

@@ -12,6 +12,7 @@
 //! A remainder modulo P^n is as good as the message itself, since P divides P^n. So a long
 //! message is halved, again and again, each time modulo a smaller power of P, until it fits a
 //! word. The larger n, the fewer factors: at n = 64 the quotient is the word.
+#![expect(clippy::indexing_slicing, reason = "arrays of a fixed size, indices below it")]
 
 use super::compact;
 use super::fold;

@@ -2,6 +2,7 @@
 //!
 //! Everything here is in the plain bit order (bit i is x^i); a reflected state is turned round on
 //! the way in and out.
+#![expect(clippy::indexing_slicing, reason = "arrays of a fixed size, indices below it")]
 
 /// The order of x modulo P = (x + 1)(x^15 + x + 1): x^32767 = 1.
 const ORDER: u64 = 32_767;

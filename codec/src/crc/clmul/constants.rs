@@ -2,6 +2,7 @@
 //!
 //! A product of two reflected words is the reflected product divided by x. The constants of the
 //! reflected order make up for it: they are one power of x lower.
+#![expect(clippy::indexing_slicing, reason = "arrays of a fixed size, indices below it")]
 
 use super::super::order::Order;
 use super::super::shift::power_of_x;

@@ -1,4 +1,5 @@
 //! 128-bit registers: any processor with PCLMULQDQ.
+#![expect(clippy::indexing_slicing, reason = "arrays of a fixed size, indices below it")]
 
 use core::arch::x86_64::{
     __m128i, _mm_clmulepi64_si128, _mm_cvtsi32_si128, _mm_extract_epi16, _mm_set_epi8,

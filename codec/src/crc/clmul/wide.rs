@@ -1,4 +1,5 @@
 //! 256-bit registers: any processor with VPCLMULQDQ and AVX2.
+#![expect(clippy::indexing_slicing, reason = "arrays of a fixed size, indices below it")]
 
 use core::arch::x86_64::{
     __m256i, _mm256_castsi256_si128, _mm256_clmulepi64_epi128, _mm256_extracti128_si256,
