@@ -116,7 +116,8 @@ pub fn fields<'a>(layout: &'static [Field], params: &'a [u8]) -> Fields<'a> {
     Fields { ahead: layout, group: None, held: [None; HELD], params, offset: 0 }
 }
 
-/// How many numbers a layout's sizes can refer to; the documents' layouts have two at most.
+/// How many fields of different names a layout can have before one that refers to them; the
+/// documents' layouts have three.
 const HELD: usize = 4;
 
 /// The walk that [`fields`] begins.
@@ -126,7 +127,7 @@ pub struct Fields<'a> {
     ahead: &'static [Field],
     /// The group that repeats, and how often it was begun.
     group: Option<(&'static [Field], usize)>,
-    /// The fixed-size fields passed last, by name.
+    /// The fixed-size fields passed so far, each name once.
     held: [Option<(&'static str, usize)>; HELD],
     /// All parameters.
     params: &'a [u8],
@@ -199,8 +200,8 @@ impl<'a> Fields<'a> {
     fn hold(&mut self, name: &'static str, bytes: &[u8]) {
         let value = number(bytes).and_then(|value| usize::try_from(value).ok());
         // A later field of the same name counts: each device of a bulk write has its length.
-        self.held.rotate_right(1);
-        if let Some(slot) = self.held.first_mut() {
+        let same = |held: &Option<(&str, usize)>| held.is_none_or(|held| held.0 == name);
+        if let Some(slot) = self.held.iter_mut().find(|held| same(held)) {
             *slot = value.map(|value| (name, value));
         }
     }

@@ -77,6 +77,21 @@ fn stuffing_is_right_for_every_short_body_of_the_pattern() {
     }
 }
 
+#[test]
+fn a_layout_holds_for_any_number_of_devices() {
+    let mut params = vec![0x34, 0x02, 0x02, 0x00];
+    for device in 0..100 {
+        params.extend([device, 0xAA, 0xBB]);
+    }
+    let layout = Instruction::SyncWrite.parameters().unwrap();
+    let items: Vec<_> = layout::fields(layout, &params).map(Result::unwrap).collect();
+    assert_eq!(items.len(), 2 + 2 * 100);
+    for pair in items[2..].chunks(2) {
+        assert_eq!(pair[0].number(), pair[0].group.map(|group| group as u64));
+        assert_eq!((pair[1].field.name, pair[1].bytes), ("data", &[0xAA, 0xBB][..]));
+    }
+}
+
 proptest! {
     #[test]
     fn crc_equals_long_division(bytes in vec(any::<u8>(), 0..300), cut in 0..300_usize) {

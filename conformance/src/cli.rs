@@ -60,6 +60,12 @@ pub(crate) struct Codec {
     /// Run only the checks whose id matches; may be given more than once
     #[arg(long, value_name = "GLOB")]
     pub(crate) select: Vec<String>,
+    /// What the generated checks grow from; the same seed yields the same checks
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(crate) seed: u64,
+    /// How many packets are generated
+    #[arg(long, value_name = "N", default_value_t = 1000)]
+    pub(crate) cases: u32,
     /// Known failures, which do not fail the run as long as they do fail
     #[arg(long, value_name = "FILE")]
     pub(crate) expect: Option<PathBuf>,

@@ -11,6 +11,7 @@ pub mod check;
 pub mod expect;
 pub mod explain;
 pub mod protocol;
+pub mod reference;
 pub mod report;
 pub mod run;
 pub mod select;

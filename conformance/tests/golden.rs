@@ -15,7 +15,8 @@ use actucheck_spec::Spec;
 use actucheck_spec::model::{Fault, Packet};
 
 fn checks() -> Vec<Check> {
-    cases::all(&Spec::embedded().unwrap(), Wire::Dynamixel2)
+    let options = cases::Options { cases: 100, ..cases::Options::new(Wire::Dynamixel2) };
+    cases::all(&Spec::embedded().unwrap(), &options)
 }
 
 /// The built-in codec with its answers to one op bent.

@@ -1,11 +1,9 @@
 //! The packets that the documents print, and those worked out by hand from their rules. Each
 //! yields a check an op.
 
-use actucheck_spec::Spec;
-use actucheck_spec::model::{
-    Citation, Fault, HexBytes, Level, Outcome, Packet, Vector, VectorsFile,
-};
+use actucheck_spec::model::{Citation, Fault, HexBytes, Outcome, Packet, Vector, VectorsFile};
 
+use super::Author;
 use crate::call::Call;
 use crate::check::{Check, Demand};
 use crate::protocol::{Called, Fast, Op, Output, Wire};
@@ -14,15 +12,16 @@ use crate::protocol::{Called, Fast, Op, Output, Wire};
 const PREFIX: usize = 7;
 const CRC: usize = 2;
 
-pub(super) fn checks(spec: &Spec, wire: Wire) -> Vec<Check> {
+pub(super) fn checks(author: &Author<'_>) -> Vec<Check> {
+    let (spec, wire) = (author.spec, author.wire);
     spec.vectors()
         .filter(|(file, _)| file.wire == wire.id())
-        .flat_map(|(file, vector)| Golden { spec, wire, file, vector }.checks())
+        .flat_map(|(file, vector)| Golden { author, wire, file, vector }.checks())
         .collect()
 }
 
 struct Golden<'a> {
-    spec: &'a Spec,
+    author: &'a Author<'a>,
     wire: Wire,
     file: &'a VectorsFile,
     vector: &'a Vector,
@@ -51,16 +50,9 @@ impl Golden<'_> {
     }
 
     fn check(&self, name: &str, requirement: &str, op: Op, demand: Demand) -> Check {
-        Check {
-            id: format!("{}/{name}", self.vector.id),
-            requirement: requirement.to_owned(),
-            // The rule on references keeps out vectors that name no requirement.
-            level: self.spec.requirement(requirement).map_or(Level::Must, |row| row.level),
-            source: self.source().clone(),
-            presumes: None,
-            op,
-            demand,
-        }
+        let id = format!("{}/{name}", self.vector.id);
+        let source = self.source().clone();
+        Check { source, ..self.author.check(id, requirement, op, demand) }
     }
 
     fn source(&self) -> &Citation {

@@ -20,7 +20,8 @@ use crate::cli::Codec;
 /// Runs the checks and writes the reports; the exit status says what came out.
 pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     let spec = super::spec()?;
-    let all = cases::all(&spec, options.wire);
+    let which = cases::Options { wire: options.wire, seed: options.seed, cases: options.cases };
+    let all = cases::all(&spec, &which);
     let expectations = match &options.expect {
         Some(path) => {
             Expectations::read(path, &all).map_err(|error| Failure::new(Failure::USAGE, error))?

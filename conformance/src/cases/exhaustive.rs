@@ -1,0 +1,163 @@
+//! Everything where everything is little: short bodies of the pattern's bytes, every instruction,
+//! every error byte, every ID; and the lengths at which counting goes wrong.
+
+use actucheck_spec::model::Packet;
+
+use super::{Author, hex};
+use crate::check::{Check, Demand};
+use crate::protocol::{Op, Output};
+use crate::reference::{self, BROADCAST, STATUS};
+
+/// The bytes of the pattern, the one that makes it a header, and one that is none of them.
+const ALPHABET: [u8; 4] = [0xFF, 0xFD, 0x00, 0x01];
+/// The longest body that is tried alone, and inside a packet.
+const ALONE: u32 = 7;
+const INSIDE: u32 = 4;
+
+/// Data lengths around 0, a register, and where the length needs another bit or byte: with 5
+/// bytes of instruction, address and CRC a Write's length passes 128 and 256 here.
+const LENGTHS: [usize; 17] =
+    [0, 1, 2, 3, 4, 122, 123, 124, 127, 128, 129, 250, 251, 252, 255, 256, 257];
+
+pub(super) fn checks(author: &Author<'_>) -> Vec<Check> {
+    let mut checks = Vec::new();
+    checks.extend((0..=ALONE).flat_map(words).flat_map(|body| alone(author, &body)));
+    checks.extend((0..=INSIDE).flat_map(words).flat_map(|body| inside(author, &body)));
+    checks.extend((0..=u8::MAX).flat_map(|code| instruction(author, code)));
+    checks.extend((0..=u8::MAX).flat_map(|error| error_byte(author, error)));
+    checks.extend((0..=252).chain([BROADCAST]).flat_map(|id| id_byte(author, id)));
+    checks.extend(LENGTHS.iter().flat_map(|length| lengths(author, *length)));
+    checks
+}
+
+/// Every word of this length over the alphabet.
+fn words(length: u32) -> impl Iterator<Item = Vec<u8>> {
+    (0..4_usize.pow(length)).map(move |number| {
+        let letters = (0..length).map(|place| number / 4_usize.pow(place) % 4);
+        letters.filter_map(|letter| ALPHABET.get(letter).copied()).collect()
+    })
+}
+
+/// A body without a packet around it.
+fn alone(author: &Author<'_>, body: &[u8]) -> [Check; 2] {
+    let wire = author.wire;
+    let stuffed = reference::stuff(body);
+    let id = format!("dynamixel2.stuffing.body.{}", hex(body));
+    let (plain, stuffed) = (body.to_vec().into(), stuffed.into());
+    [
+        author.check(
+            format!("{id}/stuff"),
+            "dynamixel2.stuffing.transmit",
+            Op::Stuff { wire, bytes: body.to_vec().into() },
+            Demand::Yield(Output::Bytes(Clone::clone(&stuffed))),
+        ),
+        author.check(
+            format!("{id}/unstuff"),
+            "dynamixel2.stuffing.receive",
+            Op::Unstuff { wire, bytes: stuffed },
+            Demand::Yield(Output::Bytes(plain)),
+        ),
+    ]
+}
+
+/// The same bytes in every place of a packet: behind the header, in the middle, before the CRC.
+fn inside(author: &Author<'_>, word: &[u8]) -> Vec<Check> {
+    let with = |before: &[u8], after: &[u8]| [before, word, after].concat();
+    let instruction = |instruction: u8, params: Vec<u8>| {
+        let id = if instruction >= 0x80 { BROADCAST } else { 1 };
+        Packet::Instruction { id, instruction, params: params.into() }
+    };
+    let status = |params: Vec<u8>| Packet::Status { id: 1, error: 0, params: params.into() };
+    let [low, high] = u16::try_from(word.len()).unwrap_or_default().to_le_bytes();
+    let mut packets = vec![
+        ("write", instruction(0x03, with(&[0x34, 0x02], &[]))),
+        ("write-middle", instruction(0x03, with(&[0x34, 0x02], &[0x05, 0x06]))),
+        ("reg-write", instruction(0x04, with(&[0x34, 0x02], &[]))),
+        ("status", status(with(&[], &[]))),
+        ("status-middle", status(with(&[0x05], &[0x06]))),
+    ];
+    if !word.is_empty() {
+        packets.extend([
+            ("sync-write", instruction(0x83, with(&[0x34, 0x02, low, high, 0x01], &[]))),
+            ("bulk-write", instruction(0x93, with(&[0x01, 0x34, 0x02, low, high], &[]))),
+            ("fast-sync-write", instruction(0x8B, with(&[0x34, 0x02, low, high, 0x01], &[]))),
+        ]);
+    }
+    let mut checks = Vec::new();
+    for (place, packet) in packets {
+        let id = format!("dynamixel2.stuffing.in-{place}.{}", hex(word));
+        let requirement = match &packet {
+            Packet::Status { .. } => "dynamixel2.stuffing.receive",
+            _ => "dynamixel2.stuffing.transmit",
+        };
+        checks.extend(author.both_ways(&id, requirement, &packet));
+        let frame = reference::encode(&packet).unwrap_or_default();
+        let stream = format!("{id}/stream");
+        checks.push(Check {
+            presumes: Some(format!("{id}/decode")),
+            ..author.streamed(stream, "dynamixel2.receive.stream", &[frame])
+        });
+    }
+    checks
+}
+
+fn instruction(author: &Author<'_>, code: u8) -> Vec<Check> {
+    if code == STATUS {
+        return Vec::new();
+    }
+    let packet = |params: &[u8]| {
+        let params = params.to_vec().into();
+        Packet::Instruction { id: 1, instruction: code, params }
+    };
+    let requirement = "dynamixel2.packet.layout";
+    let id = format!("dynamixel2.instruction.{code:02x}");
+    // No parameters of an instruction fit these two, so they go out as they are.
+    let without = author.both_ways(&id, requirement, &packet(&[]));
+    let with = author.both_ways(&format!("{id}-with-params"), requirement, &packet(&[1, 2, 3]));
+    without.into_iter().chain(with).map(without_call).collect()
+}
+
+/// The packet alone: what is sent is bytes, not a request that a library may know.
+fn without_call(mut check: Check) -> Check {
+    if let Op::Encode { packet, .. } = &mut check.op {
+        packet.call = None;
+    }
+    check
+}
+
+fn error_byte(author: &Author<'_>, error: u8) -> Vec<Check> {
+    let packet = Packet::Status { id: 1, error, params: vec![0x2A].into() };
+    let id = format!("dynamixel2.error.{error:02x}");
+    author.both_ways(&id, "dynamixel2.status-packet.error.fields", &packet)
+}
+
+fn id_byte(author: &Author<'_>, id: u8) -> Vec<Check> {
+    let requirement = "dynamixel2.packet.layout";
+    let ping = Packet::Instruction { id, instruction: 0x01, params: Vec::new().into() };
+    let mut checks = author.both_ways(&format!("dynamixel2.id.{id}.ping"), requirement, &ping);
+    if id != BROADCAST {
+        let status = Packet::Status { id, error: 0, params: vec![0x2A].into() };
+        let name = format!("dynamixel2.id.{id}.status");
+        checks.extend(author.both_ways(&name, "dynamixel2.status-packet.layout", &status));
+    }
+    checks
+}
+
+/// Plain data, and data that is all patterns, of this length.
+fn lengths(author: &Author<'_>, length: usize) -> Vec<Check> {
+    let plain = vec![0x11; length];
+    let tricky: Vec<u8> = [0xFF, 0xFF, 0xFD].into_iter().cycle().take(length).collect();
+    let mut checks = Vec::new();
+    for (name, data, requirement) in [
+        ("plain", plain, "dynamixel2.packet.length"),
+        ("tricky", tricky, "dynamixel2.stuffing.length"),
+    ] {
+        let params = [&[0x34, 0x02], data.as_slice()].concat();
+        let write = Packet::Instruction { id: 1, instruction: 0x03, params: params.into() };
+        let status = Packet::Status { id: 1, error: 0, params: data.into() };
+        let id = format!("dynamixel2.length.{length}.{name}");
+        checks.extend(author.both_ways(&format!("{id}.write"), requirement, &write));
+        checks.extend(author.both_ways(&format!("{id}.status"), requirement, &status));
+    }
+    checks
+}

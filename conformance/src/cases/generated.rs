@@ -1,0 +1,173 @@
+//! Packets and streams that grow from a seed. The same seed grows the same checks.
+
+use std::ops::Range;
+
+use actucheck_spec::model::Packet;
+use proptest::collection::vec;
+use proptest::prelude::{Just, Strategy, any};
+use proptest::prop_oneof;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+
+use super::{Author, parameters_of};
+use crate::check::Check;
+use crate::reference::{self, BROADCAST};
+
+/// What a case is made of.
+#[derive(Clone, Debug)]
+struct Case {
+    instruction: (&'static str, Packet),
+    status: Packet,
+    /// Noise before and behind the status packet in a stream.
+    noise: [Vec<u8>; 2],
+    /// Where the stream is cut, as parts of 256.
+    cuts: Vec<u8>,
+}
+
+pub(super) fn checks(author: &Author<'_>, seed: u64, cases: u32) -> Vec<Check> {
+    let mut bytes = [0; 32];
+    for (slot, byte) in bytes.iter_mut().zip(seed.to_le_bytes()) {
+        *slot = byte;
+    }
+    let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &bytes);
+    let mut runner = TestRunner::new_with_rng(Config::default(), rng);
+    let strategy = case();
+    let mut checks = Vec::new();
+    for number in 0..cases {
+        // A strategy without filters always yields a value.
+        let Ok(tree) = strategy.new_tree(&mut runner) else { continue };
+        checks.extend(of(author, &format!("dynamixel2.seed-{seed}.{number}"), &tree.current()));
+    }
+    checks
+}
+
+fn of(author: &Author<'_>, id: &str, case: &Case) -> Vec<Check> {
+    let (name, instruction) = &case.instruction;
+    let requirement = parameters_of(author.spec, name);
+    let mut checks = author.both_ways(&format!("{id}.instruction"), &requirement, instruction);
+    let layout = "dynamixel2.status-packet.layout";
+    checks.extend(author.both_ways(&format!("{id}.status"), layout, &case.status));
+
+    let frame = reference::encode(&case.status).unwrap_or_default();
+    let [before, behind] = &case.noise;
+    let stream = [before.as_slice(), &frame, behind, &frame].concat();
+    let requirement = "dynamixel2.receive.stream";
+    checks.push(author.streamed(format!("{id}/stream"), requirement, &split(&stream, &case.cuts)));
+    checks
+}
+
+/// The stream in chunks. A cut is a part of 256 of its length.
+fn split(stream: &[u8], cuts: &[u8]) -> Vec<Vec<u8>> {
+    let mut places: Vec<_> =
+        cuts.iter().map(|cut| stream.len() * usize::from(*cut) / 256).collect();
+    places.extend([0, stream.len()]);
+    places.sort_unstable();
+    let pairs = places.iter().zip(places.iter().skip(1));
+    pairs.map(|(from, to)| stream.get(*from..*to).unwrap_or_default().to_vec()).collect()
+}
+
+fn case() -> impl Strategy<Value = Case> {
+    let noise = || vec(any::<u8>().prop_map(|byte| if byte == 0xFF { 0 } else { byte }), 0..12);
+    (instruction(), status(), [noise(), noise()], vec(any::<u8>(), 0..6))
+        .prop_map(|(instruction, status, noise, cuts)| Case { instruction, status, noise, cuts })
+}
+
+/// Bytes among which the pattern of byte stuffing is common.
+fn data(size: Range<usize>) -> impl Strategy<Value = Vec<u8>> {
+    let byte = prop_oneof![3 => Just(0xFF_u8), 2 => Just(0xFD), 1 => Just(0), 2 => any::<u8>()];
+    vec(byte, size)
+}
+
+fn id() -> impl Strategy<Value = u8> {
+    0..=252_u8
+}
+
+fn status() -> impl Strategy<Value = Packet> {
+    (id(), any::<u8>(), data(0..24)).prop_map(|(id, error, params)| Packet::Status {
+        id,
+        error,
+        params: params.into(),
+    })
+}
+
+/// An instruction of every kind, with its name and parameters that fit it.
+fn instruction() -> impl Strategy<Value = (&'static str, Packet)> {
+    let register = || (any::<[u8; 2]>(), data(1..12));
+    let write = |(address, data): ([u8; 2], Vec<u8>)| [&address, data.as_slice()].concat();
+    let read = (any::<[u8; 2]>(), 1..=512_u16)
+        .prop_map(|(address, length)| [address, length.to_le_bytes()].concat());
+    let same = |data: bool| {
+        (any::<[u8; 2]>(), 1..8_usize, vec(id(), 1..5), data_pool())
+            .prop_map(move |(address, size, ids, pool)| several(address, size, &ids, &pool, data))
+    };
+    let bulk_read = vec((id(), any::<[u8; 2]>(), 1..=512_u16), 1..5).prop_map(|devices| {
+        let device = |(id, address, length): &(u8, [u8; 2], u16)| {
+            [&[*id], address.as_slice(), &length.to_le_bytes()].concat()
+        };
+        first_of_each(&devices, |device| device.0).flat_map(device).collect()
+    });
+    let bulk_write = vec((id(), any::<[u8; 2]>(), data(1..8)), 1..4).prop_map(|devices| {
+        let device = |(id, address, data): &(u8, [u8; 2], Vec<u8>)| {
+            let length = u16::try_from(data.len()).unwrap_or_default().to_le_bytes();
+            [&[*id], address.as_slice(), &length, data].concat()
+        };
+        first_of_each(&devices, |device| device.0).flat_map(device).collect()
+    });
+    let one = |name, code, params: proptest::strategy::BoxedStrategy<Vec<u8>>| {
+        (id(), params).prop_map(move |(id, params)| (name, packet(id, code, params))).boxed()
+    };
+    let all = |name, code, params: proptest::strategy::BoxedStrategy<Vec<u8>>| {
+        params.prop_map(move |params| (name, packet(BROADCAST, code, params))).boxed()
+    };
+    let none = || Just(Vec::new()).boxed();
+    let option = prop_oneof![Just(vec![0xFF]), Just(vec![0x01]), Just(vec![0x02])];
+    let clear = Just(vec![0x01, 0x44, 0x58, 0x4C, 0x22]).boxed();
+    let backup = Just(vec![0x01, 0x43, 0x54, 0x52, 0x4C]).boxed();
+    prop_oneof![
+        1 => one("Ping", 0x01, none()),
+        2 => one("Read", 0x02, read.boxed()),
+        6 => one("Write", 0x03, register().prop_map(write).boxed()),
+        3 => one("Reg Write", 0x04, register().prop_map(write).boxed()),
+        1 => one("Action", 0x05, none()),
+        1 => one("Factory Reset", 0x06, option.boxed()),
+        1 => one("Reboot", 0x08, none()),
+        1 => one("Clear", 0x10, clear),
+        1 => one("Control Table Backup", 0x20, backup),
+        2 => all("Sync Read", 0x82, same(false).boxed()),
+        4 => all("Sync Write", 0x83, same(true).boxed()),
+        2 => all("Fast Sync Read", 0x8A, same(false).boxed()),
+        2 => all("Fast Sync Write", 0x8B, same(true).boxed()),
+        2 => all("Bulk Read", 0x92, bulk_read.boxed()),
+        2 => all("Bulk Write", 0x93, bulk_write.boxed()),
+    ]
+}
+
+/// Enough data for every device of a sync instruction.
+fn data_pool() -> impl Strategy<Value = Vec<u8>> {
+    data(40..41)
+}
+
+fn packet(id: u8, instruction: u8, params: Vec<u8>) -> Packet {
+    Packet::Instruction { id, instruction, params: params.into() }
+}
+
+/// The parameters of a sync instruction.
+fn several(address: [u8; 2], size: usize, ids: &[u8], pool: &[u8], data: bool) -> Vec<u8> {
+    let length = u16::try_from(size).unwrap_or_default().to_le_bytes();
+    let mut params = [address, length].concat();
+    for (index, id) in first_of_each(ids, |id| *id).enumerate() {
+        params.push(*id);
+        if data {
+            params.extend(pool.get(index * size..(index + 1) * size).unwrap_or_default());
+        }
+    }
+    params
+}
+
+/// The rows whose ID no earlier row has: no instruction may name a device twice.
+fn first_of_each<T>(rows: &[T], id: impl Fn(&T) -> u8 + Copy) -> impl Iterator<Item = &T> {
+    rows.iter().enumerate().filter_map(move |(index, row)| {
+        let earlier = rows.iter().take(index).any(|other| id(other) == id(row));
+        (!earlier).then_some(row)
+    })
+}

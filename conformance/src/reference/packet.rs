@@ -1,0 +1,180 @@
+//! CRC, stuffing and packets of DYNAMIXEL Protocol 2.0 and its JA dialect.
+
+use actucheck_spec::model::{Block, Fault, HexBytes, Packet};
+
+use super::{BROADCAST, HEADER, PATTERN, PREFIX, STATUS};
+use crate::protocol::Fast;
+
+/// CRC-16/UMTS: the remainder of the message times x^16 by x^16 + x^15 + x^2 + 1, bit by bit.
+#[must_use]
+pub fn crc(bytes: &[u8]) -> u16 {
+    let mut crc = 0_u16;
+    for byte in bytes {
+        for bit in (0..8).rev() {
+            let carry = crc >= 0x8000;
+            crc <<= 1;
+            if carry != (byte >> bit & 1 == 1) {
+                crc ^= 0x8005;
+            }
+        }
+    }
+    crc
+}
+
+/// The body with FD behind every pattern.
+#[must_use]
+pub fn stuff(body: &[u8]) -> Vec<u8> {
+    let mut out = Vec::new();
+    let mut seen = Vec::new();
+    for byte in body {
+        out.push(*byte);
+        seen.push(*byte);
+        if seen.ends_with(&PATTERN) {
+            out.push(0xFD);
+        }
+    }
+    out
+}
+
+/// The body without the FD behind every pattern.
+///
+/// # Errors
+/// [`Fault::Stuffing`] if a pattern has no FD behind it.
+pub fn unstuff(stuffed: &[u8]) -> Result<Vec<u8>, Fault> {
+    let mut out: Vec<u8> = Vec::new();
+    let mut bytes = stuffed.iter();
+    while let Some(byte) = bytes.next() {
+        out.push(*byte);
+        if out.ends_with(&PATTERN) && bytes.next() != Some(&0xFD) {
+            return Err(Fault::Stuffing);
+        }
+    }
+    Ok(out)
+}
+
+/// A frame around a body that is sent as it is.
+#[must_use]
+pub fn frame(id: u8, body: &[u8]) -> Vec<u8> {
+    let length = u16::try_from(body.len() + 2).unwrap_or(u16::MAX);
+    let mut frame = HEADER.to_vec();
+    frame.push(id);
+    frame.extend(length.to_le_bytes());
+    frame.extend(body);
+    let crc = crc(&frame);
+    frame.extend(crc.to_le_bytes());
+    frame
+}
+
+/// The bytes of a packet.
+#[must_use]
+pub fn encode(packet: &Packet) -> Option<Vec<u8>> {
+    match packet {
+        Packet::Instruction { id, instruction, params } => {
+            Some(frame(*id, &stuff(&[&[*instruction], params.0.as_slice()].concat())))
+        }
+        Packet::Status { id, error, params } => {
+            Some(frame(*id, &stuff(&[&[STATUS, *error], params.0.as_slice()].concat())))
+        }
+        Packet::FastStatus { blocks } => Some(encode_fast(blocks)),
+        _ => None,
+    }
+}
+
+fn encode_fast(blocks: &[Block]) -> Vec<u8> {
+    let size: usize = blocks.iter().map(|block| block.data.len() + 4).sum();
+    let length = u16::try_from(size + 1).unwrap_or(u16::MAX);
+    let mut frame = HEADER.to_vec();
+    frame.push(BROADCAST);
+    frame.extend(length.to_le_bytes());
+    frame.push(STATUS);
+    for block in blocks {
+        frame.extend([block.error, block.id]);
+        frame.extend(block.data.iter());
+        let crc = crc(&frame);
+        frame.extend(crc.to_le_bytes());
+    }
+    frame
+}
+
+/// The packet that `bytes` are, one whole frame.
+///
+/// # Errors
+/// The first rule that they break, front to back.
+pub fn decode(bytes: &[u8]) -> Result<Packet, Fault> {
+    let (id, stuffed) = body(bytes)?;
+    let body = unstuff(stuffed)?;
+    match body.as_slice() {
+        [STATUS] | [] => Err(Fault::Length),
+        [STATUS, error, params @ ..] => {
+            Ok(Packet::Status { id, error: *error, params: HexBytes(params.to_vec()) })
+        }
+        [instruction, params @ ..] => Ok(Packet::Instruction {
+            id,
+            instruction: *instruction,
+            params: HexBytes(params.to_vec()),
+        }),
+    }
+}
+
+/// The fast status packet that `bytes` are, if they answer a request for `fast`.
+///
+/// # Errors
+/// The first rule that they break.
+pub fn decode_fast(bytes: &[u8], fast: &Fast) -> Result<Packet, Fault> {
+    let (id, body) = body(bytes)?;
+    let size = usize::from(fast.length);
+    if body.first() != Some(&STATUS) {
+        return Err(Fault::Instruction);
+    }
+    if id != BROADCAST {
+        return Err(Fault::Id);
+    }
+    if fast.ids.is_empty() || body.len() + 2 != 1 + fast.ids.len() * (size + 4) {
+        return Err(Fault::Length);
+    }
+    let mut blocks = Vec::new();
+    let mut rest = bytes.get(PREFIX + 1..).unwrap_or_default();
+    for id in &fast.ids {
+        let [error, found, ..] = *rest else { return Err(Fault::Truncated) };
+        let (block, behind) = rest.split_at_checked(size + 4).ok_or(Fault::Truncated)?;
+        let end = bytes.len() - behind.len();
+        let before = bytes.get(..end - 2).unwrap_or_default();
+        if !block.ends_with(&crc(before).to_le_bytes()) {
+            return Err(Fault::Crc);
+        }
+        if found != *id {
+            return Err(Fault::Id);
+        }
+        let data = block.get(2..2 + size).unwrap_or_default();
+        blocks.push(Block { error, id: found, data: HexBytes(data.to_vec()) });
+        rest = behind;
+    }
+    Ok(Packet::FastStatus { blocks })
+}
+
+/// ID and stuffed body of a frame whose header, ID, length, size and CRC are right.
+fn body(bytes: &[u8]) -> Result<(u8, &[u8]), Fault> {
+    if bytes.iter().zip(HEADER).any(|(found, expected)| *found != expected) {
+        return Err(Fault::Header);
+    }
+    let [_, _, _, _, id, low, high, ..] = *bytes else { return Err(Fault::Truncated) };
+    if id > 252 && id != BROADCAST {
+        return Err(Fault::Id);
+    }
+    let length = usize::from(u16::from_le_bytes([low, high]));
+    let end = PREFIX + length;
+    if length < 3 {
+        return Err(Fault::Length);
+    }
+    if bytes.len() < end {
+        return Err(Fault::Truncated);
+    }
+    if bytes.len() > end {
+        return Err(Fault::Trailing);
+    }
+    let (before, found) = bytes.split_at(end - 2);
+    if found != crc(before).to_le_bytes() {
+        return Err(Fault::Crc);
+    }
+    Ok((id, before.get(PREFIX..).unwrap_or_default()))
+}
