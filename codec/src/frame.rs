@@ -8,12 +8,12 @@
 //! included (JA40 document, §1.4; DYNAMIXEL Protocol 2.0, Instruction Packet).
 
 use crate::dynamixel2::{BROADCAST_ID, HEADER, Instruction, MAX_ID, MIN_LENGTH, STUFFING_BYTE};
-use crate::stuffing::{Matcher, Unstuffed};
+use crate::stuffing::{self, Matcher, Unstuffed};
 use crate::{BufferTooSmall, EncodeError, FrameError, crc};
 
 /// Bytes before the instruction: header, ID, length.
 pub(crate) const PREFIX: usize = HEADER.len() + 3;
-const CRC: usize = 2;
+pub(crate) const CRC: usize = 2;
 
 /// A packet whose header, ID, length, CRC and stuffing are right. Its accessors can't fail.
 ///
@@ -22,12 +22,21 @@ const CRC: usize = 2;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Frame<'a> {
     id: u8,
-    instruction: Instruction,
+    /// The instruction's code. Which of the named ones it is costs a jump, and not everybody asks.
+    code: u8,
     params: &'a [u8],
     params_len: usize,
 }
 
 impl<'a> Frame<'a> {
+    /// The packet `bytes`, in which everything was found right, with `patterns` bytes of stuffing.
+    #[inline]
+    pub(crate) fn checked(bytes: &'a [u8], patterns: usize) -> Option<Self> {
+        let (&[.., id, _, _, code], rest) = bytes.split_first_chunk::<{ PREFIX + 1 }>()?;
+        let (params, _) = rest.split_last_chunk::<CRC>()?;
+        Some(Self { id, code, params, params_len: params.len() - patterns })
+    }
+
     /// Reads `bytes`, which are one packet and nothing else.
     ///
     /// # Errors
@@ -45,12 +54,11 @@ impl<'a> Frame<'a> {
             byte.map_err(|at| FrameError::Stuffing { at: PREFIX + at })?;
             body_len += 1;
         }
-        let instruction = Instruction::from_code(*code);
-        if instruction == Instruction::Status && params.is_empty() {
+        if *code == Instruction::Status.code() && params.is_empty() {
             let found = parts.body.len() + CRC;
             return Err(FrameError::Length { found, expected: found + 1 });
         }
-        Ok(Self { id: parts.id, instruction, params, params_len: body_len - 1 })
+        Ok(Self { id: parts.id, code: *code, params, params_len: body_len - 1 })
     }
 
     /// Whom an instruction packet is for, or who sent a status packet.
@@ -62,7 +70,7 @@ impl<'a> Frame<'a> {
     /// What it asks for; [`Instruction::Status`] for a status packet.
     #[must_use]
     pub const fn instruction(&self) -> Instruction {
-        self.instruction
+        Instruction::from_code(self.code)
     }
 
     /// The bytes between instruction and CRC as they are on the wire, stuffing included. In a
@@ -82,7 +90,7 @@ impl<'a> Frame<'a> {
     pub fn params(&self) -> impl Iterator<Item = u8> + Clone + use<'a> {
         // The pattern may begin with the instruction, so the search begins there too.
         let mut matcher = Matcher::default();
-        let mut skip = matcher.step(self.instruction.code());
+        let mut skip = matcher.step(self.code);
         self.params.iter().copied().filter(move |byte| {
             let keep = !skip;
             skip = keep && matcher.step(*byte);
@@ -97,8 +105,10 @@ impl<'a> Frame<'a> {
     pub fn copy_params<'b>(&self, buffer: &'b mut [u8]) -> Result<&'b [u8], BufferTooSmall> {
         let too_small = BufferTooSmall { needed: self.params_len, available: buffer.len() };
         let target = buffer.get_mut(..self.params_len).ok_or(too_small)?;
-        for (slot, byte) in target.iter_mut().zip(self.params()) {
-            *slot = byte;
+        if target.len() == self.params.len() {
+            target.copy_from_slice(self.params);
+        } else {
+            stuffing::remove(self.code, self.params, target);
         }
         Ok(target)
     }
@@ -241,6 +251,6 @@ pub(crate) fn length_field(length: usize) -> Result<u16, EncodeError> {
 }
 
 /// The ID itself if it is none that a packet may have.
-fn check_id(id: u8) -> Result<(), u8> {
+pub(crate) fn check_id(id: u8) -> Result<(), u8> {
     if id <= MAX_ID || id == BROADCAST_ID { Ok(()) } else { Err(id) }
 }

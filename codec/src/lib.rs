@@ -37,6 +37,7 @@ pub mod frame;
 pub mod layout;
 pub mod register;
 pub mod status;
+pub mod stream;
 pub mod stuffing;
 
 /// What the build script makes of the documents' YAML: a module a protocol and a module a device.

@@ -121,6 +121,23 @@ pub fn unstuff<'b>(stuffed: &[u8], buffer: &'b mut [u8]) -> Result<&'b [u8], Uns
     buffer.get(..needed).ok_or(too_small)
 }
 
+/// Writes what follows the body's first byte to `target` as it was before stuffing. No branch
+/// depends on the bytes, as nothing foretells where patterns stand.
+pub(crate) fn remove(first: u8, rest: &[u8], target: &mut [u8]) {
+    let [one, two, three] = STUFFING_PATTERN;
+    let pattern = u32::from_be_bytes([0, one, two, three]);
+    let mut last_four = u32::from(first);
+    let mut next = 0;
+    for byte in rest {
+        if let Some(slot) = target.get_mut(next) {
+            *slot = *byte;
+        }
+        // Behind a pattern stands stuffing: the next byte takes its place.
+        next += usize::from(last_four & 0x00FF_FFFF != pattern);
+        last_four = (last_four << 8) | u32::from(*byte);
+    }
+}
+
 /// The bytes of a stuffed body without its stuffing; `Err` with the offset of the byte that is
 /// not FD where a pattern is bare, and nothing after it.
 #[derive(Clone, Debug)]

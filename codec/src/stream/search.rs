@@ -1,0 +1,110 @@
+//! Looks for headers and for the pattern of byte stuffing, eight places at a time.
+//!
+//! Eight neighbouring places are one `u64`, the first in its lowest byte; the words that begin
+//! one, two and three bytes later hold what stands behind each. A byte of the combined word is
+//! zero where everything matches.
+
+use super::meter;
+use crate::dynamixel2::{HEADER, STUFFING_BYTE, STUFFING_PATTERN};
+
+/// Places that are looked at together.
+const PLACES: usize = 8;
+/// The bytes that decide about them: the last place's pattern and one byte behind it.
+const WINDOW: usize = PLACES + 3;
+
+/// The byte in every place.
+const fn everywhere(byte: u8) -> u64 {
+    u64::from_ne_bytes([byte; PLACES])
+}
+
+/// The eight bytes of a window from `AT` on.
+#[inline]
+fn word<const AT: usize, const N: usize>(window: &[u8; N]) -> u64 {
+    let (_, bytes) = window.split_at(AT);
+    bytes.first_chunk().copied().map_or(0, u64::from_le_bytes)
+}
+
+/// Zero in the places where FF FF FD begins.
+#[inline]
+pub(super) fn mismatches<const N: usize>(window: &[u8; N]) -> u64 {
+    let [first, second, third] = STUFFING_PATTERN;
+    (word::<0, _>(window) ^ everywhere(first))
+        | (word::<1, _>(window) ^ everywhere(second))
+        | (word::<2, _>(window) ^ everywhere(third))
+}
+
+/// The highest bit of every byte that is zero, no other.
+#[inline]
+const fn zeros(word: u64) -> u64 {
+    const LOW_BITS: u64 = everywhere(0x7F);
+    // The sum carries into a byte's highest bit if a lower bit is set, and never out of it.
+    !(((word & LOW_BITS) + LOW_BITS) | word | LOW_BITS)
+}
+
+/// Some bit if some byte is zero, no bit otherwise.
+#[inline]
+pub(super) const fn some_zero(word: u64) -> u64 {
+    word.wrapping_sub(everywhere(1)) & !word & everywhere(0x80)
+}
+
+/// Whether `bytes` begin with a header, as far as they go.
+#[inline]
+pub(super) fn may_be_header(bytes: &[u8]) -> bool {
+    bytes.iter().zip(HEADER).all(|(byte, header)| *byte == header)
+}
+
+/// The offset of the first header, be it cut off by the end; all of `bytes` if there is none.
+pub(super) fn header(bytes: &[u8]) -> usize {
+    let [_, _, _, fourth] = HEADER;
+    let mut at = 0;
+    while let Some(window) = bytes.get(at..).and_then(<[u8]>::first_chunk::<WINDOW>) {
+        let found = zeros(mismatches(window) | (word::<3, _>(window) ^ everywhere(fourth)));
+        if found != 0 {
+            at += found.trailing_zeros() as usize / 8;
+            meter::add(at + WINDOW);
+            return at;
+        }
+        at += PLACES;
+    }
+    meter::add(bytes.len());
+    let is_header = |at: &usize| bytes.get(*at..).is_some_and(may_be_header);
+    (at..bytes.len()).find(is_header).unwrap_or(bytes.len())
+}
+
+/// Counts the patterns that begin at `from`, not before the body, or later; `None` if one of them
+/// lacks the byte that belongs behind it, and nothing behind that one is looked at.
+///
+/// `bytes` are those of a packet from its header on, at most up to its first CRC byte; the body
+/// ends at `body_end`. A pattern counts as soon as the byte behind it is there.
+#[inline]
+pub(super) fn patterns(bytes: &[u8], from: usize, body_end: usize) -> Option<usize> {
+    let mut count = 0;
+    let mut at = from;
+    while let Some(window) = bytes.get(at..).and_then(<[u8]>::first_chunk::<WINDOW>) {
+        count += patterns_in(window, 0, at + WINDOW > body_end)?;
+        at += PLACES;
+    }
+    // The places left are fewer than a window has. The last window has them; header, ID and
+    // length leave room for it in front of the body.
+    if at + WINDOW < bytes.len() + PLACES
+        && let Some(window) = bytes.last_chunk()
+    {
+        let looked_at = at + WINDOW - bytes.len();
+        count += patterns_in(window, looked_at, bytes.len() > body_end)?;
+    }
+    Some(count)
+}
+
+/// Counts the patterns in a window, except for the first `looked_at` places. At the body's end
+/// the last byte of the window is the CRC's, whatever its value.
+#[inline]
+fn patterns_in(window: &[u8; WINDOW], looked_at: usize, ends_body: bool) -> Option<usize> {
+    meter::add(WINDOW);
+    let mismatches = mismatches(window) | ((1 << (8 * looked_at)) - 1);
+    let patterns = zeros(mismatches);
+    let mut stuffed = zeros(word::<3, _>(window) ^ everywhere(STUFFING_BYTE));
+    if ends_body {
+        stuffed &= !(0xFF << (8 * (PLACES - 1)));
+    }
+    (patterns & !stuffed == 0).then_some(patterns.count_ones() as usize)
+}
