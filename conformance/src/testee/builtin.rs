@@ -3,6 +3,7 @@
 use actucheck_codec::dynamixel2::Instruction;
 use actucheck_codec::fast_status::{self, Block};
 use actucheck_codec::status::{self, StatusError};
+use actucheck_codec::stream::{Event, Parser};
 use actucheck_codec::stuffing::{self, UnstuffError};
 use actucheck_codec::{EncodeError, FastStatus, Frame, FrameError, crc, frame};
 use actucheck_spec::model::{self, Fault, HexBytes, Packet};
@@ -31,7 +32,9 @@ impl Default for Builtin {
                 url: None,
             },
             wires: vec![Wire::Dynamixel2.id().to_owned()],
-            ops: ["crc", "stuff", "unstuff", "encode", "decode"].map(str::to_owned).to_vec(),
+            ops: ["crc", "stuff", "unstuff", "encode", "decode", "stream"]
+                .map(str::to_owned)
+                .to_vec(),
             limits: Limits { max_packet: Some(MAX_FRAME) },
         };
         Self { hello, buffer: vec![0; MAX_FRAME] }
@@ -51,7 +54,8 @@ impl Testee for Builtin {
             Op::Encode { packet, .. } => self.encode(&packet.packet),
             Op::Decode { bytes, fast: None, .. } => decode(bytes),
             Op::Decode { bytes, fast: Some(fast), .. } => decode_fast(bytes, fast),
-            Op::Hello { .. } | Op::Stream { .. } | Op::Invented | Op::Bye => {
+            Op::Stream { chunks, .. } => Ok(stream(chunks)),
+            Op::Hello { .. } | Op::Invented | Op::Bye => {
                 return Answer::Skipped(format!("the codec has no {}", op.name()));
             }
         };
@@ -118,15 +122,42 @@ impl Builtin {
 
 fn decode(bytes: &[u8]) -> Result {
     let frame = Frame::parse(bytes).map_err(frame_rejection)?;
+    Ok(Output::Packet(packet(&frame)))
+}
+
+fn packet(frame: &Frame<'_>) -> Packet {
     let params = frame.params().collect::<Vec<_>>();
     let (id, instruction) = (frame.id(), frame.instruction().code());
-    Ok(Output::Packet(match frame.error() {
+    match frame.error() {
         None => Packet::Instruction { id, instruction, params: params.into() },
         Some(StatusError(error)) => {
             let params = params.into_iter().skip(1).collect::<Vec<_>>().into();
             Packet::Status { id, error, params }
         }
-    }))
+    }
+}
+
+/// What the stream parser finds; at the end the bus is quiet.
+fn stream(chunks: &[HexBytes]) -> Output {
+    let mut parser = Parser::new();
+    let mut packets = Vec::new();
+    let mut drain = |parser: &mut Parser| {
+        while let Some(event) = parser.next_event() {
+            if let Event::Frame(frame) = event {
+                packets.push(packet(&frame));
+            }
+        }
+    };
+    for chunk in chunks {
+        let mut rest: &[u8] = chunk;
+        while !rest.is_empty() {
+            rest = parser.push(rest);
+            drain(&mut parser);
+        }
+    }
+    parser.idle();
+    drain(&mut parser);
+    Output::Packets(packets)
 }
 
 fn decode_fast(bytes: &[u8], fast: &Fast) -> Result {
