@@ -31,8 +31,10 @@ pub struct Check {
 pub enum Demand {
     /// This and nothing else.
     Yield(Output),
-    /// This, or a rejection: the documents leave it open.
-    YieldOrReject(Output),
+    /// One of these.
+    YieldOneOf(Vec<Output>),
+    /// One of these, or a rejection: the documents leave it open.
+    YieldOneOfOrReject(Vec<Output>),
     /// A rejection. One for another reason than this is a warning.
     Reject(Fault),
 }
@@ -82,23 +84,27 @@ impl Check {
 
     fn expected(&self) -> Option<&Output> {
         match &self.demand {
-            Demand::Yield(output) | Demand::YieldOrReject(output) => Some(output),
+            Demand::Yield(output) => Some(output),
+            Demand::YieldOneOf(outputs) | Demand::YieldOneOfOrReject(outputs) => outputs.first(),
             Demand::Reject(_) => None,
         }
     }
 
     fn judge_output(&self, actual: Output) -> (Verdict, String, Option<Output>) {
+        let right = match &self.demand {
+            Demand::Yield(expected) => *expected == actual,
+            Demand::YieldOneOf(outputs) | Demand::YieldOneOfOrReject(outputs) => {
+                outputs.contains(&actual)
+            }
+            Demand::Reject(_) => false,
+        };
         match &self.demand {
-            Demand::Yield(expected) | Demand::YieldOrReject(expected) if *expected == actual => {
-                (Verdict::Pass, String::new(), None)
-            }
-            Demand::Yield(_) | Demand::YieldOrReject(_) => {
-                (Verdict::Fail, "the answer differs".to_owned(), Some(actual))
-            }
+            _ if right => (Verdict::Pass, String::new(), None),
             Demand::Reject(fault) => {
                 let detail = format!("accepted, but must be rejected ({fault})");
                 (Verdict::Fail, detail, Some(actual))
             }
+            _ => (Verdict::Fail, "the answer differs".to_owned(), Some(actual)),
         }
     }
 
@@ -108,10 +114,10 @@ impl Check {
             return (Verdict::Fail, format!("broke down: {detail}"), None);
         }
         match &self.demand {
-            Demand::Yield(_) => {
+            Demand::Yield(_) | Demand::YieldOneOf(_) => {
                 (Verdict::Fail, format!("rejected ({class}: {detail}), but is valid"), None)
             }
-            Demand::YieldOrReject(_) => (Verdict::Pass, String::new(), None),
+            Demand::YieldOneOfOrReject(_) => (Verdict::Pass, String::new(), None),
             Demand::Reject(fault) if fault == class => (Verdict::Pass, String::new(), None),
             Demand::Reject(fault) => {
                 (Verdict::Warn, format!("rejected as {class}, the fault is {fault}"), None)

@@ -1,7 +1,7 @@
 //! The adapter protocol, version 1: what the suite and an adapter say to each other, one JSON
 //! object a line.
 
-use actucheck_spec::model::{Fault, HexBytes, Packet};
+use actucheck_spec::model::{Fault, FrameKind, HexBytes, Packet};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -16,6 +16,8 @@ pub const VERSION: u32 = 1;
 pub enum Wire {
     /// DYNAMIXEL Protocol 2.0 and its JA dialect.
     Dynamixel2,
+    /// The INNFOS Ethernet protocol.
+    Innfos,
 }
 
 impl Wire {
@@ -24,13 +26,8 @@ impl Wire {
     pub const fn id(self) -> &'static str {
         match self {
             Self::Dynamixel2 => "dynamixel2",
+            Self::Innfos => "innfos",
         }
-    }
-
-    /// The wire with this id.
-    #[must_use]
-    pub fn from_id(id: &str) -> Option<Self> {
-        (id == Self::Dynamixel2.id()).then_some(Self::Dynamixel2)
     }
 }
 
@@ -90,13 +87,19 @@ pub enum Op {
         /// For a fast status packet: what was asked for.
         #[serde(skip_serializing_if = "Option::is_none")]
         fast: Option<Fast>,
+        /// For INNFOS: which way the frame goes.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        kind: Option<FrameKind>,
     },
     /// The good packets of a stream.
     Stream {
         /// The wire.
         wire: Wire,
-        /// The stream, cut into chunks.
+        /// The stream, cut into chunks; for INNFOS datagrams.
         chunks: Vec<HexBytes>,
+        /// For INNFOS: which way the frames go.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        kind: Option<FrameKind>,
     },
     /// An op that no version of the protocol has.
     #[serde(rename = "no-such-op")]

@@ -5,7 +5,7 @@
 use actucheck::protocol::Fast;
 use actucheck::reference;
 use actucheck_spec::Spec;
-use actucheck_spec::model::Packet;
+use actucheck_spec::model::{FrameKind, Outcome, Packet};
 
 #[test]
 fn every_golden_vector_is_built_read_or_rejected_as_it_says() {
@@ -31,6 +31,32 @@ fn every_golden_vector_is_built_read_or_rejected_as_it_says() {
             && !matches!(vector.packet, Some(Packet::FastStatus { .. }))
         {
             assert_eq!(reference::decode(printed), Err(fault), "{id}");
+        }
+        seen += 1;
+    }
+    assert!(seen > 70, "{seen} vectors");
+}
+
+#[test]
+fn every_innfos_vector_is_built_read_or_rejected_as_it_says() {
+    let spec = Spec::embedded().unwrap();
+    let mut seen = 0;
+    for (_, vector) in spec.vectors().filter(|(file, _)| file.wire == "innfos") {
+        let id = &vector.id;
+        let kind = match &vector.packet {
+            Some(Packet::Reply { .. }) => FrameKind::Reply,
+            Some(_) => FrameKind::Request,
+            None => vector.kind.unwrap(),
+        };
+        let decoded = reference::innfos::decode(kind, vector.frame());
+        if let Some(packet) = &vector.packet {
+            if vector.result == Outcome::Valid {
+                let built = reference::innfos::encode(packet);
+                assert_eq!(built.as_deref(), Some(vector.frame()), "{id}");
+            }
+            assert_eq!(decoded.as_ref(), Ok(packet), "{id}");
+        } else {
+            assert_eq!(decoded.err(), vector.fault, "{id}");
         }
         seen += 1;
     }

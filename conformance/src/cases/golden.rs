@@ -62,7 +62,7 @@ impl Golden<'_> {
     /// What the vector's result demands where `output` is right.
     fn demand(&self, output: Output) -> Demand {
         match self.vector.result {
-            Outcome::Acceptable => Demand::YieldOrReject(output),
+            Outcome::Acceptable => Demand::YieldOneOfOrReject(vec![output]),
             Outcome::Valid | Outcome::Invalid => Demand::Yield(output),
         }
     }
@@ -118,8 +118,12 @@ impl Golden<'_> {
     }
 
     fn decode(&self, requirement: &str, packet: &Packet, frame: &[u8]) -> Check {
-        let op =
-            Op::Decode { wire: self.wire, bytes: frame.to_vec().into(), fast: asked_for(packet) };
+        let op = Op::Decode {
+            wire: self.wire,
+            bytes: frame.to_vec().into(),
+            fast: asked_for(packet),
+            kind: None,
+        };
         self.check("decode", requirement, op, self.demand(Output::Packet(packet.clone())))
     }
 
@@ -135,7 +139,7 @@ impl Golden<'_> {
         [("stream", whole), ("stream-bytewise", bytewise)]
             .into_iter()
             .map(|(name, chunks)| {
-                let op = Op::Stream { wire: self.wire, chunks };
+                let op = Op::Stream { wire: self.wire, chunks, kind: None };
                 let demand = Demand::Yield(Output::Packets(vec![packet.clone()]));
                 let check = self.check(name, "dynamixel2.receive.stream", op, demand);
                 Check { presumes: Some(format!("{}/decode", self.vector.id)), ..check }
@@ -145,7 +149,12 @@ impl Golden<'_> {
 
     fn rejects(&self, name: &str, requirement: &str, bytes: &[u8], fault: Fault) -> Check {
         let packet_asked = self.vector.packet.as_ref().and_then(asked_for);
-        let op = Op::Decode { wire: self.wire, bytes: bytes.to_vec().into(), fast: packet_asked };
+        let op = Op::Decode {
+            wire: self.wire,
+            bytes: bytes.to_vec().into(),
+            fast: packet_asked,
+            kind: None,
+        };
         self.check(name, requirement, op, Demand::Reject(fault))
     }
 }

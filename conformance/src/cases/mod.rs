@@ -12,6 +12,7 @@
 mod exhaustive;
 mod generated;
 mod golden;
+mod innfos;
 mod negative;
 
 use actucheck_spec::Spec;
@@ -45,15 +46,16 @@ impl Options {
 #[must_use]
 pub fn all(spec: &Spec, options: &Options) -> Vec<Check> {
     let author = Author { spec, wire: options.wire };
-    let mut checks = golden::checks(&author);
     match options.wire {
         Wire::Dynamixel2 => {
+            let mut checks = golden::checks(&author);
             checks.extend(exhaustive::checks(&author));
             checks.extend(negative::checks(&author));
             checks.extend(generated::checks(&author, options.seed, options.cases));
+            checks
         }
+        Wire::Innfos => innfos::checks(&author),
     }
-    checks
 }
 
 /// Writes checks about one wire.
@@ -82,7 +84,8 @@ impl Author<'_> {
         let Some(bytes) = reference::encode(packet) else { return Vec::new() };
         let called = Called { call: Call::of(packet), packet: packet.clone() };
         let encode = Op::Encode { wire: self.wire, packet: called };
-        let decode = Op::Decode { wire: self.wire, bytes: bytes.clone().into(), fast: None };
+        let decode =
+            Op::Decode { wire: self.wire, bytes: bytes.clone().into(), fast: None, kind: None };
         let (bytes, packet) = (Output::Bytes(bytes.into()), Output::Packet(packet.clone()));
         vec![
             self.check(format!("{id}/encode"), requirement, encode, Demand::Yield(bytes)),
@@ -96,7 +99,7 @@ impl Author<'_> {
             Ok(packet) => Demand::Yield(Output::Packet(packet)),
             Err(fault) => Demand::Reject(fault),
         };
-        let op = Op::Decode { wire: self.wire, bytes: bytes.into(), fast: None };
+        let op = Op::Decode { wire: self.wire, bytes: bytes.into(), fast: None, kind: None };
         self.check(id, requirement, op, demand)
     }
 
@@ -104,7 +107,7 @@ impl Author<'_> {
     fn streamed(&self, id: String, requirement: &str, chunks: &[Vec<u8>]) -> Check {
         let packets = reference::packets(&chunks.concat());
         let chunks = chunks.iter().map(|chunk| chunk.clone().into()).collect();
-        let op = Op::Stream { wire: self.wire, chunks };
+        let op = Op::Stream { wire: self.wire, chunks, kind: None };
         self.check(id, requirement, op, Demand::Yield(Output::Packets(packets)))
     }
 }

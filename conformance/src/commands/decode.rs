@@ -84,7 +84,12 @@ fn invalid(error: &FrameError) -> Failure {
 
 /// The packet as the adapter protocol has it.
 fn json(options: &Decode, bytes: Vec<u8>) -> Result<String, Failure> {
-    let op = Op::Decode { wire: options.wire, bytes: bytes.into(), fast: options.fast.clone() };
+    let op = Op::Decode {
+        wire: options.wire,
+        bytes: bytes.into(),
+        fast: options.fast.clone(),
+        kind: None,
+    };
     match Builtin::default().ask(&op) {
         Answer::Ok(Output::Packet(packet)) => serde_json::to_string(&packet)
             .map(|text| text + "\n")

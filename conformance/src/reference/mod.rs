@@ -3,6 +3,7 @@
 //! It shares no code with the codec and none with the spec's generator: whoever reads it beside
 //! the documents must be able to see that it is right. Speed is no aim.
 
+pub mod innfos;
 mod packet;
 mod stream;
 

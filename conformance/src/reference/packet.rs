@@ -65,7 +65,7 @@ pub fn frame(id: u8, body: &[u8]) -> Vec<u8> {
     frame
 }
 
-/// The bytes of a packet.
+/// The bytes of a packet; `None` for one of another protocol.
 #[must_use]
 pub fn encode(packet: &Packet) -> Option<Vec<u8>> {
     match packet {

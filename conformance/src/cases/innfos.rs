@@ -1,0 +1,189 @@
+//! Checks of the INNFOS Ethernet protocol: the document's frames, everything where everything is
+//! little, and each rule broken alone.
+
+use actucheck_spec::model::{Fault, FrameKind, Outcome, Packet, Vector};
+
+use super::{Author, hex};
+use crate::check::{Check, Demand};
+use crate::protocol::{Called, Op, Output};
+use crate::reference::innfos as reference;
+
+/// Bytes that could be taken for the ends of a frame, and two that could not.
+const ALPHABET: [u8; 4] = [0xEE, 0xED, 0x00, 0x01];
+/// Sizes of data: those of the commands' tables, and where the length needs its other byte.
+const SIZES: [usize; 10] = [0, 1, 2, 3, 4, 8, 255, 256, 257, 1000];
+
+pub(super) fn checks(author: &Author<'_>) -> Vec<Check> {
+    let mut checks = golden(author);
+    for kind in [FrameKind::Request, FrameKind::Reply] {
+        checks.extend((0..=u8::MAX).flat_map(|byte| {
+            let address =
+                both_ways(author, &format!("address.{byte:02x}"), kind, byte, 0x06, &[1, 2]);
+            let command = both_ways(author, &format!("command.{byte:02x}"), kind, 1, byte, &[1, 2]);
+            address.into_iter().chain(command)
+        }));
+        checks.extend(SIZES.iter().flat_map(|size| {
+            both_ways(author, &format!("size.{size}"), kind, 6, 0x2A, &vec![0x5A; *size])
+        }));
+        checks.extend((0..=4).flat_map(words).flat_map(|data| {
+            both_ways(author, &format!("data.{}", hex(&data)), kind, 6, 0x0A, &data)
+        }));
+        checks.extend(damaged(author, kind));
+    }
+    checks
+}
+
+fn words(length: u32) -> impl Iterator<Item = Vec<u8>> {
+    (0..4_usize.pow(length)).map(move |number| {
+        let letters = (0..length).map(|place| number / 4_usize.pow(place) % 4);
+        letters.filter_map(|letter| ALPHABET.get(letter).copied()).collect()
+    })
+}
+
+fn golden(author: &Author<'_>) -> Vec<Check> {
+    let vectors = author.spec.vectors().filter(|(file, _)| file.wire == author.wire.id());
+    let vectors: Vec<_> = vectors.map(|(file, vector)| (&file.source, vector)).collect();
+    let mut checks = Vec::new();
+    for (source, vector) in &vectors {
+        let source = vector.source.as_ref().unwrap_or(source);
+        let own = vector.requirement.as_deref().unwrap_or("innfos.packets");
+        let mut add = |name: &str, requirement: &str, op, demand| {
+            let check = author.check(format!("{}/{name}", vector.id), requirement, op, demand);
+            checks.push(Check { source: source.clone(), ..check });
+        };
+        if let Some(packet) = &vector.packet {
+            if let Some((op, demand)) = crc(author, packet) {
+                add("crc", "innfos.crc.value", op, demand);
+            }
+            add("encode", own, encode(author, packet), encode_demand(vector, packet, &vectors));
+            let output = Output::Packet(packet.clone());
+            let kind = kind_of(packet);
+            add("decode", own, decode(author, kind, vector.frame()), demand(vector, output));
+        } else if let (Some(kind), Some(fault)) = (vector.kind, vector.fault) {
+            add("decode", own, decode(author, kind, vector.frame()), Demand::Reject(fault));
+        }
+        if let (Some(printed), Some(fault), Some(packet)) =
+            (vector.defective(), vector.printed_fault, &vector.packet)
+        {
+            let op = decode(author, kind_of(packet), printed);
+            add("decode-printed", "innfos.defects", op, Demand::Reject(fault));
+        }
+    }
+    checks
+}
+
+fn demand(vector: &Vector, output: Output) -> Demand {
+    match vector.result {
+        Outcome::Acceptable => Demand::YieldOneOfOrReject(vec![output]),
+        Outcome::Valid | Outcome::Invalid => Demand::Yield(output),
+    }
+}
+
+/// Where readings of the document differ, a packet has several frames; each will do.
+fn encode_demand<S>(vector: &Vector, packet: &Packet, all: &[(S, &Vector)]) -> Demand {
+    let bytes = |vector: &Vector| Output::Bytes(vector.frame().to_vec().into());
+    if vector.result != Outcome::Acceptable {
+        return Demand::Yield(bytes(vector));
+    }
+    let same = all.iter().filter(|(_, other)| other.packet.as_ref() == Some(packet));
+    Demand::YieldOneOfOrReject(same.map(|(_, other)| bytes(other)).collect())
+}
+
+/// The CRC of a packet's data. The document's function returns the two bytes the other way round
+/// than the CRC's name says; either number is right.
+fn crc(author: &Author<'_>, packet: &Packet) -> Option<(Op, Demand)> {
+    let (Packet::Request { data, .. } | Packet::Reply { data, .. }) = packet else { return None };
+    let crc = reference::crc(data);
+    let op = Op::Crc { wire: author.wire, bytes: data.clone() };
+    let numbers = [crc, crc.swap_bytes()].map(|number| Output::Crc(number.into()));
+    (!data.is_empty()).then(|| (op, Demand::YieldOneOf(numbers.to_vec())))
+}
+
+fn kind_of(packet: &Packet) -> FrameKind {
+    match packet {
+        Packet::Reply { .. } => FrameKind::Reply,
+        _ => FrameKind::Request,
+    }
+}
+
+fn encode(author: &Author<'_>, packet: &Packet) -> Op {
+    Op::Encode { wire: author.wire, packet: Called { packet: packet.clone(), call: None } }
+}
+
+fn decode(author: &Author<'_>, kind: FrameKind, bytes: &[u8]) -> Op {
+    let bytes = bytes.to_vec().into();
+    Op::Decode { wire: author.wire, bytes, fast: None, kind: Some(kind) }
+}
+
+/// A packet built, read, and found twice in a datagram. Where the CRC is open, nothing.
+fn both_ways(
+    author: &Author<'_>,
+    name: &str,
+    kind: FrameKind,
+    address: u8,
+    command: u8,
+    data: &[u8],
+) -> Vec<Check> {
+    let data = data.to_vec().into();
+    let (word, packet) = match kind {
+        FrameKind::Request => ("request", Packet::Request { address, command, data }),
+        FrameKind::Reply => ("reply", Packet::Reply { address, command, data }),
+    };
+    let id = format!("innfos.{word}.{name}");
+    let Some(frame) = reference::encode(&packet) else { return Vec::new() };
+    let chunk = [frame.as_slice(), &frame].concat();
+    let stream = Op::Stream { wire: author.wire, kind: Some(kind), chunks: vec![chunk.into()] };
+    let (once, twice) = (Output::Packet(packet.clone()), vec![packet.clone(), packet.clone()]);
+    let requirement = "innfos.frame.layout";
+    let built = Demand::Yield(Output::Bytes(frame.clone().into()));
+    let read = Demand::Yield(once);
+    let found = Demand::Yield(Output::Packets(twice));
+    vec![
+        author.check(format!("{id}/encode"), requirement, encode(author, &packet), built),
+        author.check(format!("{id}/decode"), requirement, decode(author, kind, &frame), read),
+        author.check(format!("{id}/stream-twice"), "innfos.frame.transparent", stream, found),
+    ]
+}
+
+/// A frame with a bit flipped, cut short or with a byte too many.
+fn damaged(author: &Author<'_>, kind: FrameKind) -> Vec<Check> {
+    let data = vec![0x01, 0x02, 0x03, 0x04].into();
+    let (word, packet) = match kind {
+        FrameKind::Request => ("request", Packet::Request { address: 6, command: 0x0A, data }),
+        FrameKind::Reply => ("reply", Packet::Reply { address: 6, command: 0x06, data }),
+    };
+    let frame = reference::encode(&packet).unwrap_or_default();
+    let mut damaged = Vec::new();
+    for at in 0..frame.len() {
+        for bit in 0..8 {
+            let mut bytes = frame.clone();
+            if let Some(byte) = bytes.get_mut(at) {
+                *byte ^= 1 << bit;
+            }
+            damaged.push((format!("flip-{at}-{bit}"), bytes));
+        }
+        damaged.push((format!("cut-at-{at}"), frame.get(..at).unwrap_or_default().to_vec()));
+    }
+    damaged.push(("byte-more".to_owned(), [frame.as_slice(), &[0xED]].concat()));
+    damaged.push(("byte-before".to_owned(), [&[0x00], frame.as_slice()].concat()));
+    let mut checks = Vec::new();
+    for (name, bytes) in damaged {
+        let id = format!("innfos.negative.{word}.{name}/decode");
+        let (requirement, demand) = match reference::decode(kind, &bytes) {
+            // The CRC covers the data alone: another address or command goes unnoticed.
+            Ok(packet) => ("innfos.frame.layout", Demand::Yield(Output::Packet(packet))),
+            Err(fault) => (requirement_of(fault), Demand::Reject(fault)),
+        };
+        checks.push(author.check(id, requirement, decode(author, kind, &bytes), demand));
+    }
+    checks
+}
+
+fn requirement_of(fault: Fault) -> &'static str {
+    match fault {
+        Fault::Header => "innfos.frame.header",
+        Fault::Tail => "innfos.frame.tail",
+        Fault::Crc => "innfos.crc.verify",
+        _ => "innfos.frame.length",
+    }
+}

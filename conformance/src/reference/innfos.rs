@@ -1,0 +1,114 @@
+//! CRC and frames of the INNFOS Ethernet protocol.
+
+use actucheck_spec::model::{Fault, FrameKind, HexBytes, Packet};
+
+/// The first byte of a frame.
+const HEADER: u8 = 0xEE;
+/// The last byte of a frame.
+const TAIL: u8 = 0xED;
+/// Bytes of header, address, command and length.
+const PREFIX: usize = 5;
+/// The commands whose replies of one byte may have a CRC or not.
+const OPEN: [u8; 2] = [0x02, 0x44];
+
+/// CRC-16/MODBUS, lowest bit first, bit by bit.
+#[must_use]
+pub fn crc(bytes: &[u8]) -> u16 {
+    let mut crc = 0xFFFF_u16;
+    for byte in bytes {
+        crc ^= u16::from(*byte);
+        for _ in 0..8 {
+            let carry = crc & 1 == 1;
+            crc >>= 1;
+            if carry {
+                crc ^= 0xA001;
+            }
+        }
+    }
+    crc
+}
+
+/// The bytes of a request or reply; `None` for another protocol's packet or too much data.
+#[must_use]
+pub fn encode(packet: &Packet) -> Option<Vec<u8>> {
+    let (kind, address, command, data) = match packet {
+        Packet::Request { address, command, data } => (FrameKind::Request, address, command, data),
+        Packet::Reply { address, command, data } => (FrameKind::Reply, address, command, data),
+        _ => return None,
+    };
+    let length = u16::try_from(data.len()).ok()?;
+    let mut frame = vec![HEADER, *address, *command];
+    frame.extend(length.to_be_bytes());
+    frame.extend(data.iter());
+    if has_crc(kind, data) {
+        // The low byte of CRC-16/MODBUS first, which the document calls the high one.
+        frame.extend(crc(data).to_le_bytes());
+    }
+    frame.push(TAIL);
+    Some(frame)
+}
+
+/// A request with data has a CRC, a reply only from two bytes of data on.
+fn has_crc(kind: FrameKind, data: &[u8]) -> bool {
+    match kind {
+        FrameKind::Request => !data.is_empty(),
+        FrameKind::Reply => data.len() > 1,
+    }
+}
+
+/// The packet that `bytes` are, one whole frame.
+///
+/// # Errors
+/// The first rule that they break: header, length, tail, trailing bytes, CRC.
+pub fn decode(kind: FrameKind, bytes: &[u8]) -> Result<Packet, Fault> {
+    let (packet, size) = first(kind, bytes)?;
+    if size < bytes.len() { Err(Fault::Trailing) } else { Ok(packet) }
+}
+
+/// The packets of a datagram: frame behind frame, up to the first byte that begins none.
+#[must_use]
+pub fn packets(kind: FrameKind, datagram: &[u8]) -> Vec<Packet> {
+    let mut packets = Vec::new();
+    let mut rest = datagram;
+    while let Ok((packet, size)) = first(kind, rest) {
+        packets.push(packet);
+        rest = rest.get(size..).unwrap_or_default();
+    }
+    packets
+}
+
+/// The packet that begins here, and its size.
+fn first(kind: FrameKind, bytes: &[u8]) -> Result<(Packet, usize), Fault> {
+    if bytes.first().is_some_and(|byte| *byte != HEADER) {
+        return Err(Fault::Header);
+    }
+    let [_, address, command, high, low, ..] = *bytes else { return Err(Fault::Truncated) };
+    let length = usize::from(u16::from_be_bytes([high, low]));
+    let rest = bytes.get(PREFIX..).unwrap_or_default();
+    let (data, behind) = rest.split_at_checked(length).ok_or(Fault::Truncated)?;
+    let packet = || {
+        let data = HexBytes(data.to_vec());
+        match kind {
+            FrameKind::Request => Packet::Request { address, command, data },
+            FrameKind::Reply => Packet::Reply { address, command, data },
+        }
+    };
+    let without_crc = PREFIX + length + 1;
+    let open = kind == FrameKind::Reply && data.len() == 1 && OPEN.contains(&command);
+    if open && behind == [TAIL] || !open && !has_crc(kind, data) {
+        return match behind.first() {
+            Some(&TAIL) => Ok((packet(), without_crc)),
+            Some(_) => Err(Fault::Tail),
+            None => Err(Fault::Truncated),
+        };
+    }
+    let [first, second, tail, ..] = *behind else { return Err(Fault::Truncated) };
+    let found = u16::from_le_bytes([first, second]);
+    if tail != TAIL {
+        return Err(Fault::Tail);
+    }
+    if found != crc(data) && !(open && found == 0) {
+        return Err(Fault::Crc);
+    }
+    Ok((packet(), without_crc + 2))
+}
