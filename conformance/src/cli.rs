@@ -25,6 +25,14 @@ pub(crate) enum Command {
     /// Explains one packet field by field
     #[command(after_help = DECODE_EXAMPLES)]
     Decode(Decode),
+    /// Lists the checks
+    #[command(after_help = LIST_EXAMPLES)]
+    List(List),
+    /// Shows one check: what it asks, what it demands, and which sentence demands it
+    Show(Show),
+    /// Asks one check again and shows what was said
+    #[command(after_help = REPLAY_EXAMPLES)]
+    Replay(Replay),
     /// Prints a shell's completion script
     Completions(Completions),
 }
@@ -52,26 +60,48 @@ Examples:
 
 Exit status: 0 a valid packet, 1 no valid packet, 2 wrong usage.";
 
+const LIST_EXAMPLES: &str = "\
+Examples:
+  actucheck list --select '*stuffing.body*' | head
+  actucheck list --wire innfos --skip '*negative*'";
+
+const REPLAY_EXAMPLES: &str = "\
+Examples:
+  actucheck replay dynamixel2.stuffing.goal-position/encode -- python3 my_adapter.py
+  actucheck replay --seed 7 dynamixel2.seed-7.12.status/decode -- ./my-adapter
+
+Exit status: as `actucheck codec`.";
+
+/// Which checks there are, and which of them are meant.
 #[derive(Debug, Args)]
-pub(crate) struct Codec {
-    /// The wire whose checks are run
+pub(crate) struct Selection {
+    /// The wire whose checks are meant
     #[arg(long, value_enum, default_value = "dynamixel2")]
     pub(crate) wire: Wire,
-    /// Run only the checks whose id matches; may be given more than once
+    /// Only the checks whose id matches; may be given more than once
     #[arg(long, value_name = "GLOB")]
     pub(crate) select: Vec<String>,
+    /// Not the checks whose id matches; may be given more than once
+    #[arg(long, value_name = "GLOB")]
+    pub(crate) skip: Vec<String>,
+    #[command(flatten)]
+    pub(crate) growth: Growth,
+}
+
+/// What generated checks grow from.
+#[derive(Debug, Args)]
+pub(crate) struct Growth {
     /// What the generated checks grow from; the same seed yields the same checks
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) seed: u64,
     /// How many packets are generated
     #[arg(long, value_name = "N", default_value_t = 1000)]
     pub(crate) cases: u32,
-    /// Known failures, which do not fail the run as long as they do fail
-    #[arg(long, value_name = "FILE")]
-    pub(crate) expect: Option<PathBuf>,
-    /// Write a report for programs; `-` is standard output
-    #[arg(long, value_name = "json=PATH", value_parser = report)]
-    pub(crate) report: Vec<Report>,
+}
+
+/// How an adapter is run.
+#[derive(Debug, Args)]
+pub(crate) struct Adapter {
     /// Seconds that the adapter may take for a request
     #[arg(long, value_name = "SECONDS", default_value = "1", value_parser = seconds)]
     pub(crate) timeout: Duration,
@@ -81,6 +111,44 @@ pub(crate) struct Codec {
     /// The adapter's command with its arguments; the built-in codec if there is none
     #[arg(last = true, value_name = "COMMAND")]
     pub(crate) command: Vec<String>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct List {
+    #[command(flatten)]
+    pub(crate) selection: Selection,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Show {
+    /// The check's id, as `actucheck list` and reports have it
+    pub(crate) id: String,
+    #[command(flatten)]
+    pub(crate) growth: Growth,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Replay {
+    /// The check's id, as `actucheck list` and reports have it
+    pub(crate) id: String,
+    #[command(flatten)]
+    pub(crate) growth: Growth,
+    #[command(flatten)]
+    pub(crate) adapter: Adapter,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Codec {
+    #[command(flatten)]
+    pub(crate) selection: Selection,
+    /// Known failures, which do not fail the run as long as they do fail
+    #[arg(long, value_name = "FILE")]
+    pub(crate) expect: Option<PathBuf>,
+    /// Write a report for programs; `-` is standard output
+    #[arg(long, value_name = "json=PATH", value_parser = report)]
+    pub(crate) report: Vec<Report>,
+    #[command(flatten)]
+    pub(crate) adapter: Adapter,
 }
 
 #[derive(Debug, Args)]

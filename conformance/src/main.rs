@@ -35,6 +35,9 @@ fn run() -> Result<ExitCode, Failure> {
     match cli.command {
         Command::Codec(options) => commands::codec::run(&options),
         Command::Decode(options) => commands::decode::run(&options),
+        Command::List(options) => commands::list::run(&options),
+        Command::Show(options) => commands::show::run(&options),
+        Command::Replay(options) => commands::replay::run(&options),
         Command::Completions(options) => {
             commands::completions::run(&options);
             Ok(ExitCode::SUCCESS)

@@ -3,7 +3,7 @@
 
 use actucheck_spec::model::{Citation, Fault, HexBytes, Outcome, Packet, Vector, VectorsFile};
 
-use super::Author;
+use super::{Author, of_reading};
 use crate::call::Call;
 use crate::check::{Check, Demand};
 use crate::protocol::{Called, Fast, Op, Output, Wire};
@@ -124,7 +124,12 @@ impl Golden<'_> {
             fast: asked_for(packet),
             kind: None,
         };
-        self.check("decode", requirement, op, self.demand(Output::Packet(packet.clone())))
+        self.check(
+            "decode",
+            of_reading(requirement),
+            op,
+            self.demand(Output::Packet(packet.clone())),
+        )
     }
 
     /// The frame as a stream, whole and byte by byte. What a fast status answers can't be told

@@ -89,7 +89,12 @@ impl Author<'_> {
         let (bytes, packet) = (Output::Bytes(bytes.into()), Output::Packet(packet.clone()));
         vec![
             self.check(format!("{id}/encode"), requirement, encode, Demand::Yield(bytes)),
-            self.check(format!("{id}/decode"), requirement, decode, Demand::Yield(packet)),
+            self.check(
+                format!("{id}/decode"),
+                of_reading(requirement),
+                decode,
+                Demand::Yield(packet),
+            ),
         ]
     }
 
@@ -109,6 +114,14 @@ impl Author<'_> {
         let chunks = chunks.iter().map(|chunk| chunk.clone().into()).collect();
         let op = Op::Stream { wire: self.wire, chunks, kind: None };
         self.check(id, requirement, op, Demand::Yield(Output::Packets(packets)))
+    }
+}
+
+/// The requirement on a reader that answers one on a sender.
+fn of_reading(requirement: &str) -> &str {
+    match requirement {
+        "dynamixel2.stuffing.transmit" => "dynamixel2.stuffing.receive",
+        other => other,
     }
 }
 

@@ -6,12 +6,9 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::time::Duration;
 
-use actucheck::cases;
 use actucheck::expect::Expectations;
 use actucheck::report::{self, Run};
 use actucheck::run;
-use actucheck::select::select;
-use actucheck::testee::{Builtin, Process, Testee, Timeouts};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::Failure;
@@ -20,18 +17,17 @@ use crate::cli::Codec;
 /// Runs the checks and writes the reports; the exit status says what came out.
 pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     let spec = super::spec()?;
-    let which = cases::Options { wire: options.wire, seed: options.seed, cases: options.cases };
-    let all = cases::all(&spec, &which);
+    let selection = &options.selection;
+    let all = super::checks(&spec, selection.wire, &selection.growth);
     let expectations = match &options.expect {
         Some(path) => {
             Expectations::read(path, &all).map_err(|error| Failure::new(Failure::USAGE, error))?
         }
         None => Expectations::default(),
     };
-    let checks =
-        select(all, &options.select).map_err(|error| Failure::new(Failure::USAGE, error))?;
+    let checks = super::selected(all, selection)?;
     let mut reports = open_reports(options)?;
-    let mut testee = testee(options)?;
+    let mut testee = super::testee(&options.adapter)?;
 
     let progress = progress(checks.len());
     let mut outcomes = run::run(testee.as_mut(), &checks, |_| progress.inc(1));
@@ -42,8 +38,8 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     let run = Run {
         spec: &spec,
         implementation: &hello.implementation,
-        wire: options.wire,
-        command: (!options.command.is_empty()).then_some(options.command.as_slice()),
+        wire: selection.wire,
+        command: &options.adapter.command,
         outcomes: &outcomes,
         log: testee.log(),
     };
@@ -52,21 +48,6 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     }
     write_text(&run, options)?;
     Ok(ExitCode::from(run.totals().exit_status()))
-}
-
-fn testee(options: &Codec) -> Result<Box<dyn Testee>, Failure> {
-    if options.command.is_empty() {
-        // clap does not tell `--` with nothing behind it from no `--` at all.
-        if std::env::args_os().next_back().is_some_and(|last| last == "--") {
-            let message = "no command behind `--`; give the adapter's, such as python3 adapter.py";
-            return Err(Failure::new(Failure::USAGE, message));
-        }
-        return Ok(Box::new(Builtin::default()));
-    }
-    let timeouts = Timeouts { start: options.start_timeout, request: options.timeout };
-    let process = Process::start(&options.command, timeouts)
-        .map_err(|error| Failure::new(Failure::NOT_STARTED, error))?;
-    Ok(Box::new(process))
 }
 
 /// A report's name and where it goes.

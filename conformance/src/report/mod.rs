@@ -17,8 +17,8 @@ pub struct Run<'a> {
     pub implementation: &'a Implementation,
     /// The wire.
     pub wire: Wire,
-    /// The adapter's command; `None` for the built-in codec.
-    pub command: Option<&'a [String]>,
+    /// The adapter's command; empty for the built-in codec.
+    pub command: &'a [String],
     /// What came out of each check.
     pub outcomes: &'a [Outcome],
     /// The last lines that the adapter logged.

@@ -5,7 +5,10 @@ use std::io::{self, Write};
 
 use anstyle::{AnsiColor, Style};
 
+use actucheck_spec::Spec;
+
 use super::Run;
+use crate::check::{Check, Demand};
 use crate::explain::diff;
 use crate::protocol::{Op, Output};
 use crate::verdict::{Outcome, Totals, Verdict};
@@ -48,6 +51,34 @@ pub fn write(run: &Run<'_>, out: &mut impl Write) -> io::Result<()> {
     summary(&totals, out)
 }
 
+/// Writes one check: what it asks, what it demands, and which sentence of which document that is.
+///
+/// # Errors
+/// If it can't be written.
+pub fn check(spec: &Spec, check: &Check, out: &mut impl Write) -> io::Result<()> {
+    writeln!(out, "{BOLD}{}{BOLD:#}", check.id)?;
+    statement(spec, &check.requirement, out)?;
+    writeln!(out, "  {:9} {DIM}{}{DIM:#}", "packet of", spec.place(&check.source))?;
+    writeln!(out, "  {:9} {}", "request", request(&check.op))?;
+    let (outputs, reject) = match &check.demand {
+        Demand::Yield(output) => (std::slice::from_ref(output), None),
+        Demand::YieldOneOf(outputs) => (outputs.as_slice(), None),
+        Demand::YieldOneOfOrReject(outputs) => (outputs.as_slice(), Some("or a rejection".into())),
+        Demand::Reject(fault) => (&[][..], Some(format!("a rejection ({fault})"))),
+    };
+    for output in outputs {
+        writeln!(out, "  {:9} {}", "demanded", shown(output))?;
+    }
+    reject.map_or(Ok(()), |reject| writeln!(out, "  {:9} {reject}", "demanded"))
+}
+
+/// A requirement in words, and who says so.
+fn statement(spec: &Spec, requirement: &str, out: &mut impl Write) -> io::Result<()> {
+    let Some(row) = spec.requirement(requirement) else { return Ok(()) };
+    writeln!(out, "  {:9} {}", row.level, row.text)?;
+    writeln!(out, "  {:9} {DIM}{}{DIM:#}", "says who", spec.place(&row.source))
+}
+
 /// A line a requirement: how its checks came out.
 fn requirements(run: &Run<'_>, out: &mut impl Write) -> io::Result<()> {
     let width = run.outcomes.iter().map(|outcome| outcome.requirement.len()).max().unwrap_or(0);
@@ -67,12 +98,10 @@ fn outcomes(run: &Run<'_>, verdict: Verdict, out: &mut impl Write) -> io::Result
         let word = verdict.to_string().to_uppercase().replace('-', " ");
         writeln!(out)?;
         writeln!(out, "{style}{word}{style:#} {BOLD}{requirement}{BOLD:#}")?;
-        if let Some(row) = run.spec.requirement(requirement) {
-            writeln!(out, "  {:9} {}", row.level, row.text)?;
-            writeln!(out, "  {:9} {DIM}{}{DIM:#}", "says who", run.spec.place(&row.source))?;
-        }
+        statement(run.spec, requirement, out)?;
         for outcome in outcomes.iter().take(SHOWN) {
             self::outcome(outcome, out)?;
+            replay_line(run, outcome, out)?;
         }
         if let Some(more @ 1..) = outcomes.len().checked_sub(SHOWN) {
             writeln!(out, "  … and {more} more; --report json=FILE has them all:")?;
@@ -105,6 +134,19 @@ fn outcome(outcome: &Outcome, out: &mut impl Write) -> io::Result<()> {
         }
     }
     writeln!(out, "  {:9} {}", "because", outcome.detail)
+}
+
+/// The command that asks the same again.
+fn replay_line(run: &Run<'_>, outcome: &Outcome, out: &mut impl Write) -> io::Result<()> {
+    write!(out, "  {:9} actucheck replay {}", "replay", outcome.id)?;
+    if let Some(rest) = outcome.id.split_once(".seed-").map(|(_, rest)| rest) {
+        let digits = rest.find(|character: char| !character.is_ascii_digit());
+        write!(out, " --seed {}", rest.get(..digits.unwrap_or(rest.len())).unwrap_or_default())?;
+    }
+    if !run.command.is_empty() {
+        write!(out, " -- {}", run.command.join(" "))?;
+    }
+    writeln!(out)
 }
 
 fn request(op: &Op) -> String {
