@@ -27,7 +27,19 @@ pub(super) fn checks(author: &Author<'_>) -> Vec<Check> {
     checks.extend((0..=u8::MAX).flat_map(|error| error_byte(author, error)));
     checks.extend((0..=252).chain([BROADCAST]).flat_map(|id| id_byte(author, id)));
     checks.extend(LENGTHS.iter().flat_map(|length| lengths(author, *length)));
+    checks.extend(before_params(author));
     checks
+}
+
+/// The pattern begins before the parameters: with the instruction, or with the error byte.
+fn before_params(author: &Author<'_>) -> Vec<Check> {
+    let params = || vec![0xFF, 0xFD].into();
+    let instruction = Packet::Instruction { id: 1, instruction: 0xFF, params: params() };
+    let status = Packet::Status { id: 1, error: 0xFF, params: params() };
+    let requirement = "dynamixel2.stuffing.transmit";
+    let first = author.both_ways("dynamixel2.stuffing.from-instruction", requirement, &instruction);
+    let second = author.both_ways("dynamixel2.stuffing.from-error", requirement, &status);
+    first.into_iter().chain(second).collect()
 }
 
 /// Every word of this length over the alphabet.
