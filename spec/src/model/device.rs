@@ -1,9 +1,10 @@
-use serde::Deserialize;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use super::Citation;
 
 /// A file of `devices/`: a control table.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Device {
     /// Id.
@@ -42,7 +43,7 @@ impl Device {
 }
 
 /// A bit that the device sets when a measurement passes a limit.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Alarm {
     /// Name of the bit.
@@ -56,7 +57,7 @@ pub struct Alarm {
 }
 
 /// A row of a control table.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Register {
     /// Address of its lowest byte.
@@ -90,7 +91,7 @@ pub struct Register {
 }
 
 /// Size and signedness of a register.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Type {
     /// One byte.
@@ -140,7 +141,7 @@ impl Type {
 }
 
 /// Whether a register outlives a power cycle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Area {
     /// It does; it can be locked.
@@ -150,7 +151,7 @@ pub enum Area {
 }
 
 /// What hosts may do with a register.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Access {
     /// Read it.
@@ -160,7 +161,7 @@ pub enum Access {
 }
 
 /// The values that a register may have: from `min` to `max`, or those of `one_of`.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Range {
     /// The smallest.
@@ -172,7 +173,7 @@ pub struct Range {
 }
 
 /// An end of a range.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(untagged, expecting = "a bound is a number or a register's name, `-` before it to negate")]
 pub enum Bound {
     /// A number.
@@ -182,7 +183,7 @@ pub enum Bound {
 }
 
 /// What one count of a value is.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Unit {
     /// The physical value of one count.
@@ -192,7 +193,7 @@ pub struct Unit {
 }
 
 /// A value with a name.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct NamedValue {
     /// The value.
@@ -204,7 +205,7 @@ pub struct NamedValue {
 }
 
 /// Neighbouring bits with a meaning of their own.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BitField {
     /// Its name.
