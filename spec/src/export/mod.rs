@@ -1,6 +1,8 @@
 //! The spec in other forms, for those who use it without this crate. The same from run to run.
 
+pub mod c_header;
 pub mod json;
+pub mod markdown;
 pub mod vectors;
 
 use std::fmt;
@@ -10,6 +12,8 @@ use serde::Serialize;
 /// Why there is no export.
 #[derive(Debug)]
 pub enum ExportError {
+    /// Two things in the spec would have this name in C.
+    Name(String),
     /// Something can't be written as JSON.
     Json(serde_json::Error),
 }
@@ -17,6 +21,7 @@ pub enum ExportError {
 impl fmt::Display for ExportError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Name(name) => write!(f, "two things would be called {name}"),
             Self::Json(error) => write!(f, "no JSON: {error}"),
         }
     }
@@ -25,6 +30,7 @@ impl fmt::Display for ExportError {
 impl std::error::Error for ExportError {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         match self {
+            Self::Name(_) => None,
             Self::Json(error) => Some(error),
         }
     }

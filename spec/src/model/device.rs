@@ -1,3 +1,5 @@
+use std::fmt;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -108,6 +110,19 @@ pub enum Type {
     I32,
 }
 
+impl fmt::Display for Type {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::U8 => "u8",
+            Self::I8 => "i8",
+            Self::U16 => "u16",
+            Self::I16 => "i16",
+            Self::U32 => "u32",
+            Self::I32 => "i32",
+        })
+    }
+}
+
 impl Type {
     /// Bytes.
     #[must_use]
@@ -150,6 +165,15 @@ pub enum Area {
     Ram,
 }
 
+impl fmt::Display for Area {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Eeprom => "EEPROM",
+            Self::Ram => "RAM",
+        })
+    }
+}
+
 /// What hosts may do with a register.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
@@ -158,6 +182,15 @@ pub enum Access {
     R,
     /// Read and write it.
     Rw,
+}
+
+impl fmt::Display for Access {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::R => "R",
+            Self::Rw => "RW",
+        })
+    }
 }
 
 /// The values that a register may have: from `min` to `max`, or those of `one_of`.
@@ -172,6 +205,21 @@ pub struct Range {
     pub one_of: Option<Vec<i64>>,
 }
 
+impl fmt::Display for Range {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let bound = |bound: &Option<Bound>| {
+            bound.as_ref().map_or_else(|| "no limit".to_owned(), ToString::to_string)
+        };
+        match &self.one_of {
+            Some(values) => {
+                let values: Vec<_> = values.iter().map(ToString::to_string).collect();
+                write!(f, "one of {}", values.join(", "))
+            }
+            None => write!(f, "{} to {}", bound(&self.min), bound(&self.max)),
+        }
+    }
+}
+
 /// An end of a range.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(untagged, expecting = "a bound is a number or a register's name, `-` before it to negate")]
@@ -180,6 +228,15 @@ pub enum Bound {
     Value(i64),
     /// The value of another register, negated if a `-` stands before its name.
     Register(String),
+}
+
+impl fmt::Display for Bound {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Value(value) => write!(f, "{value}"),
+            Self::Register(name) => f.write_str(name),
+        }
+    }
 }
 
 /// What one count of a value is.
@@ -192,6 +249,12 @@ pub struct Unit {
     pub symbol: String,
 }
 
+impl fmt::Display for Unit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}", self.factor, self.symbol)
+    }
+}
+
 /// A value with a name.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -202,6 +265,13 @@ pub struct NamedValue {
     pub name: String,
     /// What it comes to in fact, where the document says so (a baud rate in bit/s).
     pub actual: Option<i64>,
+}
+
+impl fmt::Display for NamedValue {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.name)?;
+        self.actual.map_or(Ok(()), |actual| write!(f, ", in fact {actual}"))
+    }
 }
 
 /// Neighbouring bits with a meaning of their own.
