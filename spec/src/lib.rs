@@ -8,7 +8,9 @@
 #![forbid(unsafe_code)]
 
 pub mod check;
+pub mod coverage;
 pub mod diagnostic;
+pub mod diff;
 pub mod export;
 pub mod generate;
 pub mod load;
