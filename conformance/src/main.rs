@@ -49,7 +49,7 @@ fn run() -> Result<ExitCode, Failure> {
 /// What clap says, on one line.
 fn usage(error: &clap::Error) -> Failure {
     if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        let message = "no command; `actucheck --help` lists them";
+        let message = "no command; `--help` behind it lists them";
         return Failure::new(Failure::USAGE, message);
     }
     let text = error.to_string();

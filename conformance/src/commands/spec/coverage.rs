@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use actucheck::cases;
+use actucheck::cases::{self, Options};
 use actucheck::protocol::Wire;
 use actucheck_spec::Spec;
 use actucheck_spec::coverage::{self, CheckName, Cover, Row};
@@ -20,8 +20,10 @@ pub(super) fn text(spec: &Spec, options: &spec::Coverage) -> Result<String, Fail
     let document = options.document.as_deref();
     super::known_document(spec, document)?;
     let role = options.role.map(role);
-    let checks: Vec<_> =
-        Wire::value_variants().iter().flat_map(|wire| cases::all(spec, *wire)).collect();
+    let checks: Vec<_> = Wire::value_variants()
+        .iter()
+        .flat_map(|wire| cases::all(spec, &Options::new(*wire)))
+        .collect();
     // What the suite asks, it asks of codecs.
     let names = checks.iter().map(|check| CheckName {
         id: &check.id,
