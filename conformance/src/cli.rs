@@ -1,5 +1,7 @@
 //! Subcommands and options.
 
+pub(crate) mod spec;
+
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -33,6 +35,9 @@ pub(crate) enum Command {
     /// Asks one check again and shows what was said
     #[command(after_help = REPLAY_EXAMPLES)]
     Replay(Replay),
+    /// Shows, compares and exports what the documents say
+    #[command(subcommand)]
+    Spec(spec::Spec),
     /// Prints a shell's completion script
     Completions(Completions),
 }

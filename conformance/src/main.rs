@@ -1,4 +1,4 @@
-//! The command line: `actucheck codec`, `actucheck decode`.
+//! The command line: `actucheck codec`, `actucheck decode`, `actucheck spec`.
 
 #![forbid(unsafe_code)]
 
@@ -38,6 +38,7 @@ fn run() -> Result<ExitCode, Failure> {
         Command::List(options) => commands::list::run(&options),
         Command::Show(options) => commands::show::run(&options),
         Command::Replay(options) => commands::replay::run(&options),
+        Command::Spec(command) => commands::spec::run(&command),
         Command::Completions(options) => {
             commands::completions::run(&options);
             Ok(ExitCode::SUCCESS)
@@ -48,7 +49,7 @@ fn run() -> Result<ExitCode, Failure> {
 /// What clap says, on one line.
 fn usage(error: &clap::Error) -> Failure {
     if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        let message = "no command; `actucheck --help` lists them";
+        let message = "no command; `--help` behind it lists them";
         return Failure::new(Failure::USAGE, message);
     }
     let text = error.to_string();

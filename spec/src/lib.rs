@@ -1,16 +1,21 @@
 //! The documents of robot actuators' protocols as data, and the code that reads them.
 //!
 //! [`load::Spec`] is everything that `spec/*.yaml` says, read and checked; [`generate`] turns it
-//! into the source of the codec's tables. The YAML is part of this crate, so nothing here needs
-//! the folder at run time.
+//! into the source of the codec's tables, [`export`] into files for others, and [`schema`] tells
+//! what the files may say. The YAML is part of this crate, so nothing here needs the folder at run
+//! time.
 
 #![forbid(unsafe_code)]
 
 pub mod check;
+pub mod coverage;
 pub mod diagnostic;
+pub mod diff;
+pub mod export;
 pub mod generate;
 pub mod load;
 pub mod model;
+pub mod schema;
 
 pub use diagnostic::Diagnostic;
 pub use load::Spec;

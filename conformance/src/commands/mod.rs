@@ -6,6 +6,7 @@ pub(crate) mod decode;
 pub(crate) mod list;
 pub(crate) mod replay;
 pub(crate) mod show;
+pub(crate) mod spec;
 
 use std::fmt;
 

@@ -66,10 +66,8 @@ fn register_doc(register: &Register) -> Vec<String> {
     };
     let mut facts = Vec::new();
     facts.extend(register.initial.map(|initial| format!("initially {initial}")));
-    facts.extend(register.range.as_ref().map(range_words));
-    facts.extend(
-        register.unit.as_ref().map(|unit| format!("one count is {} {}", unit.factor, unit.symbol)),
-    );
+    facts.extend(register.range.as_ref().map(ToString::to_string));
+    facts.extend(register.unit.as_ref().map(|unit| format!("one count is {unit}")));
     let mut lines = vec![format!(
         " {}: address {}, {size}, {area}, {access}.",
         register.name, register.address
@@ -80,21 +78,6 @@ fn register_doc(register: &Register) -> Vec<String> {
     }
     lines.push(format!(" Source: {}.", places(&register.source)));
     lines
-}
-
-fn range_words(range: &Range) -> String {
-    let bound = |bound: &Option<Bound>| match bound {
-        Some(Bound::Value(value)) => value.to_string(),
-        Some(Bound::Register(name)) => name.clone(),
-        None => "no limit".to_owned(),
-    };
-    match &range.one_of {
-        Some(values) => {
-            let values: Vec<_> = values.iter().map(ToString::to_string).collect();
-            format!("one of {}", values.join(", "))
-        }
-        None => format!("{} to {}", bound(&range.min), bound(&range.max)),
-    }
 }
 
 fn register(device: &Device, register: &Register) -> TokenStream {

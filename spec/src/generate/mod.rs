@@ -11,6 +11,8 @@ use quote::quote;
 use crate::Spec;
 use crate::model::{Citation, Device, Protocol};
 
+pub(crate) use token::words;
+
 /// One generated file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Module {
@@ -74,7 +76,7 @@ fn format(name: &str, tokens: &TokenStream) -> Result<Module, GenerateError> {
 }
 
 /// The sections of a list of citations: `ja40 §2.3, ja40 §2.4.22`.
-fn places(source: &[Citation]) -> String {
+pub(crate) fn places(source: &[Citation]) -> String {
     let places: Vec<_> = source.iter().map(ToString::to_string).collect();
     places.join(", ")
 }

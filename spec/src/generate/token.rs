@@ -58,7 +58,7 @@ fn hex(text: &str) -> TokenStream {
 }
 
 /// The letters and digits of a name, split at everything else.
-fn words(name: &str) -> Vec<&str> {
+pub(crate) fn words(name: &str) -> Vec<&str> {
     name.split(|character: char| !character.is_ascii_alphanumeric())
         .filter(|word| !word.is_empty())
         .collect()

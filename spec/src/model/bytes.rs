@@ -1,6 +1,8 @@
+use std::borrow::Cow;
 use std::fmt;
 use std::ops::Deref;
 
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 
 /// Bytes as hex digits in a text: `FF FF FD 00` or `fffffd00`. Written in the second form.
@@ -55,6 +57,22 @@ impl HexBytes {
             }
         }
         if high.is_some() { Err(HexError::OddDigits) } else { Ok(Self(bytes)) }
+    }
+}
+
+impl JsonSchema for HexBytes {
+    fn schema_name() -> Cow<'static, str> {
+        "HexBytes".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let (pattern, example) = if generator.contract().is_serialize() {
+            ("^([0-9a-f]{2})*$", "`fffffd00`")
+        } else {
+            (r"^(\s*[0-9A-Fa-f]\s*[0-9A-Fa-f])*\s*$", "`FF FF FD 00` or `fffffd00`")
+        };
+        let description = format!("Bytes as hex digits: {example}.");
+        json_schema!({ "description": description, "type": "string", "pattern": pattern })
     }
 }
 

@@ -1,9 +1,12 @@
-use serde::Deserialize;
+use std::fmt;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use super::Citation;
 
 /// A file of `devices/`: a control table.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Device {
     /// Id.
@@ -42,7 +45,7 @@ impl Device {
 }
 
 /// A bit that the device sets when a measurement passes a limit.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Alarm {
     /// Name of the bit.
@@ -56,7 +59,7 @@ pub struct Alarm {
 }
 
 /// A row of a control table.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Register {
     /// Address of its lowest byte.
@@ -90,7 +93,7 @@ pub struct Register {
 }
 
 /// Size and signedness of a register.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Type {
     /// One byte.
@@ -105,6 +108,19 @@ pub enum Type {
     U32,
     /// Four bytes, signed.
     I32,
+}
+
+impl fmt::Display for Type {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::U8 => "u8",
+            Self::I8 => "i8",
+            Self::U16 => "u16",
+            Self::I16 => "i16",
+            Self::U32 => "u32",
+            Self::I32 => "i32",
+        })
+    }
 }
 
 impl Type {
@@ -140,7 +156,7 @@ impl Type {
 }
 
 /// Whether a register outlives a power cycle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Area {
     /// It does; it can be locked.
@@ -149,8 +165,17 @@ pub enum Area {
     Ram,
 }
 
+impl fmt::Display for Area {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Eeprom => "EEPROM",
+            Self::Ram => "RAM",
+        })
+    }
+}
+
 /// What hosts may do with a register.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Access {
     /// Read it.
@@ -159,8 +184,17 @@ pub enum Access {
     Rw,
 }
 
+impl fmt::Display for Access {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::R => "R",
+            Self::Rw => "RW",
+        })
+    }
+}
+
 /// The values that a register may have: from `min` to `max`, or those of `one_of`.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Range {
     /// The smallest.
@@ -171,8 +205,23 @@ pub struct Range {
     pub one_of: Option<Vec<i64>>,
 }
 
+impl fmt::Display for Range {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let bound = |bound: &Option<Bound>| {
+            bound.as_ref().map_or_else(|| "no limit".to_owned(), ToString::to_string)
+        };
+        match &self.one_of {
+            Some(values) => {
+                let values: Vec<_> = values.iter().map(ToString::to_string).collect();
+                write!(f, "one of {}", values.join(", "))
+            }
+            None => write!(f, "{} to {}", bound(&self.min), bound(&self.max)),
+        }
+    }
+}
+
 /// An end of a range.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(untagged, expecting = "a bound is a number or a register's name, `-` before it to negate")]
 pub enum Bound {
     /// A number.
@@ -181,8 +230,17 @@ pub enum Bound {
     Register(String),
 }
 
+impl fmt::Display for Bound {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Value(value) => write!(f, "{value}"),
+            Self::Register(name) => f.write_str(name),
+        }
+    }
+}
+
 /// What one count of a value is.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Unit {
     /// The physical value of one count.
@@ -191,8 +249,14 @@ pub struct Unit {
     pub symbol: String,
 }
 
+impl fmt::Display for Unit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}", self.factor, self.symbol)
+    }
+}
+
 /// A value with a name.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct NamedValue {
     /// The value.
@@ -203,8 +267,15 @@ pub struct NamedValue {
     pub actual: Option<i64>,
 }
 
+impl fmt::Display for NamedValue {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.name)?;
+        self.actual.map_or(Ok(()), |actual| write!(f, ", in fact {actual}"))
+    }
+}
+
 /// Neighbouring bits with a meaning of their own.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BitField {
     /// Its name.

@@ -1,11 +1,12 @@
 use std::fmt;
 
-use serde::Deserialize;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use super::Citation;
 
 /// `errata.yaml`.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ErrataFile {
     /// One row a defect.
@@ -13,7 +14,7 @@ pub struct ErrataFile {
 }
 
 /// A place where a document is wrong, contradicts itself or leaves a question open.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Erratum {
     /// Permanent id; begins with the document's.
@@ -33,7 +34,7 @@ pub struct Erratum {
 }
 
 /// How a test finds a defect.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Proof {
     /// What it looks at.
@@ -44,7 +45,9 @@ pub struct Proof {
 }
 
 /// What a test looks at to find a defect.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize, JsonSchema,
+)]
 #[serde(rename_all = "lowercase")]
 pub enum ProofKind {
     /// A printed packet whose length or CRC does not compute.
@@ -60,7 +63,7 @@ pub enum ProofKind {
 }
 
 /// How sure the right reading of an erratum is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
     /// One reading is provably right.

@@ -1,12 +1,13 @@
 use std::fmt;
 use std::net::Ipv4Addr;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Citation, Crc, Id, Length};
 
 /// `protocols/innfos.yaml`: the INNFOS wire and its commands.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Innfos {
     /// Id, which the adapter protocol calls `wire`.
@@ -48,7 +49,7 @@ impl Innfos {
 }
 
 /// Header, address, length and end.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Envelope {
     /// The first byte.
@@ -67,7 +68,7 @@ pub struct Envelope {
 }
 
 /// Which frames carry a CRC. A frame without data never does.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CrcPresence {
     /// Data bytes from which on a request has one.
@@ -84,7 +85,7 @@ pub struct CrcPresence {
 }
 
 /// Which way a frame goes. The frame itself does not tell.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum FrameKind {
     /// From the host.
@@ -94,7 +95,7 @@ pub enum FrameKind {
 }
 
 /// The addresses and times of the Ethernet control board.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Udp {
     /// The board's address as delivered.
@@ -119,7 +120,9 @@ pub struct Udp {
 }
 
 /// How a value stands in the data; the high byte comes first.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Deserialize, Serialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Deserialize, Serialize, JsonSchema,
+)]
 #[serde(rename_all = "lowercase")]
 pub enum Format {
     /// 1 for success, enabled, on or normal; 0 for the opposite.
@@ -153,7 +156,7 @@ impl fmt::Display for Format {
 }
 
 /// The size of a format.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FormatRow {
     /// The format.
@@ -170,7 +173,7 @@ pub struct FormatRow {
 }
 
 /// What a host may ask.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Command {
     /// The command byte.
@@ -199,7 +202,9 @@ pub struct Command {
 }
 
 /// Whether a command reads or writes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Deserialize, Serialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Deserialize, Serialize, JsonSchema,
+)]
 #[serde(rename_all = "lowercase")]
 pub enum Direction {
     /// The reply carries the value.
@@ -218,7 +223,7 @@ impl fmt::Display for Direction {
 }
 
 /// A column of [`Actuators`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FullScale {
     /// [`Actuator::current`].
@@ -228,7 +233,7 @@ pub enum FullScale {
 }
 
 /// The operating modes.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Modes {
     /// Where this stands.
@@ -241,7 +246,7 @@ pub struct Modes {
 }
 
 /// An operating mode.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Mode {
     /// Its code.
@@ -251,7 +256,7 @@ pub struct Mode {
 }
 
 /// What an actuator warns of.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Alarms {
     /// Where this stands.
@@ -266,7 +271,7 @@ pub struct Alarms {
 }
 
 /// A bit of the alarms.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AlarmBit {
     /// The bit.
@@ -276,7 +281,7 @@ pub struct AlarmBit {
 }
 
 /// The actuators' models.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Actuators {
     /// Where this stands.
@@ -289,7 +294,7 @@ pub struct Actuators {
 }
 
 /// The full scales of a model.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Actuator {
     /// Its name.

@@ -1,10 +1,11 @@
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::HexBytes;
 
 /// A packet by its fields, before stuffing and CRC. The same object stands in the vectors' YAML
 /// and in the adapter protocol's JSON.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Packet {
     /// What a host sends.
@@ -51,7 +52,7 @@ pub enum Packet {
 }
 
 /// One device's part of a fast status packet.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Block {
     /// The whole error byte, alert bit included.

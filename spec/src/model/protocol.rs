@@ -1,9 +1,10 @@
-use serde::Deserialize;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use super::{Citation, NamedValue};
 
 /// A file of `protocols/`: the wire and its instructions.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Protocol {
     /// Id, which the adapter protocol calls `wire`.
@@ -23,7 +24,7 @@ pub struct Protocol {
 }
 
 /// Header, ID and length.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Framing {
     /// The first bytes, the reserved one included.
@@ -40,7 +41,7 @@ pub struct Framing {
 }
 
 /// The IDs that packets may have.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Id {
     /// Smallest ID of a device.
@@ -52,7 +53,7 @@ pub struct Id {
 }
 
 /// The length field.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Length {
     /// Bytes of the field.
@@ -66,7 +67,7 @@ pub struct Length {
 }
 
 /// Which byte comes first.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum ByteOrder {
     /// The low one.
@@ -76,7 +77,7 @@ pub enum ByteOrder {
 }
 
 /// A 16-bit CRC by its parameters.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Crc {
     /// Its name in catalogues of CRCs.
@@ -124,7 +125,7 @@ impl Crc {
 }
 
 /// Byte stuffing.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Stuffing {
     /// The bytes that must not stand in a body alone.
@@ -141,7 +142,7 @@ pub struct Stuffing {
 }
 
 /// The status packet.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StatusFormat {
     /// Its instruction.
@@ -158,7 +159,7 @@ pub struct StatusFormat {
 }
 
 /// A number that the error byte may hold.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ErrorNumber {
     /// The number, alert bit aside.
@@ -170,7 +171,7 @@ pub struct ErrorNumber {
 }
 
 /// What a host may ask.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Instruction {
     /// Its name in the documents.
@@ -203,7 +204,7 @@ pub struct Instruction {
 }
 
 /// A field of a layout: of `size`, or `each` for a group that repeats to the end.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Field {
     /// Its name.
@@ -222,7 +223,7 @@ pub struct Field {
 }
 
 /// How many bytes a field has.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(
     untagged,
     expecting = "a size is a number of bytes, the name of an earlier field that holds it, or `rest`"

@@ -1,11 +1,12 @@
 use std::fmt;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Citation;
 
 /// A file of `requirements/`.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RequirementsFile {
     /// One row a normative statement.
@@ -13,7 +14,7 @@ pub struct RequirementsFile {
 }
 
 /// A normative statement of a document, in our own words.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Requirement {
     /// Permanent id; begins with the document's.
@@ -26,10 +27,16 @@ pub struct Requirement {
     pub source: Citation,
     /// Who has to obey.
     pub binds: Vec<Role>,
+    /// Tests of this repository that hold the built-in codec to it, beside the suite's checks,
+    /// which any codec can take: `FILE::TEST`.
+    #[serde(default)]
+    pub tests: Vec<String>,
 }
 
 /// How binding a requirement is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Deserialize, Serialize, JsonSchema,
+)]
 #[serde(rename_all = "lowercase")]
 pub enum Level {
     /// Breaking it fails the run.
@@ -38,6 +45,11 @@ pub enum Level {
     Should,
     /// Either way is right.
     May,
+}
+
+impl Level {
+    /// Every level, the most binding one first.
+    pub const ALL: [Self; 3] = [Self::Must, Self::Should, Self::May];
 }
 
 impl fmt::Display for Level {
@@ -51,7 +63,9 @@ impl fmt::Display for Level {
 }
 
 /// Whom a requirement binds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Deserialize, Serialize, JsonSchema,
+)]
 #[serde(rename_all = "lowercase")]
 pub enum Role {
     /// Whoever builds or reads packets.
@@ -60,4 +74,19 @@ pub enum Role {
     Host,
     /// The actuator.
     Device,
+}
+
+impl Role {
+    /// Every role.
+    pub const ALL: [Self; 3] = [Self::Codec, Self::Host, Self::Device];
+}
+
+impl fmt::Display for Role {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Codec => "codec",
+            Self::Host => "host",
+            Self::Device => "device",
+        })
+    }
 }

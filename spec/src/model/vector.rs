@@ -1,11 +1,12 @@
 use std::fmt;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Citation, FrameKind, HexBytes, Packet};
 
 /// A file of `vectors/`: the golden packets of one section.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct VectorsFile {
     /// The section, for every vector that names no other.
@@ -17,7 +18,7 @@ pub struct VectorsFile {
 }
 
 /// A golden packet: bytes that a document prints or that arithmetic yields, with their meaning.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Vector {
     /// Permanent id.
@@ -64,7 +65,7 @@ impl Vector {
 }
 
 /// What an implementation has to do with a frame.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Outcome {
     /// Build it and read it.
@@ -77,7 +78,7 @@ pub enum Outcome {
 }
 
 /// What is wrong with a frame: the error classes of the adapter protocol.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Fault {
     /// It does not begin with a header.

@@ -1,0 +1,116 @@
+//! `actucheck spec coverage`.
+
+use std::fmt::Write as _;
+
+use actucheck::cases::{self, Options};
+use actucheck::protocol::Wire;
+use actucheck_spec::Spec;
+use actucheck_spec::coverage::{self, CheckName, Cover, Row};
+use actucheck_spec::model::{Level, Requirement, Role};
+use clap::ValueEnum as _;
+
+use super::table::{self, BOLD, DIM};
+use crate::cli::spec;
+use crate::commands::Failure;
+
+const NOTHING: &str = "nothing yet";
+
+/// The matrix, a document after the other, and its totals.
+pub(super) fn text(spec: &Spec, options: &spec::Coverage) -> Result<String, Failure> {
+    let document = options.document.as_deref();
+    super::known_document(spec, document)?;
+    let role = options.role.map(role);
+    let checks: Vec<_> = Wire::value_variants()
+        .iter()
+        .flat_map(|wire| cases::all(spec, &Options::new(*wire)))
+        .collect();
+    // What the suite asks, it asks of codecs.
+    let names = checks.iter().map(|check| CheckName {
+        id: &check.id,
+        requirement: &check.requirement,
+        role: Role::Codec,
+    });
+    let mut rows = coverage::matrix(spec, names);
+    rows.retain(|row| {
+        let Requirement { source, binds, .. } = row.requirement;
+        document.is_none_or(|id| source.document == id)
+            && role.is_none_or(|role| binds.contains(&role))
+    });
+    let totals = totals(&rows, role);
+    if options.uncovered {
+        rows.retain(|row| {
+            role.map_or_else(|| row.is_uncovered(), |role| row.cover(role) == Cover::Nothing)
+        });
+    }
+    Ok(matrix(spec, &rows) + &totals)
+}
+
+const fn role(role: spec::Role) -> Role {
+    match role {
+        spec::Role::Codec => Role::Codec,
+        spec::Role::Host => Role::Host,
+        spec::Role::Device => Role::Device,
+    }
+}
+
+fn matrix(spec: &Spec, rows: &[Row<'_>]) -> String {
+    let mut text = String::new();
+    for document in &spec.documents.content.documents {
+        let own = rows.iter().filter(|row| row.requirement.source.document == document.id);
+        let head = ["requirement", "level", "binds", "section", "checked by"].map(str::to_owned);
+        let cells: Vec<_> = [head].into_iter().chain(own.map(cells)).collect();
+        if cells.len() == 1 {
+            continue;
+        }
+        // Writing to a string can't fail.
+        let _ = writeln!(text, "{BOLD}{}{BOLD:#} ({})", document.title, document.file);
+        for (index, line) in table::lines("  ", &cells).iter().enumerate() {
+            let _ = match index {
+                0 => writeln!(text, "{DIM}{line}{DIM:#}"),
+                _ => writeln!(text, "{line}"),
+            };
+        }
+        text.push('\n');
+    }
+    text
+}
+
+fn cells(row: &Row<'_>) -> [String; 5] {
+    let Requirement { id, level, source, binds, .. } = row.requirement;
+    let binds: Vec<_> = binds.iter().map(ToString::to_string).collect();
+    [id.clone(), level.to_string(), binds.join(" "), source.section.clone(), checked_by(row)]
+}
+
+/// What checks it. Checks of a role that it does not bind are told, but check it not.
+fn checked_by(row: &Row<'_>) -> String {
+    let mut parts = Vec::new();
+    for (role, checks) in &row.checks {
+        let word = if checks.count == 1 { "check" } else { "checks" };
+        let many = format!("{} {word} of a {role}", checks.count);
+        parts.push(match row.requirement.binds.contains(role) {
+            true if checks.count == 1 => format!("{many}, {}", checks.example),
+            true => format!("{many}, such as {}", checks.example),
+            false => format!("{NOTHING}; {many} name it, such as {}", checks.example),
+        });
+    }
+    parts.extend(row.requirement.tests.iter().map(|test| format!("test {test}")));
+    if parts.is_empty() { NOTHING.to_owned() } else { parts.join("; ") }
+}
+
+/// Of one role, or of each.
+fn totals(rows: &[Row<'_>], only: Option<Role>) -> String {
+    let head = ["role", "level", "requirements", "checked", "tested here", NOTHING];
+    let mut cells = vec![head.map(str::to_owned)];
+    for role in Role::ALL.into_iter().filter(|role| only.is_none_or(|only| only == *role)) {
+        for level in Level::ALL {
+            let total = coverage::total(rows, role, level);
+            if total.requirements == 0 {
+                continue;
+            }
+            let counts = [total.requirements, total.checked, total.tested, total.open()];
+            let [all, checked, tested, open] = counts.map(|count| count.to_string());
+            cells.push([role.to_string(), level.to_string(), all, checked, tested, open]);
+        }
+    }
+    table::lines("", &cells).join("\n") + "\n"
+}

@@ -1,0 +1,57 @@
+//! `actucheck spec …`.
+
+mod coverage;
+mod diff;
+mod errata;
+mod export;
+mod table;
+
+use std::io::{self, Write as _};
+use std::process::ExitCode;
+
+use actucheck_spec as data;
+
+use super::Failure;
+use crate::cli::spec::Spec;
+
+/// Does what the subcommand says.
+pub(crate) fn run(command: &Spec) -> Result<ExitCode, Failure> {
+    let spec = super::spec()?;
+    match command {
+        Spec::Diff(options) => print(&diff::text(&spec, options)?),
+        Spec::Errata(options) => print(&errata::text(&spec, options)?),
+        Spec::Coverage(options) => print(&coverage::text(&spec, options)?),
+        Spec::Export(options) => export::run(&spec, options),
+    }?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Prints a text; its colours end where the terminal does.
+fn print(text: &str) -> Result<(), Failure> {
+    let mut out = anstream::stdout();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        // A reader that has seen enough is no failure.
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(Failure::new(Failure::INCOMPLETE, format!("cannot write: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Whether there is such a document, or none is asked for.
+fn known_document(spec: &data::Spec, id: Option<&str>) -> Result<(), Failure> {
+    let documents = &spec.documents.content.documents;
+    match id {
+        Some(id) if spec.document(id).is_none() => {
+            let ids = documents.iter().map(|document| document.id.as_str());
+            Err(unknown("document", id, ids))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn unknown<'a>(what: &str, id: &str, known: impl Iterator<Item = &'a str>) -> Failure {
+    let known: Vec<_> = known.collect();
+    let message = format!("unknown {what} `{id}`; known are {}", known.join(", "));
+    Failure::new(Failure::USAGE, message)
+}

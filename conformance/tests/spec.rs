@@ -1,0 +1,166 @@
+//! `actucheck spec` as a user meets it.
+
+#![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+fn spec(arguments: &[&str]) -> (i32, String, String) {
+    let mut command = Command::cargo_bin("actucheck").unwrap();
+    let output = command.arg("spec").args(arguments).output().unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+}
+
+#[test]
+fn two_devices_are_compared_fact_by_fact() {
+    let (status, stdout, stderr) = spec(&["diff", "ja40", "ja-variant"]);
+    assert_eq!((status, stderr.as_str()), (0, ""));
+    insta::assert_snapshot!(stdout, @r"
+    JA40 and JA variant
+
+    Devices
+                                                        ja40                          ja-variant
+      model number                                      5210                          -
+      instruction Sync Read                             yes                           -
+      instruction Sync Write                            yes                           -
+      backup of Feedforward 1st Gain                    yes                           -
+      backup of Feedforward 2nd Gain                    yes                           -
+      backup of Position D Gain                         yes                           -
+      backup of Position I Gain                         yes                           -
+      backup of Position P Gain                         yes                           -
+      backup of Velocity I Gain                         yes                           -
+      backup of Velocity P Gain                         yes                           -
+      alarm, Present Position above Max Position Limit  Position Limit Reached Error  Position Limit Error
+      alarm, Present Position below Min Position Limit  Position Limit Reached Error  Position Limit Error
+
+    Registers at whose address only ja40 has one
+      2    Model Information     u32  EEPROM  R
+      38   Current Limit         u16  EEPROM  RW
+      40   Acceleration Limit    u32  EEPROM  RW
+      550  Goal Current          i16  RAM     RW
+      552  Goal Velocity         i32  RAM     RW
+      556  Profile Acceleration  u32  RAM     RW
+      560  Profile Velocity      u32  RAM     RW
+      574  Present Current       i16  RAM     R
+
+    Registers at the same address
+                                             ja40                          ja-variant
+      0    Model Number           initial    5210                          -
+      10   Drive Mode             initial    0                             2
+                                  bit 1      Disable Profile               Enable Profile
+                                  bit 2      Profile Configuration         -
+                                  bit 1 = 0  Profile enabled               Profile disabled
+                                  bit 1 = 1  Profile disabled              Profile enabled
+                                  bit 2 = 0  Velocity-based profile        -
+                                  bit 2 = 1  Time-based profile            -
+      11   Operating Mode         value 0    Current Control Mode          -
+                                  value 1    Velocity Control Mode         -
+                                  value 3    Position Control Mode         -
+      36   PWM Limit              initial    1500                          30000
+      518  Hardware Error Status  range      0 to 254                      -
+                                  bit 1      Velocity Limit Reached Error  -
+                                  bit 3      Encoder Error                 Motor Encoder Error
+                                  bit 4      -                             Electrical Shock Error
+                                  bit 6      Position Limit Reached Error  Position Limit Error
+      522  Profile Time           name       Profile Time                  Movement Duration
+      526  Velocity P Gain        initial    50                            300
+      528  Position D Gain        initial    50                            0
+      530  Position I Gain        initial    5                             250
+      532  Position P Gain        initial    2000                          9000
+      536  Feedforward 2nd Gain   initial    2000                          20200
+      538  Feedforward 1st Gain   initial    150                           2020
+    ");
+}
+
+#[test]
+fn a_device_does_not_differ_from_itself() {
+    assert_eq!(spec(&["diff", "ja40", "ja40"]).1, "JA40 and JA40\nNothing differs.\n");
+}
+
+#[test]
+fn an_erratum_is_told_whole() {
+    let (status, stdout, _) = spec(&["errata", "--document", "ja40"]);
+    assert_eq!(status, 0);
+    insta::assert_snapshot!(stdout.split("\n\n").next().unwrap(), @r"
+    ja40.ping.model-number  resolved
+      place       JA40 actuator protocol, 1.6.1 (ja40-protocol.md line 209)
+      printed     the ping status carries 5A 17 07 before CRC 10 B9
+      held right  5A 14 07
+      evidence    CRC 10 B9 fits only 5A 14 07, and 0x145A is 5210, the model number of §2.2.
+    ");
+}
+
+#[test]
+fn errata_are_filtered_and_written_for_programs_too() {
+    let (_, stdout, _) = spec(&["errata", "--document", "innfos", "--status", "open", "--json"]);
+    let rows: Value = serde_json::from_str(&stdout).unwrap();
+    let rows = rows.as_array().unwrap();
+    assert!(!rows.is_empty());
+    for row in rows {
+        assert_eq!(row["status"], "open");
+        assert!(row["source"].as_str().unwrap().starts_with("innfos §"), "{row}");
+    }
+}
+
+#[test]
+fn every_requirement_has_a_row_with_its_place_and_what_checks_it() {
+    let (status, stdout, _) = spec(&["coverage"]);
+    assert_eq!(status, 0);
+    let spec = actucheck_spec::Spec::embedded().unwrap();
+    for row in spec.requirements.iter().flat_map(|file| &file.content.requirements) {
+        let line = stdout.lines().find(|line| line.split_whitespace().next() == Some(&row.id));
+        let line = line.unwrap_or_else(|| panic!("no row for {}", row.id));
+        assert!(line.contains(&row.source.section), "{line}");
+        let told = ["nothing yet", " check", "test "].iter().any(|words| line.contains(words));
+        assert!(told, "{line}");
+    }
+}
+
+#[test]
+fn what_is_checked_is_not_among_what_is_not() {
+    let (_, stdout, _) =
+        spec(&["coverage", "--document", "dynamixel2", "--role", "codec", "--uncovered"]);
+    assert!(!stdout.contains("dynamixel2.stuffing.transmit "), "{stdout}");
+    assert!(stdout.lines().any(|line| line.starts_with("codec")), "{stdout}");
+    assert!(!stdout.lines().any(|line| line.starts_with("device")), "{stdout}");
+}
+
+#[test]
+fn an_export_goes_to_a_file_or_to_standard_output() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("spec.h");
+    let (status, stdout, _) = spec(&["export", "c-header", "--output", file.to_str().unwrap()]);
+    assert_eq!((status, stdout.as_str()), (0, ""));
+    let text = std::fs::read_to_string(file).unwrap();
+    assert_eq!(spec(&["export", "c-header"]).1, text);
+    for format in ["json", "vectors", "markdown"] {
+        assert_eq!(spec(&["export", format]).0, 0, "{format}");
+    }
+}
+
+#[test]
+fn every_subcommand_has_an_example() {
+    for command in ["diff", "errata", "coverage", "export"] {
+        let (_, stdout, _) = spec(&[command, "--help"]);
+        assert!(stdout.contains(&format!("  actucheck spec {command} ")), "{stdout}");
+    }
+}
+
+#[test]
+fn wrong_usage_is_one_line_and_status_2() {
+    for arguments in [
+        &["diff", "ja40", "nobody"][..],
+        &["errata", "--document", "nothing"],
+        &["coverage", "--document", "nothing"],
+        &["export", "markdown", "--output", "/no/such/folder/spec.md"],
+    ] {
+        let (status, stdout, stderr) = spec(arguments);
+        assert_eq!((status, stdout.as_str()), (2, ""), "{arguments:?}");
+        assert_eq!(stderr.lines().count(), 1, "{stderr}");
+    }
+    assert_eq!(
+        spec(&["diff", "ja40", "nobody"]).2,
+        "actucheck: unknown device `nobody`; known are ja-variant, ja40, xm430-w210\n"
+    );
+}

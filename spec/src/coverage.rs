@@ -1,0 +1,158 @@
+//! Which requirement is checked by what.
+
+use std::collections::BTreeMap;
+
+use crate::Spec;
+use crate::model::{Level, Requirement, Role};
+
+/// A check of the suite, as far as it matters here.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CheckName<'a> {
+    /// Its permanent id.
+    pub id: &'a str,
+    /// Id of the requirement that it tests.
+    pub requirement: &'a str,
+    /// What it is asked of.
+    pub role: Role,
+}
+
+/// A requirement with what checks it.
+#[derive(Clone, Debug)]
+pub struct Row<'a> {
+    /// The requirement.
+    pub requirement: &'a Requirement,
+    /// The suite's checks that name it, by what they are asked of.
+    pub checks: BTreeMap<Role, Checks>,
+}
+
+/// The suite's checks of one requirement.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Checks {
+    /// How many.
+    pub count: usize,
+    /// Id of the first of them.
+    pub example: String,
+}
+
+/// What stands behind a requirement for one of those whom it binds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Cover {
+    /// Nothing yet.
+    Nothing,
+    /// A test of this repository, which only the built-in codec takes.
+    Test,
+    /// A check of the suite, which any implementation can take.
+    Check,
+}
+
+impl Row<'_> {
+    /// What stands behind it for this role; nothing for a role that it does not bind. A check
+    /// that is asked of a codec shows nothing about a device.
+    #[must_use]
+    pub fn cover(&self, role: Role) -> Cover {
+        if !self.requirement.binds.contains(&role) {
+            Cover::Nothing
+        } else if self.checks.contains_key(&role) {
+            Cover::Check
+        } else if role == Role::Codec && !self.requirement.tests.is_empty() {
+            Cover::Test
+        } else {
+            Cover::Nothing
+        }
+    }
+
+    /// Whether nothing stands behind it for any of those whom it binds.
+    #[must_use]
+    pub fn is_uncovered(&self) -> bool {
+        Role::ALL.into_iter().all(|role| self.cover(role) == Cover::Nothing)
+    }
+}
+
+/// A row for each requirement, in the order of files and of rows.
+#[must_use]
+pub fn matrix<'a, 'b>(
+    spec: &'a Spec,
+    checks: impl IntoIterator<Item = CheckName<'b>>,
+) -> Vec<Row<'a>> {
+    let mut by_requirement: BTreeMap<&str, BTreeMap<Role, Checks>> = BTreeMap::new();
+    for check in checks {
+        let roles = by_requirement.entry(check.requirement).or_default();
+        let example = || Checks { count: 0, example: check.id.to_owned() };
+        roles.entry(check.role).or_insert_with(example).count += 1;
+    }
+    spec.requirements
+        .iter()
+        .flat_map(|file| &file.content.requirements)
+        .map(|requirement| Row {
+            requirement,
+            checks: by_requirement.remove(requirement.id.as_str()).unwrap_or_default(),
+        })
+        .collect()
+}
+
+/// How many requirements of one level bind one role, and what stands behind them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Total {
+    /// All of them.
+    pub requirements: usize,
+    /// Those with a check of the suite.
+    pub checked: usize,
+    /// Those with a test of this repository only.
+    pub tested: usize,
+}
+
+impl Total {
+    /// Those with nothing.
+    #[must_use]
+    pub const fn open(&self) -> usize {
+        self.requirements - self.checked - self.tested
+    }
+}
+
+/// What stands behind the requirements of a level that bind a role. A requirement that binds two
+/// roles counts for both.
+#[must_use]
+pub fn total(rows: &[Row<'_>], role: Role, level: Level) -> Total {
+    let mut total = Total::default();
+    let bound = rows
+        .iter()
+        .filter(|row| row.requirement.level == level && row.requirement.binds.contains(&role));
+    for row in bound {
+        total.requirements += 1;
+        match row.cover(role) {
+            Cover::Check => total.checked += 1,
+            Cover::Test => total.tested += 1,
+            Cover::Nothing => {}
+        }
+    }
+    total
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_check_covers_the_role_that_it_is_asked_of_and_no_other() {
+        let spec = Spec::embedded().unwrap();
+        let check = |id, requirement| CheckName { id, requirement, role: Role::Codec };
+        let checks = [
+            check("a", "ja40.packets"),
+            check("b", "ja40.packets"),
+            check("c", "dynamixel2.bulk-read.status"),
+        ];
+        let rows = matrix(&spec, checks);
+        let row = |id| rows.iter().find(|row| row.requirement.id == id).unwrap();
+
+        let packets = row("ja40.packets");
+        assert_eq!(packets.checks[&Role::Codec], Checks { count: 2, example: "a".to_owned() });
+        assert_eq!(packets.cover(Role::Codec), Cover::Check);
+        assert_eq!(packets.cover(Role::Device), Cover::Nothing);
+        let of_devices = row("dynamixel2.bulk-read.status");
+        assert!(of_devices.is_uncovered() && of_devices.checks.contains_key(&Role::Codec));
+
+        let total = total(&rows, Role::Codec, Level::Must);
+        assert_eq!(total.checked, 1);
+        assert_eq!(total.open() + total.tested + 1, total.requirements);
+    }
+}

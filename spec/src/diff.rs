@@ -1,0 +1,298 @@
+//! What differs between two devices' control tables.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
+
+use crate::model::{Device, Register};
+
+/// What differs between two devices.
+#[derive(Clone, Debug)]
+pub struct Diff<'a> {
+    /// The first device.
+    pub left: &'a Device,
+    /// The second device.
+    pub right: &'a Device,
+    /// Facts about the devices as a whole.
+    pub device: Vec<Difference>,
+    /// Registers at whose address the second device has none.
+    pub only_left: Vec<Only<'a>>,
+    /// Registers at whose address the first device has none.
+    pub only_right: Vec<Only<'a>>,
+    /// Registers at the same address that are not the same.
+    pub registers: Vec<Changed<'a>>,
+}
+
+/// A register at whose address the other device has none.
+#[derive(Clone, Copy, Debug)]
+pub struct Only<'a> {
+    /// The register.
+    pub register: &'a Register,
+    /// The address at which the other device has a register of this name.
+    pub elsewhere: Option<u16>,
+}
+
+/// A register that both devices have, but not the same.
+#[derive(Clone, Debug)]
+pub struct Changed<'a> {
+    /// As the first device has it.
+    pub left: &'a Register,
+    /// As the second device has it.
+    pub right: &'a Register,
+    /// In what they differ; at least one fact.
+    pub differences: Vec<Difference>,
+}
+
+/// A fact that is not the same for both.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Difference {
+    /// What it is about.
+    pub fact: String,
+    /// What holds for the first; `None` if nothing does.
+    pub left: Option<String>,
+    /// What holds for the second; `None` if nothing does.
+    pub right: Option<String>,
+}
+
+impl<'a> Diff<'a> {
+    /// What differs between `left` and `right`. Citations, errata and titles are passed over.
+    #[must_use]
+    pub fn of(left: &'a Device, right: &'a Device) -> Self {
+        let changed = left.registers.iter().filter_map(|register| {
+            let other = at(right, register.address)?;
+            let differences = differences(&register_facts(register), &register_facts(other));
+            (!differences.is_empty()).then_some(Changed {
+                left: register,
+                right: other,
+                differences,
+            })
+        });
+        Self {
+            left,
+            right,
+            device: differences(&device_facts(left), &device_facts(right)),
+            only_left: only(left, right),
+            only_right: only(right, left),
+            registers: changed.collect(),
+        }
+    }
+
+    /// Whether nothing differs.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.device.is_empty()
+            && self.only_left.is_empty()
+            && self.only_right.is_empty()
+            && self.registers.is_empty()
+    }
+}
+
+fn at(device: &Device, address: u16) -> Option<&Register> {
+    device.registers.iter().find(|register| register.address == address)
+}
+
+fn only<'a>(device: &'a Device, other: &Device) -> Vec<Only<'a>> {
+    let missing = device.registers.iter().filter(|register| at(other, register.address).is_none());
+    missing
+        .map(|register| Only {
+            register,
+            elsewhere: other.register(&register.name).map(|register| register.address),
+        })
+        .collect()
+}
+
+/// Facts in the order of their keys.
+type Facts<K> = BTreeMap<K, String>;
+
+fn differences<K: Ord + fmt::Display>(left: &Facts<K>, right: &Facts<K>) -> Vec<Difference> {
+    let keys: BTreeSet<_> = left.keys().chain(right.keys()).collect();
+    keys.into_iter()
+        .map(|key| (key, left.get(key), right.get(key)))
+        .filter(|(_, left, right)| left != right)
+        .map(|(key, left, right)| Difference {
+            fact: key.to_string(),
+            left: left.cloned(),
+            right: right.cloned(),
+        })
+        .collect()
+}
+
+/// A fact about a device, in the order in which it is told.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum DeviceFact {
+    Protocol,
+    ModelNumber,
+    EepromLock,
+    Instruction(String),
+    Backup(String),
+    Alarm(String),
+}
+
+impl fmt::Display for DeviceFact {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Protocol => f.write_str("protocol"),
+            Self::ModelNumber => f.write_str("model number"),
+            Self::EepromLock => f.write_str("EEPROM lock"),
+            Self::Instruction(name) => write!(f, "instruction {name}"),
+            Self::Backup(name) => write!(f, "backup of {name}"),
+            Self::Alarm(name) => write!(f, "alarm, {name}"),
+        }
+    }
+}
+
+fn device_facts(device: &Device) -> Facts<DeviceFact> {
+    let yes = || "yes".to_owned();
+    let mut facts = Facts::from([(DeviceFact::Protocol, device.protocol.clone())]);
+    facts.extend(device.model_number.map(|number| (DeviceFact::ModelNumber, number.to_string())));
+    facts.extend(device.eeprom_lock.clone().map(|name| (DeviceFact::EepromLock, name)));
+    let instructions = device.instructions.iter().cloned();
+    facts.extend(instructions.map(|name| (DeviceFact::Instruction(name), yes())));
+    let backup = device.backup.iter().cloned();
+    facts.extend(backup.map(|name| (DeviceFact::Backup(name), yes())));
+    for alarm in &device.alarms {
+        for (word, limit) in [("below", &alarm.below), ("above", &alarm.above)] {
+            let case = limit.as_ref().map(|limit| format!("{} {word} {limit}", alarm.register));
+            facts.extend(case.map(|case| (DeviceFact::Alarm(case), alarm.bit.clone())));
+        }
+    }
+    facts
+}
+
+/// A fact about a register, in the order in which it is told.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum RegisterFact {
+    Name,
+    Type,
+    Area,
+    Access,
+    Initial,
+    Range,
+    Unit,
+    Bit(u8),
+    BitValue(u8, i64),
+    Value(i64),
+}
+
+impl fmt::Display for RegisterFact {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Name => f.write_str("name"),
+            Self::Type => f.write_str("type"),
+            Self::Area => f.write_str("area"),
+            Self::Access => f.write_str("access"),
+            Self::Initial => f.write_str("initial"),
+            Self::Range => f.write_str("range"),
+            Self::Unit => f.write_str("unit"),
+            Self::Bit(lowest) => write!(f, "bit {lowest}"),
+            Self::BitValue(lowest, value) => write!(f, "bit {lowest} = {value}"),
+            Self::Value(value) => write!(f, "value {value}"),
+        }
+    }
+}
+
+fn register_facts(register: &Register) -> Facts<RegisterFact> {
+    let mut facts = Facts::from([
+        (RegisterFact::Name, register.name.clone()),
+        (RegisterFact::Type, register.kind.to_string()),
+        (RegisterFact::Area, register.area.to_string()),
+        (RegisterFact::Access, register.access.to_string()),
+    ]);
+    facts.extend(register.initial.map(|value| (RegisterFact::Initial, value.to_string())));
+    facts.extend(register.range.as_ref().map(|range| (RegisterFact::Range, range.to_string())));
+    facts.extend(register.unit.as_ref().map(|unit| (RegisterFact::Unit, unit.to_string())));
+    let values = register.values.iter();
+    facts.extend(values.map(|row| (RegisterFact::Value(row.value), row.to_string())));
+    for bits in &register.bits {
+        let text = match bits.width {
+            1 => bits.name.clone(),
+            width => format!("{}, {width} bits", bits.name),
+        };
+        facts.insert(RegisterFact::Bit(bits.lowest), text);
+        let values = bits.values.iter();
+        facts.extend(
+            values.map(|row| (RegisterFact::BitValue(bits.lowest, row.value), row.to_string())),
+        );
+    }
+    facts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LEFT: &str = "
+device: left
+title: Left
+protocol: wire
+source: []
+instructions: [Ping, Clear]
+alarms: [{bit: Hot, register: Heat, above: Limit}]
+registers:
+  - {address: 0, name: Heat, type: u8, area: eeprom, access: r, initial: 3, source: []}
+  - {address: 1, name: Limit, type: u8, area: ram, access: rw, source: [], values: [{value: 0, name: Off}]}
+  - {address: 2, name: Flags, type: u8, area: ram, access: r, source: [], bits: [{name: A, lowest: 0}]}
+";
+
+    fn device(text: &str) -> Device {
+        serde_yaml::from_str(text).unwrap()
+    }
+
+    fn told(differences: &[Difference]) -> Vec<String> {
+        let shown = |value: &Option<String>| value.clone().unwrap_or_else(|| "-".to_owned());
+        let row =
+            |row: &Difference| format!("{}: {}, {}", row.fact, shown(&row.left), shown(&row.right));
+        differences.iter().map(row).collect()
+    }
+
+    #[test]
+    fn a_device_does_not_differ_from_itself() {
+        assert!(Diff::of(&device(LEFT), &device(LEFT)).is_empty());
+    }
+
+    #[test]
+    fn each_fact_that_differs_is_told_once() {
+        let right = LEFT
+            .replace("Ping, Clear", "Ping, Read")
+            .replace("bit: Hot", "bit: Warm")
+            .replace(
+                "type: u8, area: eeprom, access: r, initial: 3",
+                "type: i16, area: ram, access: rw",
+            )
+            .replace("name: Off", "name: \"Off, or so\"")
+            .replace(
+                "{name: A, lowest: 0}",
+                "{name: B, lowest: 0, width: 2}, {name: C, lowest: 2}",
+            );
+        let (left, right) = (device(LEFT), device(&right));
+        let diff = Diff::of(&left, &right);
+        assert_eq!(
+            told(&diff.device),
+            [
+                "instruction Clear: yes, -",
+                "instruction Read: -, yes",
+                "alarm, Heat above Limit: Hot, Warm"
+            ]
+        );
+        let registers: Vec<_> = diff.registers.iter().map(|row| told(&row.differences)).collect();
+        assert_eq!(
+            registers,
+            [
+                vec!["type: u8, i16", "area: EEPROM, RAM", "access: R, RW", "initial: 3, -"],
+                vec!["value 0: Off, Off, or so"],
+                vec!["bit 0: A, B, 2 bits", "bit 2: -, C"],
+            ]
+        );
+    }
+
+    #[test]
+    fn a_register_of_one_device_tells_where_the_other_has_its_name() {
+        let right = LEFT.replace("address: 2, name: Flags", "address: 9, name: Flags");
+        let (left, right) = (device(LEFT), device(&right));
+        let diff = Diff::of(&left, &right);
+        let at = |rows: &[Only<'_>]| -> Vec<_> {
+            rows.iter().map(|row| (row.register.address, row.elsewhere)).collect()
+        };
+        assert_eq!(at(&diff.only_left), [(2, Some(9))]);
+        assert_eq!(at(&diff.only_right), [(9, Some(2))]);
+    }
+}

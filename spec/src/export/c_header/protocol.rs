@@ -1,0 +1,35 @@
+use super::writer::{Constant, Header, lower, upper};
+use crate::model::Protocol;
+
+pub(super) fn write(protocol: &Protocol, header: &mut Header) {
+    let (prefix, tag) = (upper(&protocol.protocol), lower(&protocol.protocol));
+    let id = &protocol.framing.id;
+    let status = &protocol.status;
+    header.title(&protocol.title);
+    for (name, value, comment) in [
+        ("ID_MIN", format!("{}U", id.min), "smallest ID of a device"),
+        ("ID_MAX", format!("{}U", id.max), "largest ID of a device"),
+        ("ID_BROADCAST", format!("{}U", id.broadcast), "the ID that every device obeys"),
+        ("LENGTH_MIN", format!("{}U", protocol.framing.length.minimum), "smallest length"),
+        ("CRC_POLYNOMIAL", format!("{:#06X}U", protocol.crc.polynomial), &protocol.crc.name),
+        ("CRC_INITIAL", format!("{:#06X}U", protocol.crc.initial), ""),
+        ("CRC_CHECK", format!("{:#06X}U", protocol.crc.check), "of the characters 123456789"),
+        ("STUFFING", format!("{:#04X}U", protocol.stuffing.insert), "inserted by stuffing"),
+        ("STATUS", format!("{:#04X}U", status.instruction), "the instruction of a status packet"),
+        ("ALERT_MASK", format!("{:#04X}U", 1_u64 << status.alert_bit), "of the error byte"),
+    ] {
+        header.define(&Constant::new(format!("{prefix}_{name}"), value, comment));
+    }
+    let instructions = protocol.instructions.iter().map(|row| {
+        let name = format!("{prefix}_INSTRUCTION_{}", upper(&row.name));
+        Constant::new(name, format!("{:#04X}", row.code), &row.summary)
+    });
+    header.enumeration(&format!("{tag}_instruction"), &instructions.collect::<Vec<_>>());
+    let errors = status.errors.iter().map(|row| {
+        // The names of most end with the word, which the prefix has already.
+        let name = row.name.strip_suffix(" Error").unwrap_or(&row.name);
+        let name = format!("{prefix}_ERROR_{}", upper(name));
+        Constant::new(name, format!("{:#04X}", row.number), &row.summary)
+    });
+    header.enumeration(&format!("{tag}_error"), &errors.collect::<Vec<_>>());
+}

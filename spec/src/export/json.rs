@@ -1,0 +1,52 @@
+//! Documents, protocols, devices and errata as one JSON file. Every field is always there; what
+//! the documents do not tell is `null` or an empty list.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::{ExportError, to_json};
+use crate::Spec;
+use crate::model::{Device, Document, Erratum, Innfos, Protocol};
+
+/// Version of the file's form. It changes when a field goes or takes another meaning.
+pub const VERSION: u32 = 1;
+
+/// What `actucheck spec export json` writes.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Export<'a> {
+    /// Version of the file's form; 1. It changes when a field goes or takes another meaning.
+    pub version: u32,
+    /// The documents that citations point to.
+    pub documents: Vec<&'a Document>,
+    /// The wires of the DYNAMIXEL kind with their instructions and error numbers.
+    pub protocols: Vec<&'a Protocol>,
+    /// The wire of INNFOS with its commands, formats, modes, alarms and models.
+    pub innfos: &'a Innfos,
+    /// The control tables.
+    pub devices: Vec<&'a Device>,
+    /// The documents' defects.
+    pub errata: Vec<&'a Erratum>,
+}
+
+impl<'a> Export<'a> {
+    /// The export of a spec.
+    #[must_use]
+    pub fn of(spec: &'a Spec) -> Self {
+        Self {
+            version: VERSION,
+            documents: spec.documents.content.documents.iter().collect(),
+            protocols: spec.protocols.iter().map(|file| &file.content).collect(),
+            innfos: &spec.innfos.content,
+            devices: spec.devices.iter().map(|file| &file.content).collect(),
+            errata: spec.errata.content.errata.iter().collect(),
+        }
+    }
+}
+
+/// The whole file.
+///
+/// # Errors
+/// If something can't be written as JSON.
+pub fn export(spec: &Spec) -> Result<String, ExportError> {
+    to_json(&Export::of(spec))
+}

@@ -1,0 +1,32 @@
+//! The control tables, instructions and commands as tables that a forge shows.
+
+mod device;
+mod innfos;
+mod protocol;
+mod writer;
+
+use crate::Spec;
+use writer::Text;
+
+/// The whole text.
+#[must_use]
+pub fn export(spec: &Spec) -> String {
+    let mut text = Text::default();
+    text.heading(1, "Actuator protocols");
+    text.paragraph(
+        "Written by `actucheck spec export markdown`. Values are those held right; \
+         `actucheck spec errata` tells where a document prints something else.",
+    );
+    let documents = spec.documents.content.documents.iter().map(|document| {
+        vec![document.id.clone(), document.title.clone(), document.language.clone()]
+    });
+    text.table(&["document", "title", "language"], documents);
+    for file in &spec.protocols {
+        protocol::write(&file.content, &mut text);
+    }
+    innfos::write(&spec.innfos.content, &mut text);
+    for file in &spec.devices {
+        device::write(&file.content, &mut text);
+    }
+    text.finish()
+}

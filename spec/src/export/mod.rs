@@ -1,0 +1,42 @@
+//! The spec in other forms, for those who use it without this crate. The same from run to run.
+
+pub mod c_header;
+pub mod json;
+pub mod markdown;
+pub mod vectors;
+
+use std::fmt;
+
+use serde::Serialize;
+
+/// Why there is no export.
+#[derive(Debug)]
+pub enum ExportError {
+    /// Two things in the spec would have this name in C.
+    Name(String),
+    /// Something can't be written as JSON.
+    Json(serde_json::Error),
+}
+
+impl fmt::Display for ExportError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Name(name) => write!(f, "two things would be called {name}"),
+            Self::Json(error) => write!(f, "no JSON: {error}"),
+        }
+    }
+}
+
+impl std::error::Error for ExportError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::Name(_) => None,
+            Self::Json(error) => Some(error),
+        }
+    }
+}
+
+fn to_json(value: &impl Serialize) -> Result<String, ExportError> {
+    let text = serde_json::to_string_pretty(value).map_err(ExportError::Json)?;
+    Ok(text + "\n")
+}

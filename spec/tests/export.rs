@@ -1,0 +1,197 @@
+//! The exports say what the documents say, and a C compiler takes the header.
+
+#![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
+
+use std::fmt::Write as _;
+use std::io::{Write as _, stderr};
+use std::path::Path;
+use std::process::Command;
+use std::{env, fs};
+
+use actucheck_spec::model::{Bound, Device, Innfos, Protocol};
+use actucheck_spec::{Spec, export};
+use serde_json::Value;
+
+fn spec() -> Spec {
+    Spec::embedded().unwrap()
+}
+
+#[test]
+fn every_export_is_the_same_from_run_to_run() {
+    let all = || {
+        let spec = spec();
+        [
+            export::json::export(&spec).unwrap(),
+            export::vectors::export(&spec).unwrap(),
+            export::c_header::export(&spec).unwrap(),
+            export::markdown::export(&spec),
+        ]
+    };
+    assert_eq!(all(), all());
+}
+
+#[test]
+fn the_json_has_what_the_documents_print() {
+    let json: Value = serde_json::from_str(&export::json::export(&spec()).unwrap()).unwrap();
+    let row = |list: &Value, key: &str, wanted: &Value| -> Value {
+        list.as_array().unwrap().iter().find(|row| row[key] == *wanted).unwrap().clone()
+    };
+    assert_eq!(json["version"], 1);
+    let ja40 = row(&json["devices"], "device", &"ja40".into());
+    assert_eq!(ja40["registers"].as_array().unwrap().len(), 40);
+    let goal = row(&ja40["registers"], "name", &"Goal Position".into());
+    assert_eq!((&goal["address"], &goal["type"]), (&564.into(), &"i32".into()));
+    let wire = row(&json["protocols"], "protocol", &"dynamixel2".into());
+    let write = row(&wire["instructions"], "name", &"Write".into());
+    assert_eq!((&write["code"], &write["parameters"][1]["size"]), (&3.into(), &"rest".into()));
+    assert_eq!(row(&wire["status"]["errors"], "number", &7.into())["name"], "Access Error");
+    let position = row(&json["innfos"]["commands"], "code", &0x06.into());
+    assert_eq!((&position["name"], &position["format"]), (&"Position".into(), &"iq24".into()));
+}
+
+#[test]
+fn the_vectors_have_the_packets_that_the_documents_print() {
+    let spec = spec();
+    let json: Value = serde_json::from_str(&export::vectors::export(&spec).unwrap()).unwrap();
+    let vectors = json["vectors"].as_array().unwrap();
+    assert_eq!(vectors.len(), spec.vectors().count());
+    let vector = |id| vectors.iter().find(|row| row["id"] == id).unwrap();
+
+    let ping = vector("ja40.ping.instruction");
+    assert_eq!(
+        (&ping["input"], &ping["origin"]),
+        (&"fffffd0001030001194e".into(), &"printed".into())
+    );
+    assert_eq!(ping["section"], "1.6.1");
+    let corrected = vector("ja40.ping.status");
+    assert_eq!(
+        (&corrected["origin"], &corrected["printed_fault"]),
+        (&"corrected".into(), &"crc".into())
+    );
+    assert_eq!(corrected["errata"][0], "ja40.ping.model-number");
+    let damaged = vector("dynamixel2.receive.crc-low");
+    assert_eq!((&damaged["result"], &damaged["fault"]), (&"invalid".into(), &"crc".into()));
+    assert_eq!((&damaged["origin"], &damaged["expected"]), (&"derived".into(), &Value::Null));
+}
+
+#[test]
+fn the_markdown_has_a_row_for_each_register_and_command() {
+    let spec = spec();
+    let text = export::markdown::export(&spec);
+    let rows = |start: &str, end: &str| {
+        let table = text.split_once(start).unwrap().1.split_once(end).unwrap().0;
+        table.lines().filter(|line| line.starts_with("| ")).count() - 2
+    };
+    let registers = spec.device("ja40").unwrap().registers.len();
+    assert_eq!(rows("### Control table of JA40\n", "\n### "), registers);
+    assert_eq!(rows("### Commands\n", "\n### "), spec.innfos.content.commands.len());
+    let goal = "| 564 | Goal Position | i32 | RAM | RW |  | Min Position Limit to Max Position Limit | 1 count | ja40 §2.3, ja40 §2.4.22 |";
+    assert!(text.contains(goal), "{text}");
+    for line in text.lines().filter(|line| line.starts_with('|')) {
+        assert!(line.ends_with(" |"), "{line}");
+    }
+}
+
+/// Whether there is a C compiler; says so past the test harness if there is none.
+fn compiler() -> Option<String> {
+    let name = env::var("CC").unwrap_or_else(|_| "cc".to_owned());
+    if Command::new(&name).arg("--version").output().is_ok() {
+        return Some(name);
+    }
+    let note = || writeln!(stderr(), "skipped: no C compiler `{name}`");
+    note().unwrap();
+    None
+}
+
+/// A C program that prints a line a fact, and the lines that it must print.
+#[derive(Default)]
+struct Facts {
+    statements: String,
+    lines: String,
+}
+
+impl Facts {
+    fn add(&mut self, expression: &str, value: i64) {
+        writeln!(self.statements, "    printf(\"%lld\\n\", (long long){expression});").unwrap();
+        writeln!(self.lines, "{value}").unwrap();
+    }
+
+    fn device(&mut self, device: &Device) {
+        let prefix = c_name(&device.device);
+        for row in &device.registers {
+            let name = format!("{prefix}_{}", c_name(&row.name));
+            let signed = row.kind.limits().0 < 0;
+            let value_type = format!("{}_t", name.to_lowercase());
+            self.add(&format!("{name}_ADDRESS"), row.address.into());
+            self.add(&format!("{name}_SIZE"), row.kind.size().into());
+            self.add(&format!("sizeof({value_type})"), row.kind.size().into());
+            self.add(&format!("(({value_type})-1 < ({value_type})1)"), signed.into());
+            if let Some(initial) = row.initial {
+                self.add(&format!("{name}_INITIAL"), initial);
+            }
+            let Some(range) = &row.range else { continue };
+            for (end, bound) in [("MIN", &range.min), ("MAX", &range.max)] {
+                if let Some(Bound::Value(value)) = bound {
+                    self.add(&format!("{name}_{end}"), *value);
+                }
+            }
+        }
+    }
+
+    fn protocol(&mut self, protocol: &Protocol) {
+        let prefix = c_name(&protocol.protocol);
+        for row in &protocol.instructions {
+            self.add(&format!("{prefix}_INSTRUCTION_{}", c_name(&row.name)), row.code.into());
+        }
+    }
+
+    fn innfos(&mut self, innfos: &Innfos) {
+        for row in &innfos.commands {
+            let direction = row.direction.to_string();
+            let name = format!("INNFOS_{}_{}", c_name(&direction), c_name(&row.name));
+            self.add(&name, row.code.into());
+            self.add(&format!("{name}_REQUEST_SIZE"), row.request.into());
+        }
+    }
+}
+
+fn c_name(name: &str) -> String {
+    let words = name.split(|character: char| !character.is_ascii_alphanumeric());
+    let words: Vec<_> = words.filter(|word| !word.is_empty()).collect();
+    words.join("_").to_uppercase()
+}
+
+#[test]
+fn a_c_program_prints_what_the_yaml_says() {
+    let Some(compiler) = compiler() else { return };
+    let spec = spec();
+    let mut facts = Facts::default();
+    // Of the documents, so that not everything goes through the same names.
+    facts.add("JA40_GOAL_POSITION_ADDRESS", 564);
+    facts.add("JA40_MODEL_NUMBER", 5210);
+    facts.add("DYNAMIXEL2_INSTRUCTION_FAST_SYNC_READ", 0x8A);
+    facts.add("DYNAMIXEL2_ERROR_ACCESS", 7);
+    facts.add("INNFOS_WRITE_POSITION", 0x0A);
+    facts.add("JA40_HARDWARE_ERROR_STATUS_OVERHEATING_ERROR_MASK", 4);
+    spec.devices.iter().for_each(|file| facts.device(&file.content));
+    spec.protocols.iter().for_each(|file| facts.protocol(&file.content));
+    facts.innfos(&spec.innfos.content);
+
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("c-header");
+    fs::create_dir_all(&folder).unwrap();
+    fs::write(folder.join("actucheck.h"), export::c_header::export(&spec).unwrap()).unwrap();
+    let program = format!(
+        "#include \"actucheck.h\"\n#include \"actucheck.h\"\n#include <stdio.h>\n\n\
+         int main(void) {{\n{}    return 0;\n}}\n",
+        facts.statements
+    );
+    fs::write(folder.join("main.c"), program).unwrap();
+    let output = Command::new(compiler)
+        .args(["-Wall", "-Wextra", "-std=c99", "-pedantic", "-Werror", "main.c", "-o", "main"])
+        .current_dir(&folder)
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let output = Command::new(folder.join("main")).output().unwrap();
+    assert_eq!(String::from_utf8(output.stdout).unwrap(), facts.lines);
+}
