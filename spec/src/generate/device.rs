@@ -3,10 +3,10 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::places;
 use super::token::{
     capitalised, constant_name, module_name, named_values, number, option, type_name,
 };
+use super::{places, value};
 use crate::model::{Access, Area, BitField, Bound, Device, Range, Register, Type};
 
 pub(super) fn module(device: &Device) -> TokenStream {
@@ -23,9 +23,12 @@ pub(super) fn module(device: &Device) -> TokenStream {
         device.registers.iter().map(|register| constant_name(&register.name)).collect();
     let registers = device.registers.iter().zip(&names).map(|(row, name)| {
         let (doc, value) = (register_doc(row), register(device, row));
+        let (value_type, declarations) = (value::of(row), value::declarations(row));
         quote! {
             #(#[doc = #doc])*
-            pub const #name: Register = #value;
+            pub const #name: Register<#value_type> = Register::new(&#value);
+
+            #declarations
         }
     });
     quote! {
@@ -33,7 +36,8 @@ pub(super) fn module(device: &Device) -> TokenStream {
         pub mod #name {
             use crate::dynamixel2::Instruction;
             use crate::register::{
-                Access, Area, BitField, Bound, Device, Kind, NamedValue, Range, Register, Unit,
+                Access, Area, BitField, Bound, Device, Kind, NamedValue, Range, Register, Row, Unit,
+                Value,
             };
 
             /// The device as a whole.
@@ -43,7 +47,7 @@ pub(super) fn module(device: &Device) -> TokenStream {
                 model_number: #model_number,
                 instructions: &[#(Instruction::#instructions),*],
                 eeprom_lock: #lock,
-                registers: &[#(#names),*],
+                registers: &[#(#names.row),*],
             };
 
             #(#registers)*
@@ -125,7 +129,7 @@ fn register(device: &Device, register: &Register) -> TokenStream {
     let values = named_values(&register.values);
     let bits = register.bits.iter().map(bit_field);
     quote! {
-        Register {
+        Row {
             name: #name,
             address: #address,
             kind: Kind::#kind,

@@ -4,6 +4,7 @@
 mod device;
 mod protocol;
 mod token;
+mod value;
 
 use proc_macro2::TokenStream;
 use quote::quote;

@@ -164,7 +164,8 @@ pub mod wire {
 pub mod motor {
     use crate::dynamixel2::Instruction;
     use crate::register::{
-        Access, Area, BitField, Bound, Device, Kind, NamedValue, Range, Register, Unit,
+        Access, Area, BitField, Bound, Device, Kind, NamedValue, Range, Register, Row,
+        Unit, Value,
     };
     /// The device as a whole.
     pub const DEVICE: Device = Device {
@@ -173,123 +174,241 @@ pub mod motor {
         model_number: None,
         instructions: &[Instruction::Ping],
         eeprom_lock: Some(2u16),
-        registers: &[LIMIT, TORQUE, GOAL, MODE, STATE],
+        registers: &[LIMIT.row, TORQUE.row, GOAL.row, MODE.row, STATE.row],
     };
     /// Limit: address 0, 2 bytes, EEPROM area, read and write.
     ///
     /// Initially 5, 0 to 10.
     /// Source: book §2.
-    pub const LIMIT: Register = Register {
-        name: "Limit",
-        address: 0u16,
-        kind: Kind::U16,
-        area: Area::Eeprom,
-        access: Access::ReadWrite,
-        initial: Some(5),
-        range: Range::Between {
-            min: Bound::Value(0),
-            max: Bound::Value(10),
+    pub const LIMIT: Register<u16> = Register::new(
+        &Row {
+            name: "Limit",
+            address: 0u16,
+            kind: Kind::U16,
+            area: Area::Eeprom,
+            access: Access::ReadWrite,
+            initial: Some(5),
+            range: Range::Between {
+                min: Bound::Value(0),
+                max: Bound::Value(10),
+            },
+            unit: None,
+            values: &[],
+            bits: &[],
         },
-        unit: None,
-        values: &[],
-        bits: &[],
-    };
+    );
     /// Torque: address 2, 1 byte, RAM area, read and write.
     ///
     /// Source: book §2.
-    pub const TORQUE: Register = Register {
-        name: "Torque",
-        address: 2u16,
-        kind: Kind::U8,
-        area: Area::Ram,
-        access: Access::ReadWrite,
-        initial: None,
-        range: Range::Any,
-        unit: None,
-        values: &[],
-        bits: &[],
-    };
+    pub const TORQUE: Register<u8> = Register::new(
+        &Row {
+            name: "Torque",
+            address: 2u16,
+            kind: Kind::U8,
+            area: Area::Ram,
+            access: Access::ReadWrite,
+            initial: None,
+            range: Range::Any,
+            unit: None,
+            values: &[],
+            bits: &[],
+        },
+    );
     /// Goal: address 4, 2 bytes, RAM area, read and write.
     ///
     /// -Limit to Limit.
     /// Source: book §2.
-    pub const GOAL: Register = Register {
-        name: "Goal",
-        address: 4u16,
-        kind: Kind::I16,
-        area: Area::Ram,
-        access: Access::ReadWrite,
-        initial: None,
-        range: Range::Between {
-            min: Bound::Register {
-                address: 0u16,
-                negated: true,
+    pub const GOAL: Register<i16> = Register::new(
+        &Row {
+            name: "Goal",
+            address: 4u16,
+            kind: Kind::I16,
+            area: Area::Ram,
+            access: Access::ReadWrite,
+            initial: None,
+            range: Range::Between {
+                min: Bound::Register {
+                    address: 0u16,
+                    negated: true,
+                },
+                max: Bound::Register {
+                    address: 0u16,
+                    negated: false,
+                },
             },
-            max: Bound::Register {
-                address: 0u16,
-                negated: false,
-            },
+            unit: None,
+            values: &[],
+            bits: &[],
         },
-        unit: None,
-        values: &[],
-        bits: &[],
-    };
+    );
     /// Mode: address 8, 1 byte, EEPROM area, read and write.
     ///
     /// Initially 4, one of 4, 17.
     /// Source: book §2.
-    pub const MODE: Register = Register {
-        name: "Mode",
-        address: 8u16,
-        kind: Kind::U8,
-        area: Area::Eeprom,
-        access: Access::ReadWrite,
-        initial: Some(4),
-        range: Range::OneOf(&[4, 17]),
-        unit: None,
-        values: &[
-            NamedValue {
-                value: 4,
-                name: "Turning",
-            },
-        ],
-        bits: &[],
-    };
+    pub const MODE: Register<Mode> = Register::new(
+        &Row {
+            name: "Mode",
+            address: 8u16,
+            kind: Kind::U8,
+            area: Area::Eeprom,
+            access: Access::ReadWrite,
+            initial: Some(4),
+            range: Range::OneOf(&[4, 17]),
+            unit: None,
+            values: &[
+                NamedValue {
+                    value: 4,
+                    name: "Turning",
+                },
+            ],
+            bits: &[],
+        },
+    );
+    /// What Mode may be.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum Mode {
+        /// `4`: Turning.
+        Turning,
+        /// A value that the documents give no name.
+        Unknown(u8),
+    }
+    impl Mode {
+        /// What this number stands for.
+        #[must_use]
+        pub const fn from_raw(raw: u8) -> Self {
+            match raw {
+                4 => Self::Turning,
+                raw => Self::Unknown(raw),
+            }
+        }
+        /// The number.
+        #[must_use]
+        pub const fn raw(self) -> u8 {
+            match self {
+                Self::Turning => 4,
+                Self::Unknown(raw) => raw,
+            }
+        }
+    }
+    impl Value for Mode {
+        fn raw(self) -> i64 {
+            self.raw().into()
+        }
+        fn from_raw(raw: i64) -> Option<Self> {
+            raw.try_into().ok().map(Self::from_raw)
+        }
+    }
     /// State: address 9, 4 bytes, RAM area, read-only.
     ///
     /// One count is 0.01 rev/min.
     /// Source: book §2, book §3.
-    pub const STATE: Register = Register {
-        name: "State",
-        address: 9u16,
-        kind: Kind::U32,
-        area: Area::Ram,
-        access: Access::ReadOnly,
-        initial: None,
-        range: Range::Any,
-        unit: Some(Unit {
-            factor: 0.01,
-            symbol: "rev/min",
-        }),
-        values: &[],
-        bits: &[
-            BitField {
-                name: "Moving",
-                lowest: 0u8,
-                width: 1u8,
-                values: &[],
-            },
-            BitField {
-                name: "Profile",
-                lowest: 4u8,
-                width: 2u8,
-                values: &[
-                    NamedValue {
-                        value: 3,
-                        name: "Trapezoidal",
-                    },
-                ],
-            },
-        ],
-    };
+    pub const STATE: Register<State> = Register::new(
+        &Row {
+            name: "State",
+            address: 9u16,
+            kind: Kind::U32,
+            area: Area::Ram,
+            access: Access::ReadOnly,
+            initial: None,
+            range: Range::Any,
+            unit: Some(Unit {
+                factor: 0.01,
+                symbol: "rev/min",
+            }),
+            values: &[],
+            bits: &[
+                BitField {
+                    name: "Moving",
+                    lowest: 0u8,
+                    width: 1u8,
+                    values: &[],
+                },
+                BitField {
+                    name: "Profile",
+                    lowest: 4u8,
+                    width: 2u8,
+                    values: &[
+                        NamedValue {
+                            value: 3,
+                            name: "Trapezoidal",
+                        },
+                    ],
+                },
+            ],
+        },
+    );
+    /// The bits of State.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State(pub u32);
+    impl State {
+        /// What this number stands for.
+        #[must_use]
+        pub const fn from_raw(raw: u32) -> Self {
+            Self(raw)
+        }
+        /// The number.
+        #[must_use]
+        pub const fn raw(self) -> u32 {
+            self.0
+        }
+        /// The bits that the documents give no name, in their places.
+        #[must_use]
+        pub const fn unnamed(self) -> u32 {
+            self.0 & !0x31
+        }
+        /// Bit 0: Moving.
+        #[must_use]
+        pub const fn moving(self) -> bool {
+            self.0 & 0x01 != 0
+        }
+        /// The same with another Moving.
+        #[must_use]
+        pub const fn with_moving(self, value: bool) -> Self {
+            Self((self.0 & !0x01) | (((value as u32) << 0) & 0x01))
+        }
+        /// Bits 4 to 5: Profile.
+        #[must_use]
+        pub const fn profile(self) -> Profile {
+            Profile::from_raw((self.0 & 0x30) >> 4)
+        }
+        /// The same with another Profile.
+        #[must_use]
+        pub const fn with_profile(self, value: Profile) -> Self {
+            Self((self.0 & !0x30) | ((value.raw() << 4) & 0x30))
+        }
+    }
+    /// What the bits Profile of State may be.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum Profile {
+        /// `3`: Trapezoidal.
+        Trapezoidal,
+        /// A value that the documents give no name.
+        Unknown(u32),
+    }
+    impl Profile {
+        /// What this number stands for.
+        #[must_use]
+        pub const fn from_raw(raw: u32) -> Self {
+            match raw {
+                3 => Self::Trapezoidal,
+                raw => Self::Unknown(raw),
+            }
+        }
+        /// The number.
+        #[must_use]
+        pub const fn raw(self) -> u32 {
+            match self {
+                Self::Trapezoidal => 3,
+                Self::Unknown(raw) => raw,
+            }
+        }
+    }
+    impl Value for State {
+        fn raw(self) -> i64 {
+            self.raw().into()
+        }
+        fn from_raw(raw: i64) -> Option<Self> {
+            raw.try_into().ok().map(Self::from_raw)
+        }
+    }
 }
