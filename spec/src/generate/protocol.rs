@@ -144,6 +144,7 @@ fn instructions(protocol: &Protocol) -> TokenStream {
     rows.sort_by_key(|(code, ..)| *code);
     let name = type_name("Instruction");
     let declaration = wire_enum(&name, " What a packet asks for, or that it is an answer.", &rows);
+    let options = protocol.instructions.iter().flat_map(options);
 
     let arms = |pick: fn(&Instruction) -> Option<&Vec<Field>>| {
         let arms = protocol.instructions.iter().filter_map(|row| {
@@ -168,6 +169,7 @@ fn instructions(protocol: &Protocol) -> TokenStream {
     let answers_broadcast = list(|row| row.answers_broadcast);
     quote! {
         #declaration
+        #(#options)*
 
         impl Instruction {
             /// Layout of the parameters of an instruction packet; `None` for
@@ -213,6 +215,31 @@ fn instructions(protocol: &Protocol) -> TokenStream {
             }
         }
     }
+}
+
+/// An enum for each parameter of one byte whose values have names: `FactoryResetOption`.
+fn options(instruction: &Instruction) -> Vec<TokenStream> {
+    let one_byte = |field: &&Field| field.size == Some(Size::Bytes(1)) && !field.values.is_empty();
+    let fields = instruction.parameters.iter().filter(one_byte);
+    let options = fields.map(|field| {
+        let name = type_name(&format!("{} {}", instruction.name, field.name));
+        let mut rows: Vec<_> = field
+            .values
+            .iter()
+            .filter_map(|row| {
+                Some((u8::try_from(row.value).ok()?, row.name.as_str(), format!("{}.", row.name)))
+            })
+            .collect();
+        rows.sort_by_key(|(code, ..)| *code);
+        let doc = format!(
+            " The {} of {} ({}).",
+            field.name,
+            instruction.name,
+            places(&instruction.source)
+        );
+        wire_enum(&name, &doc, &rows)
+    });
+    options.collect()
 }
 
 fn errors(protocol: &Protocol) -> TokenStream {
