@@ -32,6 +32,7 @@ pub mod crc;
 mod error;
 pub mod fast_status;
 pub mod frame;
+pub mod innfos;
 pub mod instruction;
 pub mod layout;
 mod number;

@@ -160,6 +160,147 @@ pub mod wire {
 
 // Generated from the YAML in spec/.
 
+/// Board.
+pub mod board {
+    use crate::innfos::{Actuator, CommandRow, Direction, Format, FullScale};
+    /// The first byte of a frame.
+    ///
+    /// book §2.
+    pub const HEADER: u8 = 0xEE;
+    /// The last byte of a frame.
+    pub const TAIL: u8 = 0xED;
+    /// The address that every actuator obeys.
+    pub const BROADCAST_ADDRESS: u8 = 0x00;
+    /// The polynomial of CRC-16/MODBUS, highest power in the highest bit.
+    pub const CRC_POLYNOMIAL: u16 = 0x8005;
+    /// The CRC of the nine ASCII characters `123456789`.
+    pub const CRC_CHECK: u16 = 0x4B37;
+    /// From so many bytes of data on a request has a CRC.
+    ///
+    /// book §2.
+    pub const REQUEST_CRC_FROM: usize = 1usize;
+    /// From so many bytes of data on a reply has a CRC.
+    ///
+    /// book §2.
+    pub const REPLY_CRC_FROM: usize = 2usize;
+    /// The commands whose shorter replies may have one, or zeros in its place.
+    ///
+    /// book §2.
+    pub const OPEN_REPLIES: [u8; 0usize] = [];
+    /// The board's IPv4 address as delivered.
+    ///
+    /// book §2.
+    pub const BOARD: [u8; 4] = [10u8, 0u8, 0u8, 2u8];
+    /// The IPv4 address of every board.
+    pub const EVERY_BOARD: [u8; 4] = [10u8, 0u8, 0u8, 255u8];
+    /// The board's UDP port.
+    pub const PORT: u16 = 2000;
+    /// What a host asks.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum Command {
+        /** `0x01`: State; the reply carries a value, flag.
+
+ book §2.*/
+        ReadState,
+        /// A byte that the documents give no name.
+        Unknown(u8),
+    }
+    impl Command {
+        /// Every one with a name, by rising code.
+        pub const ALL: [Self; 1usize] = [Self::ReadState];
+        /// What this byte stands for.
+        #[must_use]
+        pub const fn from_code(code: u8) -> Self {
+            match code {
+                0x01 => Self::ReadState,
+                code => Self::Unknown(code),
+            }
+        }
+        /// The byte on the wire.
+        #[must_use]
+        pub const fn code(self) -> u8 {
+            match self {
+                Self::ReadState => 0x01,
+                Self::Unknown(code) => code,
+            }
+        }
+        /// Its name in the documents, or `unknown`.
+        #[must_use]
+        pub const fn name(self) -> &'static str {
+            match self {
+                Self::ReadState => "Read State",
+                Self::Unknown(_) => "unknown",
+            }
+        }
+    }
+    impl Command {
+        /// What the documents say of it; `None` for an unknown one.
+        #[must_use]
+        pub const fn row(self) -> Option<&'static CommandRow> {
+            Some(
+                match self {
+                    Self::ReadState => {
+                        &CommandRow {
+                            direction: Direction::Read,
+                            request: 0,
+                            reply: &[1],
+                            format: Some(Format::Flag),
+                            unit: None,
+                            full_scale: None,
+                        }
+                    }
+                    Self::Unknown(_) => return None,
+                },
+            )
+        }
+    }
+    /// What the actuator controls (book §2).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum Mode {
+        /// A byte that the documents give no name.
+        Unknown(u8),
+    }
+    impl Mode {
+        /// Every one with a name, by rising code.
+        pub const ALL: [Self; 0usize] = [];
+        /// What this byte stands for.
+        #[must_use]
+        pub const fn from_code(code: u8) -> Self {
+            match code {
+                code => Self::Unknown(code),
+            }
+        }
+        /// The byte on the wire.
+        #[must_use]
+        pub const fn code(self) -> u8 {
+            match self {
+                Self::Unknown(code) => code,
+            }
+        }
+        /// Its name in the documents, or `unknown`.
+        #[must_use]
+        pub const fn name(self) -> &'static str {
+            match self {
+                Self::Unknown(_) => "unknown",
+            }
+        }
+    }
+    /// What the actuator warns of (book §2).
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct Alarms(pub u16);
+    impl Alarms {
+        /// The bits that mean an none.
+        #[must_use]
+        pub const fn others(self) -> u16 {
+            self.0 & !0x0000
+        }
+    }
+    /// Every model (book §2).
+    pub const ACTUATORS: [Actuator; 0usize] = [];
+}
+
+// Generated from the YAML in spec/.
+
 /// The Motor control table: book §2.
 pub mod motor {
     use crate::dynamixel2::Instruction;
