@@ -1,11 +1,14 @@
 use core::marker::PhantomData;
 
-use super::{Data, RegisterError, Row};
+use super::{Data, Kind, RegisterError, Row};
 use crate::dynamixel2::Instruction;
 use crate::{EncodeError, frame};
 
 /// What a register holds: a number, an enum of named values, or a set of bits.
 pub trait Value: Copy {
+    /// The registers that can hold it: it has as many values as they.
+    const KIND: Kind;
+
     /// As the number in the register.
     fn raw(self) -> i64;
 
@@ -14,8 +17,10 @@ pub trait Value: Copy {
 }
 
 macro_rules! numbers {
-    ($($number:ty),*) => {$(
+    ($($number:ident: $kind:ident),*) => {$(
         impl Value for $number {
+            const KIND: Kind = Kind::$kind;
+
             fn raw(self) -> i64 {
                 self.into()
             }
@@ -27,7 +32,7 @@ macro_rules! numbers {
     )*};
 }
 
-numbers!(u8, i8, u16, i16, u32, i32);
+numbers!(u8: U8, i8: I8, u16: U16, i16: I16, u32: U32, i32: I32);
 
 /// A register whose values are of type `T`. The device modules have one as a constant for each
 /// row of the control table.
@@ -47,8 +52,10 @@ impl<T> Clone for Register<T> {
 impl<T> Copy for Register<T> {}
 
 impl<T: Value> Register<T> {
-    /// `T` holds exactly the numbers that the row's kind does.
+    /// The device modules call it where a constant is computed: a type that does not suit the row
+    /// ends the build.
     pub(crate) const fn new(row: &'static Row) -> Self {
+        assert!(row.kind as u8 == T::KIND as u8, "a register of another kind than its value");
         Self { row, value: PhantomData }
     }
 

@@ -7,7 +7,7 @@ use super::token::{
     capitalised, constant_name, module_name, named_values, number, option, type_name,
 };
 use super::{places, value};
-use crate::model::{Access, Area, BitField, Bound, Device, Range, Register, Type};
+use crate::model::{Access, Area, BitField, Bound, Device, Range, Register};
 
 pub(super) fn module(device: &Device) -> TokenStream {
     let name = module_name(&device.device);
@@ -103,14 +103,7 @@ fn range_words(range: &Range) -> String {
 
 fn register(device: &Device, register: &Register) -> TokenStream {
     let (name, address) = (&register.name, register.address);
-    let kind = match register.kind {
-        Type::U8 => quote!(U8),
-        Type::I8 => quote!(I8),
-        Type::U16 => quote!(U16),
-        Type::I16 => quote!(I16),
-        Type::U32 => quote!(U32),
-        Type::I32 => quote!(I32),
-    };
+    let kind = value::kind(register.kind);
     let area = match register.area {
         Area::Eeprom => quote!(Eeprom),
         Area::Ram => quote!(Ram),

@@ -18,6 +18,7 @@ pub(super) fn declarations(register: &Register) -> TokenStream {
     }
     let name = type_name(&register.name);
     let raw = number_type(register.kind);
+    let kind = kind(register.kind);
     let declaration = if register.bits.is_empty() {
         let doc = format!(" What {} may be.", register.name);
         named(&name, &doc, &raw, &register.values)
@@ -28,6 +29,8 @@ pub(super) fn declarations(register: &Register) -> TokenStream {
         #declaration
 
         impl Value for #name {
+            const KIND: Kind = Kind::#kind;
+
             fn raw(self) -> i64 {
                 self.raw().into()
             }
@@ -43,6 +46,11 @@ pub(super) fn declarations(register: &Register) -> TokenStream {
 fn has_type(register: &Register) -> bool {
     let unsigned = matches!(register.kind, Type::U8 | Type::U16 | Type::U32);
     if register.bits.is_empty() { !register.values.is_empty() } else { unsigned }
+}
+
+/// The variant of the codec's `Kind`.
+pub(super) fn kind(kind: Type) -> Ident {
+    type_name(&number_type(kind).to_string())
 }
 
 fn number_type(kind: Type) -> Ident {

@@ -432,6 +432,7 @@ pub mod motor {
         }
     }
     impl Value for Mode {
+        const KIND: Kind = Kind::U8;
         fn raw(self) -> i64 {
             self.raw().into()
         }
@@ -545,6 +546,7 @@ pub mod motor {
         }
     }
     impl Value for State {
+        const KIND: Kind = Kind::U32;
         fn raw(self) -> i64 {
             self.raw().into()
         }
