@@ -165,6 +165,15 @@ pub enum EncodeError {
         /// The length; at most 65,535 is possible.
         length: usize,
     },
+    /// A device's data are not as many as the instruction says that each device's are.
+    DataLength {
+        /// The device.
+        id: u8,
+        /// How many they are.
+        found: usize,
+        /// What the instruction says.
+        expected: u16,
+    },
 }
 
 impl fmt::Display for EncodeError {
@@ -176,6 +185,9 @@ impl fmt::Display for EncodeError {
             }
             Self::TooLong { length } => {
                 write!(f, "the packet's length would be {length}; at most 65535 is possible")
+            }
+            Self::DataLength { id, found, expected } => {
+                write!(f, "device {id} has {found} bytes of data, each device has {expected}")
             }
         }
     }

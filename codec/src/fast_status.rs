@@ -3,6 +3,9 @@
 //!
 //! Each device appends a block: error, ID, data, CRC. A CRC runs over everything before it, the
 //! CRCs of earlier blocks included; the last one is that of the packet. There is no stuffing.
+//!
+//! A block that answers Fast Sync Write has no data in the JA40 document. Its maker's later devices
+//! put their present position there: read such an answer with that many bytes as its length.
 
 use crate::dynamixel2::{BROADCAST_ID, Instruction};
 use crate::frame::{PREFIX, Parts, Writer, length_field};
@@ -18,7 +21,7 @@ pub struct Block<'a> {
     pub error: StatusError,
     /// The device.
     pub id: u8,
-    /// What was read; empty for Fast Sync Write.
+    /// What was read; empty for Fast Sync Write, or what the dialect adds to its answer.
     pub data: &'a [u8],
 }
 

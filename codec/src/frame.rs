@@ -178,14 +178,23 @@ pub fn encode<'b>(
     params: &[&[u8]],
     buffer: &'b mut [u8],
 ) -> Result<&'b [u8], EncodeError> {
+    encode_bytes(id, instruction, params.iter().copied().flatten().copied(), buffer)
+}
+
+/// As [`encode`], with the parameters a byte at a time.
+pub(crate) fn encode_bytes(
+    id: u8,
+    instruction: Instruction,
+    params: impl Iterator<Item = u8>,
+    buffer: &mut [u8],
+) -> Result<&[u8], EncodeError> {
     check_id(id).map_err(|found| EncodeError::Id { found })?;
     let mut writer = Writer::new(buffer);
     writer.skip_prefix();
     let mut matcher = Matcher::default();
-    let code = instruction.code();
-    for byte in core::iter::once(&code).chain(params.iter().copied().flatten()) {
-        writer.put(*byte);
-        if matcher.step(*byte) {
+    for byte in core::iter::once(instruction.code()).chain(params) {
+        writer.put(byte);
+        if matcher.step(byte) {
             writer.put(STUFFING_BYTE);
         }
     }
@@ -253,4 +262,9 @@ pub(crate) fn length_field(length: usize) -> Result<u16, EncodeError> {
 /// The ID itself if it is none that a packet may have.
 pub(crate) fn check_id(id: u8) -> Result<(), u8> {
     if id <= MAX_ID || id == BROADCAST_ID { Ok(()) } else { Err(id) }
+}
+
+/// The ID is one that a device has, not the broadcast ID.
+pub(crate) fn check_device(id: u8) -> Result<(), EncodeError> {
+    if id <= MAX_ID { Ok(()) } else { Err(EncodeError::Id { found: id }) }
 }

@@ -10,13 +10,11 @@
 //!
 //! ```
 //! use actucheck_codec::dynamixel2::Instruction;
-//! use actucheck_codec::{Frame, frame, ja40};
+//! use actucheck_codec::{Frame, ja40};
 //!
 //! // Write 2,000 to Goal Position of device 1 (JA40 document, §1.6.3).
-//! let address = ja40::GOAL_POSITION.address.to_le_bytes();
-//! let data = 2000_i32.to_le_bytes();
 //! let mut buffer = [0; 32];
-//! let packet = frame::encode(1, Instruction::Write, &[&address, &data], &mut buffer)?;
+//! let packet = ja40::GOAL_POSITION.write(1, 2000)?.encode(&mut buffer)?;
 //! assert_eq!(packet, b"\xFF\xFF\xFD\x00\x01\x09\x00\x03\x34\x02\xD0\x07\x00\x00\x1E\xC9");
 //!
 //! // And the other way.
@@ -34,7 +32,10 @@ pub mod crc;
 mod error;
 pub mod fast_status;
 pub mod frame;
+pub mod innfos;
+pub mod instruction;
 pub mod layout;
+mod number;
 pub mod register;
 pub mod status;
 pub mod stream;
@@ -45,7 +46,9 @@ pub mod stuffing;
     unused_imports,             // a small device has no use for every type
     clippy::unreadable_literal, // numbers keep the form that they have in the YAML
     clippy::match_same_arms,    // an arm a row, whatever the other rows say
-    clippy::too_many_lines      // tables are as long as the documents' are
+    clippy::too_many_lines,     // tables are as long as the documents' are
+    clippy::identity_op,        // bit 0 is shifted like any other
+    clippy::match_wildcard_for_single_variants // sometimes one value has no row
 )]
 mod generated {
     include!(concat!(env!("OUT_DIR"), "/dynamixel2.rs"));
@@ -56,4 +59,5 @@ pub use error::{BufferTooSmall, EncodeError, FrameError};
 pub use fast_status::FastStatus;
 pub use frame::Frame;
 pub use generated::*;
-pub use status::StatusError;
+pub use instruction::{Request, RequestError};
+pub use status::{Status, StatusError};

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use actucheck_codec::dynamixel2::{BROADCAST_ID, Instruction};
 use actucheck_codec::layout::{self, Item};
-use actucheck_codec::register::{Device, NamedValue, Register};
+use actucheck_codec::register::{Device, NamedValue, Row as Register};
 use actucheck_codec::{FastStatus, Frame, FrameError, StatusError};
 
 use crate::protocol::Fast;
@@ -288,7 +288,7 @@ fn data(
             let text = wire.text(start + next, start + from);
             table.push(wire.place(start + next), text, name, "no register");
         }
-        let value = bytes.get(from..to).and_then(|bytes| register.read(bytes));
+        let value = bytes.get(from..to).and_then(|bytes| register.decode(bytes));
         let meaning = value.map_or_else(String::new, |value| value_words(register, value));
         let text = wire.text(start + from, start + to);
         table.push(wire.place(start + from), text, name, &meaning);

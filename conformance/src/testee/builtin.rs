@@ -108,6 +108,7 @@ impl Builtin {
             let class = match error {
                 EncodeError::Id { .. } => Fault::Id,
                 EncodeError::TooLong { .. } | EncodeError::Buffer(_) => Fault::Oversize,
+                EncodeError::DataLength { .. } => Fault::Parameter,
             };
             rejection(class, &error)
         })

@@ -3,11 +3,11 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::places;
 use super::token::{
     capitalised, constant_name, module_name, named_values, number, option, type_name,
 };
-use crate::model::{Access, Area, BitField, Bound, Device, Range, Register, Type};
+use super::{places, value};
+use crate::model::{Access, Area, BitField, Bound, Device, Range, Register};
 
 pub(super) fn module(device: &Device) -> TokenStream {
     let name = module_name(&device.device);
@@ -23,9 +23,12 @@ pub(super) fn module(device: &Device) -> TokenStream {
         device.registers.iter().map(|register| constant_name(&register.name)).collect();
     let registers = device.registers.iter().zip(&names).map(|(row, name)| {
         let (doc, value) = (register_doc(row), register(device, row));
+        let (value_type, declarations) = (value::of(row), value::declarations(row));
         quote! {
             #(#[doc = #doc])*
-            pub const #name: Register = #value;
+            pub const #name: Register<#value_type> = Register::new(&#value);
+
+            #declarations
         }
     });
     quote! {
@@ -33,7 +36,8 @@ pub(super) fn module(device: &Device) -> TokenStream {
         pub mod #name {
             use crate::dynamixel2::Instruction;
             use crate::register::{
-                Access, Area, BitField, Bound, Device, Kind, NamedValue, Range, Register, Unit,
+                Access, Area, BitField, Bound, Device, Kind, NamedValue, Range, Register, Row, Unit,
+                Value,
             };
 
             /// The device as a whole.
@@ -43,7 +47,7 @@ pub(super) fn module(device: &Device) -> TokenStream {
                 model_number: #model_number,
                 instructions: &[#(Instruction::#instructions),*],
                 eeprom_lock: #lock,
-                registers: &[#(#names),*],
+                registers: &[#(#names.row),*],
             };
 
             #(#registers)*
@@ -82,14 +86,7 @@ fn register_doc(register: &Register) -> Vec<String> {
 
 fn register(device: &Device, register: &Register) -> TokenStream {
     let (name, address) = (&register.name, register.address);
-    let kind = match register.kind {
-        Type::U8 => quote!(U8),
-        Type::I8 => quote!(I8),
-        Type::U16 => quote!(U16),
-        Type::I16 => quote!(I16),
-        Type::U32 => quote!(U32),
-        Type::I32 => quote!(I32),
-    };
+    let kind = value::kind(register.kind);
     let area = match register.area {
         Area::Eeprom => quote!(Eeprom),
         Area::Ram => quote!(Ram),
@@ -108,7 +105,7 @@ fn register(device: &Device, register: &Register) -> TokenStream {
     let values = named_values(&register.values);
     let bits = register.bits.iter().map(bit_field);
     quote! {
-        Register {
+        Row {
             name: #name,
             address: #address,
             kind: Kind::#kind,

@@ -2,14 +2,17 @@
 //! sorted as the YAML is, the same from run to run.
 
 mod device;
+mod innfos;
 mod protocol;
 mod token;
+mod value;
+mod wire_enum;
 
 use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::Spec;
-use crate::model::{Citation, Device, Protocol};
+use crate::model::{Citation, Device, Innfos, Protocol};
 
 pub(crate) use token::words;
 
@@ -46,6 +49,7 @@ pub fn codec(spec: &Spec) -> Result<Vec<Module>, GenerateError> {
     for file in &spec.protocols {
         modules.push(protocol(&file.content)?);
     }
+    modules.push(innfos(&spec.innfos.content)?);
     let devices = spec.devices.iter().map(|file| device::module(&file.content));
     modules.push(format("devices", &quote!(#(#devices)*))?);
     Ok(modules)
@@ -57,6 +61,14 @@ pub fn codec(spec: &Spec) -> Result<Vec<Module>, GenerateError> {
 /// If a name of the spec can't be turned into a Rust name.
 pub fn protocol(protocol: &Protocol) -> Result<Module, GenerateError> {
     format(&protocol.protocol, &protocol::module(protocol))
+}
+
+/// The module of the INNFOS protocol.
+///
+/// # Errors
+/// If a name of the spec can't be turned into a Rust name.
+pub fn innfos(innfos: &Innfos) -> Result<Module, GenerateError> {
+    format(&innfos.protocol, &innfos::module(innfos))
 }
 
 /// The module of one device.

@@ -1,10 +1,11 @@
 //! A protocol's constants, instructions and error numbers.
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::places;
 use super::token::{hex8, hex16, module_name, named_values, type_name};
+use super::wire_enum::wire_enum;
 use crate::model::{Field, Instruction, Protocol, Size};
 
 pub(super) fn module(protocol: &Protocol) -> TokenStream {
@@ -80,56 +81,6 @@ fn constants(protocol: &Protocol) -> TokenStream {
     }
 }
 
-/// An enum of the bytes that have a name, which keeps the bytes that have none.
-fn wire_enum(name: &Ident, doc: &str, rows: &[(u8, &str, String)]) -> TokenStream {
-    let count = rows.len();
-    let variants: Vec<_> = rows.iter().map(|(_, name, _)| type_name(name)).collect();
-    let codes: Vec<_> = rows.iter().map(|(code, ..)| hex8(*code)).collect();
-    let names = rows.iter().map(|(_, name, _)| *name);
-    let docs = rows.iter().map(|(code, _, doc)| format!(" `{code:#04X}`: {doc}"));
-    quote! {
-        #[doc = #doc]
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-        pub enum #name {
-            #(#[doc = #docs] #variants,)*
-            /// A byte that the documents give no name.
-            Unknown(u8),
-        }
-
-        impl #name {
-            /// Every one with a name, by rising code.
-            pub const ALL: [Self; #count] = [#(Self::#variants),*];
-
-            /// What this byte stands for.
-            #[must_use]
-            pub const fn from_code(code: u8) -> Self {
-                match code {
-                    #(#codes => Self::#variants,)*
-                    code => Self::Unknown(code),
-                }
-            }
-
-            /// The byte on the wire.
-            #[must_use]
-            pub const fn code(self) -> u8 {
-                match self {
-                    #(Self::#variants => #codes,)*
-                    Self::Unknown(code) => code,
-                }
-            }
-
-            /// Its name in the documents, or `unknown`.
-            #[must_use]
-            pub const fn name(self) -> &'static str {
-                match self {
-                    #(Self::#variants => #names,)*
-                    Self::Unknown(_) => "unknown",
-                }
-            }
-        }
-    }
-}
-
 fn instructions(protocol: &Protocol) -> TokenStream {
     let mut rows: Vec<_> = protocol
         .instructions
@@ -144,6 +95,7 @@ fn instructions(protocol: &Protocol) -> TokenStream {
     rows.sort_by_key(|(code, ..)| *code);
     let name = type_name("Instruction");
     let declaration = wire_enum(&name, " What a packet asks for, or that it is an answer.", &rows);
+    let options = protocol.instructions.iter().flat_map(options);
 
     let arms = |pick: fn(&Instruction) -> Option<&Vec<Field>>| {
         let arms = protocol.instructions.iter().filter_map(|row| {
@@ -168,6 +120,7 @@ fn instructions(protocol: &Protocol) -> TokenStream {
     let answers_broadcast = list(|row| row.answers_broadcast);
     quote! {
         #declaration
+        #(#options)*
 
         impl Instruction {
             /// Layout of the parameters of an instruction packet; `None` for
@@ -213,6 +166,31 @@ fn instructions(protocol: &Protocol) -> TokenStream {
             }
         }
     }
+}
+
+/// An enum for each parameter of one byte whose values have names: `FactoryResetOption`.
+fn options(instruction: &Instruction) -> Vec<TokenStream> {
+    let one_byte = |field: &&Field| field.size == Some(Size::Bytes(1)) && !field.values.is_empty();
+    let fields = instruction.parameters.iter().filter(one_byte);
+    let options = fields.map(|field| {
+        let name = type_name(&format!("{} {}", instruction.name, field.name));
+        let mut rows: Vec<_> = field
+            .values
+            .iter()
+            .filter_map(|row| {
+                Some((u8::try_from(row.value).ok()?, row.name.as_str(), format!("{}.", row.name)))
+            })
+            .collect();
+        rows.sort_by_key(|(code, ..)| *code);
+        let doc = format!(
+            " The {} of {} ({}).",
+            field.name,
+            instruction.name,
+            places(&instruction.source)
+        );
+        wire_enum(&name, &doc, &rows)
+    });
+    options.collect()
 }
 
 fn errors(protocol: &Protocol) -> TokenStream {

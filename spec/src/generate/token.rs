@@ -12,6 +12,20 @@ pub(super) fn type_name(name: &str) -> Ident {
     ident(&name)
 }
 
+/// The name of a value as a variant: `Torque on, EEPROM area locked` as `TorqueOn`. What stands in
+/// parentheses or behind a comma explains the name; a number in front goes to the end, so
+/// `9,600 bps` becomes `Bps9600`.
+pub(super) fn value_name(name: &str) -> Ident {
+    let name = name.split(" (").next().unwrap_or(name);
+    let name = name.split(", ").next().unwrap_or(name).replace(',', "");
+    let words = words(&name);
+    let is_number = |word: &&str| word.bytes().all(|byte| byte.is_ascii_digit());
+    let numbers = words.iter().copied().take_while(is_number).count();
+    let (numbers, rest) = words.split_at_checked(numbers).unwrap_or_default();
+    let name: String = rest.iter().chain(numbers).map(|word| capitalised(word)).collect();
+    ident(&name)
+}
+
 /// `Goal Position` as `GOAL_POSITION`.
 pub(super) fn constant_name(name: &str) -> Ident {
     ident(&words(name).join("_").to_uppercase())
@@ -83,6 +97,9 @@ mod tests {
     fn names_take_the_form_that_rust_expects() {
         assert_eq!(type_name("Fast Sync Read").to_string(), "FastSyncRead");
         assert_eq!(type_name("CRC Error").to_string(), "CRCError");
+        assert_eq!(value_name("9,600 bps").to_string(), "Bps9600");
+        assert_eq!(value_name("Torque on, EEPROM area locked").to_string(), "TorqueOn");
+        assert_eq!(value_name("Profile unused (step)").to_string(), "ProfileUnused");
         assert_eq!(constant_name("Feedforward 2nd Gain").to_string(), "FEEDFORWARD_2ND_GAIN");
         assert_eq!(constant_name("In-Position").to_string(), "IN_POSITION");
         assert_eq!(module_name("ja-variant").to_string(), "ja_variant");

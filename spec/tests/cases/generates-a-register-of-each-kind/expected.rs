@@ -160,11 +160,153 @@ pub mod wire {
 
 // Generated from the YAML in spec/.
 
+/// Board.
+pub mod board {
+    use crate::innfos::{Actuator, CommandRow, Direction, Format, FullScale};
+    /// The first byte of a frame.
+    ///
+    /// book §2.
+    pub const HEADER: u8 = 0xEE;
+    /// The last byte of a frame.
+    pub const TAIL: u8 = 0xED;
+    /// The address that every actuator obeys.
+    pub const BROADCAST_ADDRESS: u8 = 0x00;
+    /// The polynomial of CRC-16/MODBUS, highest power in the highest bit.
+    pub const CRC_POLYNOMIAL: u16 = 0x8005;
+    /// The CRC of the nine ASCII characters `123456789`.
+    pub const CRC_CHECK: u16 = 0x4B37;
+    /// From so many bytes of data on a request has a CRC.
+    ///
+    /// book §2.
+    pub const REQUEST_CRC_FROM: usize = 1usize;
+    /// From so many bytes of data on a reply has a CRC.
+    ///
+    /// book §2.
+    pub const REPLY_CRC_FROM: usize = 2usize;
+    /// The commands whose shorter replies may have one, or zeros in its place.
+    ///
+    /// book §2.
+    pub const OPEN_REPLIES: [u8; 0usize] = [];
+    /// The board's IPv4 address as delivered.
+    ///
+    /// book §2.
+    pub const BOARD: [u8; 4] = [10u8, 0u8, 0u8, 2u8];
+    /// The IPv4 address of every board.
+    pub const EVERY_BOARD: [u8; 4] = [10u8, 0u8, 0u8, 255u8];
+    /// The board's UDP port.
+    pub const PORT: u16 = 2000;
+    /// What a host asks.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum Command {
+        /** `0x01`: State; the reply carries a value, flag.
+
+ book §2.*/
+        ReadState,
+        /// A byte that the documents give no name.
+        Unknown(u8),
+    }
+    impl Command {
+        /// Every one with a name, by rising code.
+        pub const ALL: [Self; 1usize] = [Self::ReadState];
+        /// What this byte stands for.
+        #[must_use]
+        pub const fn from_code(code: u8) -> Self {
+            match code {
+                0x01 => Self::ReadState,
+                code => Self::Unknown(code),
+            }
+        }
+        /// The byte on the wire.
+        #[must_use]
+        pub const fn code(self) -> u8 {
+            match self {
+                Self::ReadState => 0x01,
+                Self::Unknown(code) => code,
+            }
+        }
+        /// Its name in the documents, or `unknown`.
+        #[must_use]
+        pub const fn name(self) -> &'static str {
+            match self {
+                Self::ReadState => "Read State",
+                Self::Unknown(_) => "unknown",
+            }
+        }
+    }
+    impl Command {
+        /// What the documents say of it; `None` for an unknown one.
+        #[must_use]
+        pub const fn row(self) -> Option<&'static CommandRow> {
+            Some(
+                match self {
+                    Self::ReadState => {
+                        &CommandRow {
+                            direction: Direction::Read,
+                            request: 0,
+                            reply: &[1],
+                            format: Some(Format::Flag),
+                            unit: None,
+                            full_scale: None,
+                        }
+                    }
+                    Self::Unknown(_) => return None,
+                },
+            )
+        }
+    }
+    /// What the actuator controls (book §2).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum Mode {
+        /// A byte that the documents give no name.
+        Unknown(u8),
+    }
+    impl Mode {
+        /// Every one with a name, by rising code.
+        pub const ALL: [Self; 0usize] = [];
+        /// What this byte stands for.
+        #[must_use]
+        pub const fn from_code(code: u8) -> Self {
+            match code {
+                code => Self::Unknown(code),
+            }
+        }
+        /// The byte on the wire.
+        #[must_use]
+        pub const fn code(self) -> u8 {
+            match self {
+                Self::Unknown(code) => code,
+            }
+        }
+        /// Its name in the documents, or `unknown`.
+        #[must_use]
+        pub const fn name(self) -> &'static str {
+            match self {
+                Self::Unknown(_) => "unknown",
+            }
+        }
+    }
+    /// What the actuator warns of (book §2).
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct Alarms(pub u16);
+    impl Alarms {
+        /// The bits that mean an none.
+        #[must_use]
+        pub const fn others(self) -> u16 {
+            self.0 & !0x0000
+        }
+    }
+    /// Every model (book §2).
+    pub const ACTUATORS: [Actuator; 0usize] = [];
+}
+
+// Generated from the YAML in spec/.
+
 /// The Motor control table: book §2.
 pub mod motor {
     use crate::dynamixel2::Instruction;
     use crate::register::{
-        Access, Area, BitField, Bound, Device, Kind, NamedValue, Range, Register, Unit,
+        Access, Area, BitField, Bound, Device, Kind, NamedValue, Range, Register, Row,
+        Unit, Value,
     };
     /// The device as a whole.
     pub const DEVICE: Device = Device {
@@ -173,123 +315,243 @@ pub mod motor {
         model_number: None,
         instructions: &[Instruction::Ping],
         eeprom_lock: Some(2u16),
-        registers: &[LIMIT, TORQUE, GOAL, MODE, STATE],
+        registers: &[LIMIT.row, TORQUE.row, GOAL.row, MODE.row, STATE.row],
     };
     /// Limit: address 0, 2 bytes, EEPROM area, read and write.
     ///
     /// Initially 5, 0 to 10.
     /// Source: book §2.
-    pub const LIMIT: Register = Register {
-        name: "Limit",
-        address: 0u16,
-        kind: Kind::U16,
-        area: Area::Eeprom,
-        access: Access::ReadWrite,
-        initial: Some(5),
-        range: Range::Between {
-            min: Bound::Value(0),
-            max: Bound::Value(10),
+    pub const LIMIT: Register<u16> = Register::new(
+        &Row {
+            name: "Limit",
+            address: 0u16,
+            kind: Kind::U16,
+            area: Area::Eeprom,
+            access: Access::ReadWrite,
+            initial: Some(5),
+            range: Range::Between {
+                min: Bound::Value(0),
+                max: Bound::Value(10),
+            },
+            unit: None,
+            values: &[],
+            bits: &[],
         },
-        unit: None,
-        values: &[],
-        bits: &[],
-    };
+    );
     /// Torque: address 2, 1 byte, RAM area, read and write.
     ///
     /// Source: book §2.
-    pub const TORQUE: Register = Register {
-        name: "Torque",
-        address: 2u16,
-        kind: Kind::U8,
-        area: Area::Ram,
-        access: Access::ReadWrite,
-        initial: None,
-        range: Range::Any,
-        unit: None,
-        values: &[],
-        bits: &[],
-    };
+    pub const TORQUE: Register<u8> = Register::new(
+        &Row {
+            name: "Torque",
+            address: 2u16,
+            kind: Kind::U8,
+            area: Area::Ram,
+            access: Access::ReadWrite,
+            initial: None,
+            range: Range::Any,
+            unit: None,
+            values: &[],
+            bits: &[],
+        },
+    );
     /// Goal: address 4, 2 bytes, RAM area, read and write.
     ///
     /// -Limit to Limit.
     /// Source: book §2.
-    pub const GOAL: Register = Register {
-        name: "Goal",
-        address: 4u16,
-        kind: Kind::I16,
-        area: Area::Ram,
-        access: Access::ReadWrite,
-        initial: None,
-        range: Range::Between {
-            min: Bound::Register {
-                address: 0u16,
-                negated: true,
+    pub const GOAL: Register<i16> = Register::new(
+        &Row {
+            name: "Goal",
+            address: 4u16,
+            kind: Kind::I16,
+            area: Area::Ram,
+            access: Access::ReadWrite,
+            initial: None,
+            range: Range::Between {
+                min: Bound::Register {
+                    address: 0u16,
+                    negated: true,
+                },
+                max: Bound::Register {
+                    address: 0u16,
+                    negated: false,
+                },
             },
-            max: Bound::Register {
-                address: 0u16,
-                negated: false,
-            },
+            unit: None,
+            values: &[],
+            bits: &[],
         },
-        unit: None,
-        values: &[],
-        bits: &[],
-    };
+    );
     /// Mode: address 8, 1 byte, EEPROM area, read and write.
     ///
     /// Initially 4, one of 4, 17.
     /// Source: book §2.
-    pub const MODE: Register = Register {
-        name: "Mode",
-        address: 8u16,
-        kind: Kind::U8,
-        area: Area::Eeprom,
-        access: Access::ReadWrite,
-        initial: Some(4),
-        range: Range::OneOf(&[4, 17]),
-        unit: None,
-        values: &[
-            NamedValue {
-                value: 4,
-                name: "Turning",
-            },
-        ],
-        bits: &[],
-    };
+    pub const MODE: Register<Mode> = Register::new(
+        &Row {
+            name: "Mode",
+            address: 8u16,
+            kind: Kind::U8,
+            area: Area::Eeprom,
+            access: Access::ReadWrite,
+            initial: Some(4),
+            range: Range::OneOf(&[4, 17]),
+            unit: None,
+            values: &[
+                NamedValue {
+                    value: 4,
+                    name: "Turning",
+                },
+            ],
+            bits: &[],
+        },
+    );
+    /// What Mode may be.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum Mode {
+        /// `4`: Turning.
+        Turning,
+        /// A value that the documents give no name.
+        Unknown(u8),
+    }
+    impl Mode {
+        /// What this number stands for.
+        #[must_use]
+        pub const fn from_raw(raw: u8) -> Self {
+            match raw {
+                4 => Self::Turning,
+                raw => Self::Unknown(raw),
+            }
+        }
+        /// The number.
+        #[must_use]
+        pub const fn raw(self) -> u8 {
+            match self {
+                Self::Turning => 4,
+                Self::Unknown(raw) => raw,
+            }
+        }
+    }
+    impl Value for Mode {
+        const KIND: Kind = Kind::U8;
+        fn raw(self) -> i64 {
+            self.raw().into()
+        }
+        fn from_raw(raw: i64) -> Option<Self> {
+            raw.try_into().ok().map(Self::from_raw)
+        }
+    }
     /// State: address 9, 4 bytes, RAM area, read-only.
     ///
     /// One count is 0.01 rev/min.
     /// Source: book §2, book §3.
-    pub const STATE: Register = Register {
-        name: "State",
-        address: 9u16,
-        kind: Kind::U32,
-        area: Area::Ram,
-        access: Access::ReadOnly,
-        initial: None,
-        range: Range::Any,
-        unit: Some(Unit {
-            factor: 0.01,
-            symbol: "rev/min",
-        }),
-        values: &[],
-        bits: &[
-            BitField {
-                name: "Moving",
-                lowest: 0u8,
-                width: 1u8,
-                values: &[],
-            },
-            BitField {
-                name: "Profile",
-                lowest: 4u8,
-                width: 2u8,
-                values: &[
-                    NamedValue {
-                        value: 3,
-                        name: "Trapezoidal",
-                    },
-                ],
-            },
-        ],
-    };
+    pub const STATE: Register<State> = Register::new(
+        &Row {
+            name: "State",
+            address: 9u16,
+            kind: Kind::U32,
+            area: Area::Ram,
+            access: Access::ReadOnly,
+            initial: None,
+            range: Range::Any,
+            unit: Some(Unit {
+                factor: 0.01,
+                symbol: "rev/min",
+            }),
+            values: &[],
+            bits: &[
+                BitField {
+                    name: "Moving",
+                    lowest: 0u8,
+                    width: 1u8,
+                    values: &[],
+                },
+                BitField {
+                    name: "Profile",
+                    lowest: 4u8,
+                    width: 2u8,
+                    values: &[
+                        NamedValue {
+                            value: 3,
+                            name: "Trapezoidal",
+                        },
+                    ],
+                },
+            ],
+        },
+    );
+    /// The bits of State.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State(pub u32);
+    impl State {
+        /// What this number stands for.
+        #[must_use]
+        pub const fn from_raw(raw: u32) -> Self {
+            Self(raw)
+        }
+        /// The number.
+        #[must_use]
+        pub const fn raw(self) -> u32 {
+            self.0
+        }
+        /// The bits that the documents give no name, in their places.
+        #[must_use]
+        pub const fn unnamed(self) -> u32 {
+            self.0 & !0x31
+        }
+        /// Bit 0: Moving.
+        #[must_use]
+        pub const fn moving(self) -> bool {
+            self.0 & 0x01 != 0
+        }
+        /// The same with another Moving.
+        #[must_use]
+        pub const fn with_moving(self, value: bool) -> Self {
+            Self((self.0 & !0x01) | (((value as u32) << 0) & 0x01))
+        }
+        /// Bits 4 to 5: Profile.
+        #[must_use]
+        pub const fn profile(self) -> Profile {
+            Profile::from_raw((self.0 & 0x30) >> 4)
+        }
+        /// The same with another Profile.
+        #[must_use]
+        pub const fn with_profile(self, value: Profile) -> Self {
+            Self((self.0 & !0x30) | ((value.raw() << 4) & 0x30))
+        }
+    }
+    /// What the bits Profile of State may be.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum Profile {
+        /// `3`: Trapezoidal.
+        Trapezoidal,
+        /// A value that the documents give no name.
+        Unknown(u32),
+    }
+    impl Profile {
+        /// What this number stands for.
+        #[must_use]
+        pub const fn from_raw(raw: u32) -> Self {
+            match raw {
+                3 => Self::Trapezoidal,
+                raw => Self::Unknown(raw),
+            }
+        }
+        /// The number.
+        #[must_use]
+        pub const fn raw(self) -> u32 {
+            match self {
+                Self::Trapezoidal => 3,
+                Self::Unknown(raw) => raw,
+            }
+        }
+    }
+    impl Value for State {
+        const KIND: Kind = Kind::U32;
+        fn raw(self) -> i64 {
+            self.raw().into()
+        }
+        fn from_raw(raw: i64) -> Option<Self> {
+            raw.try_into().ok().map(Self::from_raw)
+        }
+    }
 }

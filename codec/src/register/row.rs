@@ -1,56 +1,9 @@
-//! Rows of control tables: what the generated device modules are made of.
+use super::{Data, Range, RegisterError};
+use crate::number::{nearest, to_f64};
 
-use crate::dynamixel2::Instruction;
-
-/// An actuator's control table.
+/// A row of a control table: a register's bare facts, its values plain numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Device {
-    /// The id that the documents' YAML gives it.
-    pub id: &'static str,
-    /// Its name.
-    pub name: &'static str,
-    /// What Ping answers, where the document says so.
-    pub model_number: Option<u16>,
-    /// The instructions that it obeys.
-    pub instructions: &'static [Instruction],
-    /// Address of the register that keeps the EEPROM area read-only while it is not 0.
-    pub eeprom_lock: Option<u16>,
-    /// The control table, by rising address.
-    pub registers: &'static [Register],
-}
-
-impl Device {
-    /// The register that begins at this address.
-    #[must_use]
-    pub fn register(&self, address: u16) -> Option<&'static Register> {
-        let index =
-            self.registers.binary_search_by_key(&address, |register| register.address).ok()?;
-        self.registers.get(index)
-    }
-
-    /// The register with this name: `Goal Position`.
-    #[must_use]
-    pub fn register_named(&self, name: &str) -> Option<&'static Register> {
-        self.registers.iter().find(|register| register.name == name)
-    }
-
-    /// The registers that lie wholly within `length` bytes from `address`.
-    pub fn registers_in(
-        &self,
-        address: u16,
-        length: u16,
-    ) -> impl Iterator<Item = &'static Register> + use<> {
-        let end = u32::from(address) + u32::from(length);
-        self.registers.iter().filter(move |register| {
-            let last = u32::from(register.address) + u32::from(register.kind.size());
-            register.address >= address && last <= end
-        })
-    }
-}
-
-/// A row of a control table.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Register {
+pub struct Row {
     /// Its name in the document.
     pub name: &'static str,
     /// Address of its lowest byte.
@@ -73,15 +26,16 @@ pub struct Register {
     pub bits: &'static [BitField],
 }
 
-impl Register {
+impl Row {
     /// The value that these bytes hold; `None` if they are not as many as the register has.
     ///
     /// ```
     /// use actucheck_codec::ja40;
-    /// assert_eq!(ja40::PRESENT_POSITION.read(b"\x94\x6C\x00\x00"), Some(27_796));
+    /// let register = ja40::DEVICE.register(580).unwrap();
+    /// assert_eq!(register.decode(b"\x94\x6C\x00\x00"), Some(27_796));
     /// ```
     #[must_use]
-    pub fn read(&self, bytes: &[u8]) -> Option<i64> {
+    pub fn decode(&self, bytes: &[u8]) -> Option<i64> {
         Some(match (self.kind, bytes) {
             (Kind::U8, &[byte]) => byte.into(),
             (Kind::I8, &[byte]) => i8::from_le_bytes([byte]).into(),
@@ -93,10 +47,60 @@ impl Register {
         })
     }
 
+    /// The bytes to write for `value`. `limits` tells what the register at an address holds: the
+    /// ends of some ranges are other registers' values. Where it tells `None`, only the size of
+    /// the register limits that end.
+    ///
+    /// ```
+    /// use actucheck_codec::ja40;
+    /// let goal = ja40::DEVICE.register_named("Goal Current").unwrap();
+    /// let limits = |address| (address == 38).then_some(500); // Current Limit
+    /// assert_eq!(goal.encode(-500, limits)?.as_bytes(), b"\x0C\xFE");
+    /// assert!(goal.encode(501, limits).is_err());
+    /// assert!(goal.encode(501, |_| None).is_ok());
+    /// # Ok::<(), actucheck_codec::register::RegisterError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If the register is read-only or the value outside its range.
+    pub fn encode(
+        &self,
+        value: i64,
+        limits: impl Fn(u16) -> Option<i64>,
+    ) -> Result<Data, RegisterError> {
+        if self.access == Access::ReadOnly {
+            return Err(RegisterError::ReadOnly { register: self.name });
+        }
+        self.check(value, limits)?;
+        Ok(Data::of(self.kind, value))
+    }
+
     /// The name of a value, if it has one.
     #[must_use]
     pub fn value_name(&self, value: i64) -> Option<&'static str> {
         self.values.iter().find(|row| row.value == value).map(|row| row.name)
+    }
+
+    /// A value in the register's [`Unit`]: the count times the factor; `None` if it has no unit.
+    #[must_use]
+    pub fn physical(&self, value: i64) -> Option<f64> {
+        self.unit.map(|unit| to_f64(value) * unit.factor)
+    }
+
+    /// The count nearest to a physical value, the one farther from 0 if two are as near. What is
+    /// beyond the size of the register becomes its largest or smallest value. `None` if the
+    /// register has no unit, or for what is no number.
+    ///
+    /// ```
+    /// use actucheck_codec::ja40;
+    /// let limit = ja40::DEVICE.register_named("Current Limit").unwrap(); // 2.5177 mA a count
+    /// assert_eq!(limit.from_physical(1000.0), Some(397));
+    /// assert_eq!(limit.from_physical(1e9), Some(65_535));
+    /// ```
+    #[must_use]
+    pub fn from_physical(&self, physical: f64) -> Option<i64> {
+        let (min, max) = self.kind.limits();
+        nearest(physical / self.unit?.factor).map(|count| count.clamp(min, max))
     }
 }
 
@@ -127,6 +131,19 @@ impl Kind {
             Self::U32 | Self::I32 => 4,
         }
     }
+
+    /// The smallest and the largest value that it holds.
+    #[must_use]
+    pub fn limits(self) -> (i64, i64) {
+        match self {
+            Self::U8 => (0, u8::MAX.into()),
+            Self::I8 => (i8::MIN.into(), i8::MAX.into()),
+            Self::U16 => (0, u16::MAX.into()),
+            Self::I16 => (i16::MIN.into(), i16::MAX.into()),
+            Self::U32 => (0, u32::MAX.into()),
+            Self::I32 => (i32::MIN.into(), i32::MAX.into()),
+        }
+    }
 }
 
 /// Whether a register outlives a power cycle.
@@ -145,36 +162,6 @@ pub enum Access {
     ReadOnly,
     /// Read and write it.
     ReadWrite,
-}
-
-/// The values that a register may have.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Range {
-    /// Any that it can hold.
-    Any,
-    /// Those between two bounds, both included.
-    Between {
-        /// The smallest.
-        min: Bound,
-        /// The largest.
-        max: Bound,
-    },
-    /// These.
-    OneOf(&'static [i64]),
-}
-
-/// An end of a range.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Bound {
-    /// A number.
-    Value(i64),
-    /// What another register holds.
-    Register {
-        /// The register's address.
-        address: u16,
-        /// Whether its value counts with the other sign.
-        negated: bool,
-    },
 }
 
 /// What one count of a value is.
@@ -213,7 +200,7 @@ impl BitField {
     ///
     /// ```
     /// use actucheck_codec::ja40;
-    /// let profile_type = &ja40::MOVING_STATUS.bits[1];
+    /// let profile_type = &ja40::MOVING_STATUS.row.bits[1];
     /// assert_eq!(profile_type.of(0x31), 3);
     /// ```
     #[must_use]

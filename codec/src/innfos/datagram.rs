@@ -1,0 +1,39 @@
+use super::{Frame, FrameError, Kind};
+
+/// The frames of a datagram, one after the other. What follows a damaged frame is lost: the
+/// document gives no rule for where to go on.
+///
+/// ```
+/// use actucheck_codec::innfos::{Kind, frames};
+/// let datagram = b"\xEE\x01\x0E\x00\x01\x01\xED\xEE\x06\x07\x00\x01\x01\xED";
+/// let mut frames = frames(Kind::Reply, datagram);
+/// assert_eq!(frames.next().unwrap()?.address(), 1);
+/// assert_eq!(frames.next().unwrap()?.address(), 6);
+/// assert_eq!(frames.next(), None);
+/// # Ok::<(), actucheck_codec::innfos::FrameError>(())
+/// ```
+#[must_use]
+pub const fn frames(kind: Kind, datagram: &[u8]) -> Frames<'_> {
+    Frames { kind, rest: datagram }
+}
+
+/// The walk that [`frames`] begins. After an error nothing follows; its offset counts from the
+/// first byte of the damaged frame.
+#[derive(Clone, Debug)]
+pub struct Frames<'a> {
+    kind: Kind,
+    rest: &'a [u8],
+}
+
+impl<'a> Iterator for Frames<'a> {
+    type Item = Result<Frame<'a>, FrameError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.rest.is_empty() {
+            return None;
+        }
+        let first = Frame::first(self.kind, self.rest);
+        self.rest = first.map_or(&[], |(_, rest)| rest);
+        Some(first.map(|(frame, _)| frame))
+    }
+}

@@ -1,0 +1,143 @@
+use core::fmt;
+
+use super::Command;
+use crate::EncodeError;
+
+/// Why bytes are no frame. Offsets count from the first byte of the frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FrameError {
+    /// The first byte is not EE.
+    Header {
+        /// The byte.
+        found: u8,
+    },
+    /// The bytes end early.
+    Truncated {
+        /// Bytes that are there.
+        available: usize,
+        /// Bytes that the frame has, or the smallest one has if its length is not there.
+        needed: usize,
+    },
+    /// The last byte is not ED.
+    Tail {
+        /// Where it stands.
+        at: usize,
+        /// The byte there.
+        found: u8,
+    },
+    /// Bytes follow the frame.
+    Trailing {
+        /// Bytes that the frame has.
+        end: usize,
+        /// Bytes that are there.
+        available: usize,
+    },
+    /// The CRC does not match.
+    Crc {
+        /// Where it stands.
+        at: usize,
+        /// The CRC there.
+        found: u16,
+        /// The CRC of the data.
+        expected: u16,
+    },
+}
+
+impl FrameError {
+    /// The offset of the byte that gives the frame away.
+    #[must_use]
+    pub const fn offset(&self) -> usize {
+        match *self {
+            Self::Header { .. } => 0,
+            Self::Truncated { available, .. } => available,
+            Self::Tail { at, .. } | Self::Crc { at, .. } => at,
+            Self::Trailing { end, .. } => end,
+        }
+    }
+}
+
+impl fmt::Display for FrameError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Header { found } => {
+                write!(f, "header: byte 0 is {found:02X}, a frame has EE there")
+            }
+            Self::Truncated { available, needed } => {
+                write!(f, "truncated: {available} bytes are there, {needed} are needed")
+            }
+            Self::Tail { at, found } => {
+                write!(f, "tail: byte {at} is {found:02X}, the frame ends there with ED")
+            }
+            Self::Trailing { end, available } => {
+                write!(f, "trailing: the frame ends at byte {end}, but {available} bytes are there")
+            }
+            Self::Crc { at, found, expected } => {
+                let ([found_low, found_high], [low, high]) =
+                    (found.to_le_bytes(), expected.to_le_bytes());
+                write!(
+                    f,
+                    "crc: bytes {at} and {} are {found_low:02X} {found_high:02X}, \
+                     {low:02X} {high:02X} is expected",
+                    at + 1
+                )
+            }
+        }
+    }
+}
+
+impl core::error::Error for FrameError {}
+
+/// Why a frame is no message, or a message has no frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MessageError {
+    /// The documents don't have the command.
+    Unknown {
+        /// Its code.
+        code: u8,
+    },
+    /// The command is not answered.
+    NoReply {
+        /// The command.
+        command: Command,
+    },
+    /// The data are of another size.
+    Size {
+        /// The command.
+        command: Command,
+        /// Bytes of data.
+        found: usize,
+        /// The sizes that they may have.
+        expected: &'static [u16],
+    },
+    /// The value is missing, superfluous, or of another format.
+    Value {
+        /// The command.
+        command: Command,
+    },
+    /// The frame can't be built.
+    Encode(EncodeError),
+}
+
+impl fmt::Display for MessageError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unknown { code } => write!(f, "{code:02X} is no command"),
+            Self::NoReply { command } => write!(f, "{} is not answered", command.name()),
+            Self::Size { command, found, expected } => {
+                write!(f, "{} has {expected:?} bytes of data here, not {found}", command.name())
+            }
+            Self::Value { command } => {
+                write!(f, "{} takes another value here, or none", command.name())
+            }
+            Self::Encode(error) => error.fmt(f),
+        }
+    }
+}
+
+impl core::error::Error for MessageError {}
+
+impl From<EncodeError> for MessageError {
+    fn from(error: EncodeError) -> Self {
+        Self::Encode(error)
+    }
+}

@@ -1,0 +1,185 @@
+use super::{Command, FrameError, HEADER, OPEN_REPLIES, REPLY_CRC_FROM, REQUEST_CRC_FROM, TAIL};
+use crate::{BufferTooSmall, EncodeError, crc};
+
+/// Bytes before the data: header, address, command, length.
+const PREFIX: usize = 5;
+
+/// Which way a frame goes. The frame itself does not tell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Kind {
+    /// From the host.
+    Request,
+    /// To the host.
+    Reply,
+}
+
+/// A frame whose header, size, end and CRC are right. Its accessors can't fail. Whether the data
+/// fit the command, [`Message::parse`](super::Message::parse) tells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Frame<'a> {
+    kind: Kind,
+    address: u8,
+    command: Command,
+    data: &'a [u8],
+}
+
+impl<'a> Frame<'a> {
+    /// Reads `bytes`, which are one frame and nothing else.
+    ///
+    /// # Errors
+    /// The first rule that the bytes break, with the offset: header, size, end byte, what follows,
+    /// CRC, in this order.
+    pub fn parse(kind: Kind, bytes: &'a [u8]) -> Result<Self, FrameError> {
+        let (parts, rest) = Parts::split(kind, bytes)?;
+        if !rest.is_empty() {
+            let available = bytes.len();
+            return Err(FrameError::Trailing { end: available - rest.len(), available });
+        }
+        parts.checked(kind)
+    }
+
+    /// Reads the frame that `bytes` begin with; returns it and what follows it.
+    ///
+    /// # Errors
+    /// As [`Frame::parse`], whatever follows.
+    pub fn first(kind: Kind, bytes: &'a [u8]) -> Result<(Self, &'a [u8]), FrameError> {
+        let (parts, rest) = Parts::split(kind, bytes)?;
+        Ok((parts.checked(kind)?, rest))
+    }
+
+    /// Which way it goes.
+    #[must_use]
+    pub const fn kind(&self) -> Kind {
+        self.kind
+    }
+
+    /// The actuator that it is for or from; 0 for all, and for the board.
+    #[must_use]
+    pub const fn address(&self) -> u8 {
+        self.address
+    }
+
+    /// What is asked or answered.
+    #[must_use]
+    pub const fn command(&self) -> Command {
+        self.command
+    }
+
+    /// The bytes between length and CRC.
+    #[must_use]
+    pub const fn data(&self) -> &'a [u8] {
+        self.data
+    }
+}
+
+/// The parts of bytes that have a frame's header, size and end.
+struct Parts<'a> {
+    address: u8,
+    command: u8,
+    data: &'a [u8],
+    /// None, or the two bytes of the CRC.
+    crc: &'a [u8],
+}
+
+impl<'a> Parts<'a> {
+    fn split(kind: Kind, bytes: &'a [u8]) -> Result<(Self, &'a [u8]), FrameError> {
+        let available = bytes.len();
+        let truncated = |needed| FrameError::Truncated { available, needed };
+        if let Some(found) = bytes.first().copied().filter(|first| *first != HEADER) {
+            return Err(FrameError::Header { found });
+        }
+        let (prefix, rest) = bytes.split_first_chunk::<PREFIX>().ok_or(truncated(PREFIX + 1))?;
+        let [_, address, command, high, low] = *prefix;
+        let length = usize::from(u16::from_be_bytes([high, low]));
+        let crc_len = crc_len(kind, command, length, rest);
+        let tail = PREFIX + length + crc_len;
+        let (data, rest) = rest.split_at_checked(length).ok_or(truncated(tail + 1))?;
+        let (crc, rest) = rest.split_at_checked(crc_len).ok_or(truncated(tail + 1))?;
+        let (found, rest) = rest.split_first().ok_or(truncated(tail + 1))?;
+        if *found != TAIL {
+            return Err(FrameError::Tail { at: tail, found: *found });
+        }
+        Ok((Self { address, command, data, crc }, rest))
+    }
+
+    fn checked(self, kind: Kind) -> Result<Frame<'a>, FrameError> {
+        let Self { address, command, data, crc } = self;
+        if let [low, high] = *crc {
+            let (found, expected) = (u16::from_le_bytes([low, high]), crc::modbus(data));
+            // Of an open one `crc_len` has made sure.
+            if found != expected && !is_open(kind, command, data.len()) {
+                return Err(FrameError::Crc { at: PREFIX + data.len(), found, expected });
+            }
+        }
+        Ok(Frame { kind, address, command: Command::from_code(command), data })
+    }
+}
+
+/// Bytes of the CRC. `rest` begins with the data.
+fn crc_len(kind: Kind, command: u8, length: usize, rest: &[u8]) -> usize {
+    if !is_open(kind, command, length) {
+        return if has_crc(kind, length) { 2 } else { 0 };
+    }
+    // What looks like a CRC is one: zeros or the right one, and the end byte behind it.
+    let (data, rest) = rest.split_at_checked(length).unwrap_or_default();
+    match *rest {
+        [low, high, TAIL, ..] => {
+            let crc = u16::from_le_bytes([low, high]);
+            if crc == 0 || crc == crc::modbus(data) { 2 } else { 0 }
+        }
+        _ => 0,
+    }
+}
+
+/// Whether a frame with so many bytes of data has a CRC (INNFOS document, Communication protocol
+/// format and Protocol example).
+const fn has_crc(kind: Kind, length: usize) -> bool {
+    let from = match kind {
+        Kind::Request => REQUEST_CRC_FROM,
+        Kind::Reply => REPLY_CRC_FROM,
+    };
+    length >= from
+}
+
+/// Whether it is open if the frame has one: some replies come without, with zeros in its place, or
+/// with it (INNFOS document, Handshake with ECB and Query actuator).
+fn is_open(kind: Kind, command: u8, length: usize) -> bool {
+    kind == Kind::Reply && length > 0 && !has_crc(kind, length) && OPEN_REPLIES.contains(&command)
+}
+
+/// Builds a frame in `buffer`; returns it. A reply for which it is open whether it has a CRC gets
+/// none, as the document prints it.
+///
+/// ```
+/// use actucheck_codec::innfos::{self, Command, Kind};
+/// let mut buffer = [0; 16];
+/// let frame = innfos::encode(Kind::Request, 1, Command::ReadSpeed, &[], &mut buffer)?;
+/// assert_eq!(frame, b"\xEE\x01\x05\x00\x00\xED");
+/// # Ok::<(), actucheck_codec::EncodeError>(())
+/// ```
+///
+/// # Errors
+/// If there are more than 65,535 bytes of data, or `buffer` is too small; the error tells the size
+/// needed: 6 bytes, the data, and 2 for the CRC if there is one.
+pub fn encode<'b>(
+    kind: Kind,
+    address: u8,
+    command: Command,
+    data: &[u8],
+    buffer: &'b mut [u8],
+) -> Result<&'b [u8], EncodeError> {
+    let length =
+        u16::try_from(data.len()).map_err(|_| EncodeError::TooLong { length: data.len() })?;
+    let [high, low] = length.to_be_bytes();
+    let prefix = [HEADER, address, command.code(), high, low];
+    let crc = crc::modbus(data).to_le_bytes();
+    let crc: &[u8] = if has_crc(kind, data.len()) { &crc } else { &[] };
+    let needed = PREFIX + data.len() + crc.len() + 1;
+    let too_small = BufferTooSmall { needed, available: buffer.len() };
+    let target = buffer.get_mut(..needed).ok_or(too_small)?;
+    let bytes = prefix.iter().chain(data).chain(crc).chain(&[TAIL]);
+    for (slot, byte) in target.iter_mut().zip(bytes) {
+        *slot = *byte;
+    }
+    Ok(target)
+}

@@ -1,0 +1,81 @@
+use super::{Command, Direction, Format, Frame, Kind, MessageError, Value, encode};
+
+/// What a frame means: a command, and the value that it carries this way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Message {
+    /// Which way it goes.
+    pub kind: Kind,
+    /// The actuator that it is for or from; 0 for all, and for the board.
+    pub address: u8,
+    /// What is asked or answered.
+    pub command: Command,
+    /// The value that is written, the value that was read, or how the write went.
+    pub value: Option<Value>,
+}
+
+impl Message {
+    /// A message from the host.
+    #[must_use]
+    pub const fn request(address: u8, command: Command, value: Option<Value>) -> Self {
+        Self { kind: Kind::Request, address, command, value }
+    }
+
+    /// A message to the host.
+    #[must_use]
+    pub const fn reply(address: u8, command: Command, value: Option<Value>) -> Self {
+        Self { kind: Kind::Reply, address, command, value }
+    }
+
+    /// Reads what `frame` means.
+    ///
+    /// ```
+    /// use actucheck_codec::innfos::{Command, Frame, Kind, Message, Mode, Value};
+    /// let frame = Frame::parse(Kind::Request, b"\xEE\x06\x07\x00\x01\x06\x3F\x42\xED")?;
+    /// let message = Message::parse(&frame)?;
+    /// assert_eq!(message.command, Command::WriteMode);
+    /// assert_eq!(message.value, Some(Value::Mode(Mode::TrapezoidalPosition)));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If the documents don't have the command, it is not answered, or the data are of another
+    /// size.
+    pub fn parse(frame: &Frame<'_>) -> Result<Self, MessageError> {
+        let (kind, command, data) = (frame.kind(), frame.command(), frame.data());
+        let format = format(kind, command)?;
+        let expected: &[u16] = format.map_or(&[0], Format::sizes);
+        let size = MessageError::Size { command, found: data.len(), expected };
+        let value = match format {
+            None if data.is_empty() => None,
+            None => return Err(size),
+            Some(format) => Some(Value::decode(format, data).ok_or(size)?),
+        };
+        Ok(Self { kind, address: frame.address(), command, value })
+    }
+
+    /// Builds the frame in `buffer`; returns it. 14 bytes are enough for every message.
+    ///
+    /// # Errors
+    /// If the documents don't have the command, it is not answered, the value is not of its
+    /// format, or `buffer` is too small; the error tells the size needed.
+    pub fn encode<'b>(&self, buffer: &'b mut [u8]) -> Result<&'b [u8], MessageError> {
+        let Self { kind, address, command, value } = *self;
+        let data = match (format(kind, command)?, value) {
+            (None, None) => super::Data::default(),
+            (Some(format), Some(value)) if value.is(format) => value.encode(),
+            _ => return Err(MessageError::Value { command }),
+        };
+        Ok(encode(kind, address, command, data.as_bytes(), buffer)?)
+    }
+}
+
+/// The format of the value that the command carries this way; a write is answered with a flag.
+fn format(kind: Kind, command: Command) -> Result<Option<Format>, MessageError> {
+    let row = command.row().ok_or(MessageError::Unknown { code: command.code() })?;
+    match (kind, row.direction) {
+        (Kind::Reply, _) if row.reply.is_empty() => Err(MessageError::NoReply { command }),
+        (Kind::Reply, Direction::Read) | (Kind::Request, Direction::Write) => Ok(row.format),
+        (Kind::Reply, Direction::Write) => Ok(Some(Format::Flag)),
+        (Kind::Request, Direction::Read) => Ok(None),
+    }
+}

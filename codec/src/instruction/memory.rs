@@ -1,0 +1,76 @@
+//! Reading and writing one device's control table.
+
+use super::addressed;
+use super::params::Params;
+use crate::layout::LayoutError;
+
+/// Reads `length` bytes from `address` on, which the status packet's data are (DYNAMIXEL
+/// Protocol 2.0, Read; JA40 document, §1.6.2).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Read {
+    /// The first byte's address.
+    pub address: u16,
+    /// How many bytes.
+    pub length: u16,
+}
+
+impl Read {
+    fn params(&self) -> impl Iterator<Item = u8> {
+        self.address.to_le_bytes().into_iter().chain(self.length.to_le_bytes())
+    }
+
+    /// Reads its parameters.
+    ///
+    /// # Errors
+    /// If they are not four bytes.
+    pub fn parse(params: &[u8]) -> Result<Self, LayoutError> {
+        let mut params = Params::new(params);
+        let read = Self { address: params.u16("address")?, length: params.u16("length")? };
+        params.end()?;
+        Ok(read)
+    }
+}
+
+addressed!(Read);
+
+macro_rules! write {
+    ($(#[$doc:meta])* $name:ident) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub struct $name<'a> {
+            /// The first byte's address.
+            pub address: u16,
+            /// The bytes.
+            pub data: &'a [u8],
+        }
+
+        impl<'a> $name<'a> {
+            fn params(&self) -> impl Iterator<Item = u8> {
+                self.address.to_le_bytes().into_iter().chain(self.data.iter().copied())
+            }
+
+            /// Reads its parameters.
+            ///
+            /// # Errors
+            /// If they are not two bytes at least.
+            pub fn parse(params: &'a [u8]) -> Result<Self, LayoutError> {
+                let mut params = Params::new(params);
+                Ok(Self { address: params.u16("address")?, data: params.rest() })
+            }
+        }
+
+        addressed!($name<'a>);
+    };
+}
+
+write! {
+    /// Writes bytes from `address` on (DYNAMIXEL Protocol 2.0, Write; JA40 document, §1.6.3).
+    /// [`Register::write`](crate::register::Register::write) checks the value first.
+    Write
+}
+
+write! {
+    /// Keeps a write until an [`Action`](super::Action) comes (DYNAMIXEL Protocol 2.0, Reg
+    /// Write).
+    RegWrite
+}

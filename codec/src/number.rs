@@ -1,0 +1,49 @@
+//! Whole numbers and doubles, without the standard library's rounding.
+
+/// The whole number nearest to `value`, the one farther from 0 if two are as near; the largest or
+/// smallest of the type for what lies beyond it, `None` for what is no number.
+pub(crate) fn nearest(value: f64) -> Option<i64> {
+    if value.is_nan() {
+        return None;
+    }
+    // Cuts off the fraction, and saturates.
+    #[allow(clippy::cast_possible_truncation)]
+    let whole = value as i64;
+    let fraction = value - to_f64(whole);
+    Some(if fraction >= 0.5 {
+        whole.saturating_add(1)
+    } else if fraction <= -0.5 {
+        whole.saturating_sub(1)
+    } else {
+        whole
+    })
+}
+
+/// The double nearest to `value`: itself up to 53 bits, which is more than any value on a wire.
+pub(crate) fn to_f64(value: i64) -> f64 {
+    #[allow(clippy::cast_precision_loss)]
+    let double = value as f64;
+    double
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest;
+
+    #[test]
+    fn halves_go_away_from_zero() {
+        let cases = [(0.5, 1), (-0.5, -1), (1.5, 2), (2.5, 3), (-2.5, -3), (0.499_999, 0)];
+        for (value, whole) in cases {
+            assert_eq!(nearest(value), Some(whole), "{value}");
+        }
+        // Adding a half would make 1.0 of it.
+        assert_eq!(nearest(0.499_999_999_999_999_94), Some(0));
+    }
+
+    #[test]
+    fn the_far_ends_saturate() {
+        assert_eq!(nearest(1e300), Some(i64::MAX));
+        assert_eq!(nearest(f64::NEG_INFINITY), Some(i64::MIN));
+        assert_eq!(nearest(f64::NAN), None);
+    }
+}

@@ -1,0 +1,88 @@
+use super::{RegisterError, Row};
+
+/// The values that a register may have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Range {
+    /// Any that it can hold.
+    Any,
+    /// Those between two bounds, both included.
+    Between {
+        /// The smallest.
+        min: Bound,
+        /// The largest.
+        max: Bound,
+    },
+    /// These.
+    OneOf(&'static [i64]),
+}
+
+/// An end of a range.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bound {
+    /// A number.
+    Value(i64),
+    /// What another register holds.
+    Register {
+        /// The register's address.
+        address: u16,
+        /// Whether its value counts with the other sign.
+        negated: bool,
+    },
+}
+
+impl Bound {
+    fn value(self, limits: impl Fn(u16) -> Option<i64>) -> Option<i64> {
+        match self {
+            Self::Value(value) => Some(value),
+            Self::Register { address, negated: false } => limits(address),
+            Self::Register { address, negated: true } => limits(address).map(i64::saturating_neg),
+        }
+    }
+}
+
+impl Row {
+    /// The smallest and the largest value that the register takes: those of its range, cut to its
+    /// size. `limits` is as in [`Row::encode`]. For a list of values the ends of the list.
+    ///
+    /// ```
+    /// use actucheck_codec::ja40;
+    /// let goal = ja40::DEVICE.register_named("Goal Velocity").unwrap();
+    /// assert_eq!(goal.bounds(|_| Some(2000)), (-2000, 2000)); // Velocity Limit
+    /// assert_eq!(goal.bounds(|_| None), (i32::MIN.into(), i32::MAX.into()));
+    /// ```
+    #[must_use]
+    pub fn bounds(&self, limits: impl Fn(u16) -> Option<i64>) -> (i64, i64) {
+        let (smallest, largest) = self.kind.limits();
+        let (min, max) = match self.range {
+            Range::Any => (None, None),
+            Range::Between { min, max } => (min.value(&limits), max.value(&limits)),
+            Range::OneOf(values) => (values.iter().min().copied(), values.iter().max().copied()),
+        };
+        let min = min.map_or(smallest, |min| min.max(smallest));
+        let max = max.map_or(largest, |max| max.min(largest));
+        (min, max)
+    }
+
+    /// Whether the register may have this value, whoever sets it.
+    ///
+    /// # Errors
+    /// If it may not: the register's name and limits.
+    pub fn check(
+        &self,
+        value: i64,
+        limits: impl Fn(u16) -> Option<i64>,
+    ) -> Result<(), RegisterError> {
+        let register = self.name;
+        if let Range::OneOf(listed) = self.range
+            && !listed.contains(&value)
+        {
+            return Err(RegisterError::NotListed { register, value, listed });
+        }
+        let (min, max) = self.bounds(limits);
+        if (min..=max).contains(&value) {
+            Ok(())
+        } else {
+            Err(RegisterError::OutOfRange { register, value, min, max })
+        }
+    }
+}
