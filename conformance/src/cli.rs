@@ -62,6 +62,7 @@ Examples:
       a status packet, whose data was read at address 580
   actucheck decode --fast 4:1,2 fffffd00fe11005500 01d0070000 0c83 00 02 09000000 1140
       the packet that answers a Fast Sync Read of 4 bytes from devices 1 and 2
+  actucheck decode --wire innfos --kind request ee 06 0a 00 04 01 00 00 00 01 d8 ed
 
 Exit status: 0 a valid packet, 1 no valid packet, 2 wrong usage.";
 
@@ -164,7 +165,7 @@ pub(crate) struct Decode {
     /// The wire that the packet is of
     #[arg(long, value_enum, default_value = "dynamixel2")]
     pub(crate) wire: Wire,
-    /// Which way the packet must go
+    /// Which way the packet goes; an innfos frame does not tell itself
     #[arg(long, value_enum)]
     pub(crate) kind: Option<Kind>,
     /// The device whose registers are meant

@@ -21,6 +21,9 @@ pub enum Wire {
 }
 
 impl Wire {
+    /// Every wire.
+    pub const ALL: [Self; 2] = [Self::Dynamixel2, Self::Innfos];
+
     /// Its id in the spec and in the adapter protocol.
     #[must_use]
     pub const fn id(self) -> &'static str {

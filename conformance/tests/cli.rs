@@ -85,6 +85,31 @@ fn bits_and_names_are_explained_where_the_address_is_known() {
 }
 
 #[test]
+fn an_innfos_frame_is_explained_if_it_is_told_which_way_it_goes() {
+    let frame = "EE 06 0A 00 04 01 00 00 00 01 D8 ED";
+    let (status, stdout, stderr) =
+        actucheck(&["decode", "--wire", "innfos", "--kind", "request", frame]);
+    assert_eq!(status, 0, "{stderr}");
+    insta::assert_snapshot!(stdout, @r"
+    request to 6: Write Position
+        0  ee           header
+        1  06           address  6
+        2  0a           command  0x0A (Write Position)
+        3  00 04        length   4 bytes of data
+        5  01 00 00 00  data     1 R
+        9  01 d8        CRC      of the data, right
+       11  ed           end
+    ");
+    let alarms = "EE 06 FF 00 02 00 05 E1 83 ED";
+    let (status, _, stderr) = actucheck(&["decode", "--wire", "innfos", "--kind", "reply", alarms]);
+    assert_eq!(status, 1, "the CRC is wrong");
+    insta::assert_snapshot!(stderr, @"actucheck: no valid packet, from byte 7 on: crc: bytes 7 and 8 are E1 83, C1 B3 is expected");
+    let (status, _, stderr) = actucheck(&["decode", "--wire", "innfos", frame]);
+    assert_eq!(status, 2);
+    assert!(stderr.contains("--kind request"), "{stderr}");
+}
+
+#[test]
 fn a_packet_is_printed_as_the_adapter_protocol_has_it() {
     let (status, stdout, _) = actucheck(&["decode", "--json", WRITE]);
     assert_eq!(status, 0);

@@ -1,15 +1,17 @@
 //! `actucheck decode`.
 
+use std::fmt;
 use std::io::{self, Read as _, Write as _};
 use std::process::ExitCode;
 
-use actucheck::explain::frame::{Explanation, explain, explain_fast};
-use actucheck::protocol::{Op, Output};
+use actucheck::explain::frame::{explain, explain_fast};
+use actucheck::explain::{Explanation, innfos};
+use actucheck::protocol::{Op, Output, Wire};
 use actucheck::testee::{Answer, Builtin, Testee as _};
 use actucheck_codec::dynamixel2::Instruction;
 use actucheck_codec::register::Device;
-use actucheck_codec::{FrameError, ja_variant, ja40, xm430_w210};
-use actucheck_spec::model::HexBytes;
+use actucheck_codec::{ja_variant, ja40, xm430_w210};
+use actucheck_spec::model::{FrameKind, HexBytes};
 use anstyle::Style;
 
 use super::Failure;
@@ -24,17 +26,38 @@ const INSTRUCTION: usize = 7;
 /// Explains the packet, or prints it as an object.
 pub(crate) fn run(options: &Decode) -> Result<ExitCode, Failure> {
     let bytes = bytes(&options.hex)?;
-    let device = device(&options.device)?;
-    let explanation = match &options.fast {
-        Some(fast) => explain_fast(&bytes, fast),
-        None => explain(&bytes, device, options.address),
-    }
-    .map_err(|error| invalid(&error))?;
-    check_kind(options.kind, &bytes)?;
+    let explanation = match options.wire {
+        Wire::Dynamixel2 => dynamixel2(options, &bytes)?,
+        Wire::Innfos => innfos::explain(kind(options)?, &bytes)
+            .map_err(|error| invalid(&error, error.offset()))?,
+    };
     let text = if options.json { json(options, bytes)? } else { table(&explanation) };
     // A reader that has seen enough is no failure.
     let _ = write!(anstream::stdout(), "{text}");
     Ok(ExitCode::SUCCESS)
+}
+
+fn dynamixel2(options: &Decode, bytes: &[u8]) -> Result<Explanation, Failure> {
+    let device = device(&options.device)?;
+    let explanation = match &options.fast {
+        Some(fast) => explain_fast(bytes, fast),
+        None => explain(bytes, device, options.address),
+    };
+    check_kind(options.kind, bytes)?;
+    explanation.map_err(|error| invalid(&error, error.offset()))
+}
+
+/// Which way an INNFOS frame goes; only the user can tell.
+fn kind(options: &Decode) -> Result<actucheck_codec::innfos::Kind, Failure> {
+    match options.kind {
+        Some(Kind::Request) => Ok(actucheck_codec::innfos::Kind::Request),
+        Some(Kind::Reply) => Ok(actucheck_codec::innfos::Kind::Reply),
+        None => {
+            let message = "an innfos frame does not tell which way it goes; add --kind request or \
+                           --kind reply";
+            Err(Failure::new(Failure::USAGE, message))
+        }
+    }
 }
 
 fn bytes(arguments: &[String]) -> Result<Vec<u8>, Failure> {
@@ -75,11 +98,8 @@ fn check_kind(kind: Option<Kind>, bytes: &[u8]) -> Result<(), Failure> {
     }
 }
 
-fn invalid(error: &FrameError) -> Failure {
-    Failure::new(
-        Failure::FAILED,
-        format!("no valid packet, from byte {} on: {error}", error.offset()),
-    )
+fn invalid(error: &impl fmt::Display, offset: usize) -> Failure {
+    Failure::new(Failure::FAILED, format!("no valid packet, from byte {offset} on: {error}"))
 }
 
 /// The packet as the adapter protocol has it.
@@ -88,7 +108,10 @@ fn json(options: &Decode, bytes: Vec<u8>) -> Result<String, Failure> {
         wire: options.wire,
         bytes: bytes.into(),
         fast: options.fast.clone(),
-        kind: None,
+        kind: options.kind.map(|kind| match kind {
+            Kind::Request => FrameKind::Request,
+            Kind::Reply => FrameKind::Reply,
+        }),
     };
     match Builtin::default().ask(&op) {
         Answer::Ok(Output::Packet(packet)) => serde_json::to_string(&packet)

@@ -1,4 +1,4 @@
-//! One frame, field by field.
+//! One frame of DYNAMIXEL Protocol 2.0, field by field.
 
 use std::fmt::Write as _;
 
@@ -7,32 +7,11 @@ use actucheck_codec::layout::{self, Item};
 use actucheck_codec::register::{Device, NamedValue, Row as Register};
 use actucheck_codec::{FastStatus, Frame, FrameError, StatusError};
 
+use super::table::{Explanation, Table, low_first, rounded};
 use crate::protocol::Fast;
 
 /// Bytes of header, ID and length.
 const PREFIX: usize = 7;
-
-/// What a frame's bytes mean, a row a field.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Explanation {
-    /// The whole frame in a sentence.
-    pub title: String,
-    /// The fields in the order of their bytes.
-    pub rows: Vec<Row>,
-}
-
-/// One field of a frame.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Row {
-    /// Where it begins in the frame.
-    pub offset: usize,
-    /// Its bytes, those put in by byte stuffing in parentheses.
-    pub bytes: String,
-    /// Its name.
-    pub field: String,
-    /// What it says.
-    pub meaning: String,
-}
 
 /// Explains a whole frame. `address` is where the data of a read status was read, if that is
 /// known.
@@ -46,7 +25,7 @@ pub fn explain(
 ) -> Result<Explanation, FrameError> {
     let frame = Frame::parse(bytes)?;
     let mut table = Table::new(bytes);
-    table.prefix(frame.id());
+    prefix(&mut table, frame.id());
     let instruction = frame.instruction();
     let body: Vec<u8> = std::iter::once(instruction.code()).chain(frame.params()).collect();
     let wire = WireBody::of(frame.stuffed_params(), &body);
@@ -61,7 +40,7 @@ pub fn explain(
         instruction_params(&mut table, &wire, instruction, params, device);
         format!("instruction packet: {} to {}", instruction.name(), whom(frame.id()))
     };
-    table.crc();
+    crc(&mut table);
     Ok(Explanation { title, rows: table.rows })
 }
 
@@ -72,7 +51,7 @@ pub fn explain(
 pub fn explain_fast(bytes: &[u8], fast: &Fast) -> Result<Explanation, FrameError> {
     let packet = FastStatus::parse(bytes, fast.length, &fast.ids)?;
     let mut table = Table::new(bytes);
-    table.prefix(BROADCAST_ID);
+    prefix(&mut table, BROADCAST_ID);
     table.take(1, "instruction", |_| Instruction::Status.name().to_owned());
     for block in packet.blocks() {
         table.take(1, "error", |_| error_words(block.error));
@@ -87,48 +66,15 @@ pub fn explain_fast(bytes: &[u8], fast: &Fast) -> Result<Explanation, FrameError
     Ok(Explanation { title, rows: table.rows })
 }
 
-struct Table<'a> {
-    frame: &'a [u8],
-    rows: Vec<Row>,
-    next: usize,
+fn prefix(table: &mut Table<'_>, id: u8) {
+    table.take(4, "header", |_| String::new());
+    let whom = if id == BROADCAST_ID { "broadcast".to_owned() } else { id.to_string() };
+    table.take(1, "ID", |_| whom.clone());
+    table.take(2, "length", |bytes| format!("{} bytes follow", low_first(bytes)));
 }
 
-impl<'a> Table<'a> {
-    fn new(frame: &'a [u8]) -> Self {
-        Self { frame, rows: Vec::new(), next: 0 }
-    }
-
-    fn push(&mut self, offset: usize, bytes: String, field: &str, meaning: &str) {
-        let (field, meaning) = (field.to_owned(), meaning.to_owned());
-        self.rows.push(Row { offset, bytes, field, meaning });
-    }
-
-    /// Adds the next bytes of the frame as a field.
-    fn take(&mut self, size: usize, field: &str, meaning: impl Fn(&[u8]) -> String) {
-        let bytes = self.frame.get(self.next..self.next + size).unwrap_or_default();
-        self.push(self.next, hex(bytes), field, &meaning(bytes));
-        self.next += size;
-    }
-
-    fn prefix(&mut self, id: u8) {
-        self.take(4, "header", |_| String::new());
-        self.take(
-            1,
-            "ID",
-            |_| {
-                if id == BROADCAST_ID { "broadcast".into() } else { id.to_string() }
-            },
-        );
-        self.take(2, "length", |bytes| {
-            let length = number(bytes);
-            format!("{length} bytes follow")
-        });
-    }
-
-    fn crc(&mut self) {
-        self.next = self.frame.len().saturating_sub(2);
-        self.take(2, "CRC", |bytes| format!("{:#06X}, right", number(bytes)));
-    }
+fn crc(table: &mut Table<'_>) {
+    table.take_last(2, "CRC", |bytes| format!("{:#06X}, right", low_first(bytes)));
 }
 
 /// Where the bytes of an unstuffed body are in the frame.
@@ -327,12 +273,6 @@ fn value_words(register: &Register, value: i64) -> String {
     words
 }
 
-/// At most six decimals, without zeros at the end.
-fn rounded(value: f64) -> String {
-    let text = format!("{value:.6}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
-}
-
 /// Bytes as the signed and unsigned number that they may be, if they are 1, 2 or 4.
 fn numbers(bytes: &[u8]) -> String {
     let (unsigned, signed) = match *bytes {
@@ -355,13 +295,4 @@ fn error_words(error: StatusError) -> String {
 
 fn whom(id: u8) -> String {
     if id == BROADCAST_ID { "all devices".to_owned() } else { format!("device {id}") }
-}
-
-fn number(bytes: &[u8]) -> u64 {
-    bytes.iter().rev().fold(0, |value, byte| value << 8 | u64::from(*byte))
-}
-
-fn hex(bytes: &[u8]) -> String {
-    let words: Vec<_> = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
-    words.join(" ")
 }

@@ -2,3 +2,7 @@
 
 pub mod diff;
 pub mod frame;
+pub mod innfos;
+mod table;
+
+pub use table::{Explanation, Row};

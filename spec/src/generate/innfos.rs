@@ -199,6 +199,8 @@ fn alarms(alarms: &Alarms) -> TokenStream {
             }
         }
     });
+    let masks = alarms.rows.iter().map(|row| hex16(row.mask));
+    let names = alarms.rows.iter().map(|row| &row.name);
     let named = hex16(alarms.rows.iter().fold(0, |named, row| named | row.mask));
     let other = format!(" The bits that mean an {}.", alarms.other.to_lowercase());
     quote! {
@@ -207,6 +209,12 @@ fn alarms(alarms: &Alarms) -> TokenStream {
         pub struct Alarms(pub u16);
 
         impl Alarms {
+            /// The names of those that are set and have one.
+            pub fn names(self) -> impl Iterator<Item = &'static str> {
+                let rows = [#((#masks, #names)),*];
+                rows.into_iter().filter(move |row: &(u16, _)| self.0 & row.0 != 0).map(|row| row.1)
+            }
+
             #(#methods)*
 
             #[doc = #other]

@@ -1,0 +1,77 @@
+//! One frame of the INNFOS Ethernet protocol, field by field.
+
+use actucheck_codec::innfos::{Frame, FrameError, Kind, Message, MessageError, Value};
+
+use super::table::{Explanation, Table, rounded};
+
+/// Bytes of header, address, command and length; and of the CRC with the end byte behind it.
+const PREFIX: usize = 5;
+const CRC_AND_END: usize = 3;
+
+/// Explains a whole frame.
+///
+/// # Errors
+/// The rule that the bytes break.
+pub fn explain(kind: Kind, bytes: &[u8]) -> Result<Explanation, FrameError> {
+    let frame = Frame::parse(kind, bytes)?;
+    let mut table = Table::new(bytes);
+    table.take(1, "header", |_| String::new());
+    table.take(1, "address", |_| match frame.address() {
+        0 => "0 (all, or the board)".to_owned(),
+        address => address.to_string(),
+    });
+    let command = frame.command();
+    table.take(1, "command", |_| format!("{:#04X} ({})", command.code(), command.name()));
+    let size = frame.data().len();
+    table.take(2, "length", |_| format!("{size} bytes of data"));
+    if size > 0 {
+        let meaning = match Message::parse(&frame) {
+            Ok(message) => message.value.map_or_else(String::new, |value| words(&message, value)),
+            Err(MessageError::Unknown { .. }) => String::new(),
+            Err(error) => error.to_string(),
+        };
+        table.take(size, "data", |_| meaning.clone());
+    }
+    if bytes.len() >= PREFIX + size + CRC_AND_END {
+        table.take(2, "CRC", |bytes| match bytes {
+            [0, 0] => "zeros, which this reply may have".to_owned(),
+            _ => "of the data, right".to_owned(),
+        });
+    }
+    table.take(1, "end", |_| String::new());
+
+    let word = match kind {
+        Kind::Request => "request to",
+        Kind::Reply => "reply of",
+    };
+    let title = format!("{word} {}: {}", frame.address(), command.name());
+    Ok(Explanation { title, rows: table.rows })
+}
+
+/// The value, with the unit where it does not depend on the model.
+fn words(message: &Message, value: Value) -> String {
+    let row = message.command.row();
+    let unit = row.and_then(|row| row.unit).unwrap_or_default();
+    let relative = row.and_then(|row| row.full_scale).is_some();
+    let number = |number: f64| match (relative, unit) {
+        (true, unit) => format!("{} of the model's full scale ({unit})", rounded(number)),
+        (false, "") => rounded(number),
+        (false, unit) => format!("{} {unit}", rounded(number)),
+    };
+    match value {
+        Value::Flag(flag) => match flag.is_yes() {
+            Some(true) => "yes (success, enabled, on, normal)".to_owned(),
+            Some(false) => "no (failure, disabled, off)".to_owned(),
+            None => format!("{:#04X}, which the document does not explain", flag.0),
+        },
+        Value::Mode(mode) => format!("{} ({})", mode.code(), mode.name()),
+        Value::Alarms(alarms) => {
+            let names: Vec<_> = alarms.names().collect();
+            if names.is_empty() { "no alarm".to_owned() } else { names.join(", ") }
+        }
+        Value::Iq8(value) => number(value.to_f64()),
+        Value::Iq24(value) => number(value.to_f64()),
+        Value::Scaled(raw) => format!("{raw}, in a scale of its own ({unit})"),
+        Value::Mac(_) => "tells actuators apart".to_owned(),
+    }
+}

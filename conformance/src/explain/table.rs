@@ -1,0 +1,76 @@
+//! What an explanation of a frame is made of.
+
+/// What a frame's bytes mean, a row a field.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Explanation {
+    /// The whole frame in a sentence.
+    pub title: String,
+    /// The fields in the order of their bytes.
+    pub rows: Vec<Row>,
+}
+
+/// One field of a frame.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Row {
+    /// Where it begins in the frame.
+    pub offset: usize,
+    /// Its bytes, those put in by byte stuffing in parentheses.
+    pub bytes: String,
+    /// Its name.
+    pub field: String,
+    /// What it says.
+    pub meaning: String,
+}
+
+/// The rows of an explanation while they are being found.
+pub(super) struct Table<'a> {
+    frame: &'a [u8],
+    pub(super) rows: Vec<Row>,
+    next: usize,
+}
+
+impl<'a> Table<'a> {
+    pub(super) fn new(frame: &'a [u8]) -> Self {
+        Self { frame, rows: Vec::new(), next: 0 }
+    }
+
+    /// Adds a field that is not the next bytes of the frame.
+    pub(super) fn push(&mut self, offset: usize, bytes: String, field: &str, meaning: &str) {
+        let (field, meaning) = (field.to_owned(), meaning.to_owned());
+        self.rows.push(Row { offset, bytes, field, meaning });
+    }
+
+    /// Adds the next bytes of the frame as a field.
+    pub(super) fn take(&mut self, size: usize, field: &str, meaning: impl Fn(&[u8]) -> String) {
+        let bytes = self.frame.get(self.next..self.next + size).unwrap_or_default();
+        self.push(self.next, hex(bytes), field, &meaning(bytes));
+        self.next += size;
+    }
+
+    /// Adds the frame's last bytes as a field.
+    pub(super) fn take_last(
+        &mut self,
+        size: usize,
+        field: &str,
+        meaning: impl Fn(&[u8]) -> String,
+    ) {
+        self.next = self.frame.len().saturating_sub(size);
+        self.take(size, field, meaning);
+    }
+}
+
+/// A number whose low byte comes first.
+pub(super) fn low_first(bytes: &[u8]) -> u64 {
+    bytes.iter().rev().fold(0, |value, byte| value << 8 | u64::from(*byte))
+}
+
+/// At most six decimals, without zeros at the end.
+pub(super) fn rounded(value: f64) -> String {
+    let text = format!("{value:.6}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+fn hex(bytes: &[u8]) -> String {
+    let words: Vec<_> = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
+    words.join(" ")
+}
