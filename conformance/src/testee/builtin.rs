@@ -1,5 +1,7 @@
 //! This project's own codec as an implementation under test.
 
+mod innfos;
+
 use actucheck_codec::dynamixel2::Instruction;
 use actucheck_codec::fast_status::{self, Block};
 use actucheck_codec::status::{self, StatusError};
@@ -11,8 +13,8 @@ use actucheck_spec::model::{self, Fault, HexBytes, Packet};
 use super::{Answer, Testee};
 use crate::protocol::{Fast, Hello, Implementation, Limits, Op, Output, Rejection, VERSION, Wire};
 
-/// The largest frame that the length field can tell of.
-const MAX_FRAME: usize = 65_535 + 7;
+/// The largest frame that a length field can tell of: one of INNFOS.
+const MAX_FRAME: usize = 65_535 + 8;
 
 /// The built-in codec.
 #[derive(Debug)]
@@ -31,7 +33,7 @@ impl Default for Builtin {
                 language: "Rust".to_owned(),
                 url: None,
             },
-            wires: vec![Wire::Dynamixel2.id().to_owned()],
+            wires: [Wire::Dynamixel2, Wire::Innfos].map(|wire| wire.id().to_owned()).to_vec(),
             ops: ["crc", "stuff", "unstuff", "encode", "decode", "stream"]
                 .map(str::to_owned)
                 .to_vec(),
@@ -47,7 +49,12 @@ impl Testee for Builtin {
     }
 
     fn ask(&mut self, op: &Op) -> Answer {
+        let skipped = || Answer::Skipped(format!("the codec has no {}", op.name()));
         let output = match op {
+            _ if op.wire() == Some(Wire::Innfos) => match innfos::ask(op, &mut self.buffer) {
+                Some(output) => output,
+                None => return skipped(),
+            },
             Op::Crc { bytes, .. } => Ok(Output::Crc(crc::umts(bytes).into())),
             Op::Stuff { bytes, .. } => self.stuff(bytes),
             Op::Unstuff { bytes, .. } => self.unstuff(bytes),
@@ -55,9 +62,7 @@ impl Testee for Builtin {
             Op::Decode { bytes, fast: None, .. } => decode(bytes),
             Op::Decode { bytes, fast: Some(fast), .. } => decode_fast(bytes, fast),
             Op::Stream { chunks, .. } => Ok(stream(chunks)),
-            Op::Hello { .. } | Op::Invented | Op::Bye => {
-                return Answer::Skipped(format!("the codec has no {}", op.name()));
-            }
+            Op::Hello { .. } | Op::Invented | Op::Bye => return skipped(),
         };
         match output {
             Ok(output) => Answer::Ok(output),
