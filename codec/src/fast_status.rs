@@ -48,7 +48,8 @@ impl<'a> FastStatus<'a> {
             return Err(FrameError::Id { found: parts.id });
         }
         let block_len = BLOCK_OVERHEAD + usize::from(length);
-        let (found, expected) = (parts.body.len() + 2, 1 + block_len * ids.len());
+        let (found, expected) =
+            (parts.body.len() + 2, block_len.saturating_mul(ids.len()).saturating_add(1));
         if found != expected || ids.is_empty() {
             return Err(FrameError::Length { found, expected });
         }

@@ -1,8 +1,9 @@
 //! Packets and control tables of robot actuators.
 //!
-//! The wire is DYNAMIXEL Protocol 2.0 and its dialect, the JA actuators' protocol. Instruction
-//! codes, layouts and registers are generated at build time from the documents' YAML. Everything
-//! works on the caller's buffers: no allocation, no `std`.
+//! The wire is DYNAMIXEL Protocol 2.0 and its dialect, the JA actuators' protocol; [`innfos`] is
+//! another, with UDP below it. Instruction codes, layouts, registers and commands are generated at
+//! build time from the documents' YAML. Everything works on the caller's buffers: no allocation,
+//! no `std`.
 //!
 //! No function of this crate panics, whatever bytes it is given. Lengths that come from the wire
 //! are checked against the bytes that are there; a buffer that is too small is an error that
@@ -20,6 +21,9 @@
 //! // And the other way.
 //! let frame = Frame::parse(packet)?;
 //! assert_eq!((frame.id(), frame.instruction()), (1, Instruction::Write));
+//! let reply = b"\xFF\xFF\xFD\x00\x01\x08\x00\x55\x00\x94\x6C\x00\x00\xF5\xAF";
+//! let position = Frame::parse(reply)?.status()?.value(ja40::PRESENT_POSITION)?;
+//! assert_eq!(position, 27_796);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

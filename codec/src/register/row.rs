@@ -205,7 +205,7 @@ impl BitField {
     /// ```
     #[must_use]
     pub fn of(&self, value: i64) -> i64 {
-        let mask = 1_i64.checked_shl(self.width.into()).map_or(-1, |end| end - 1);
+        let mask = 1_i64.checked_shl(self.width.into()).map_or(-1, |end| end.wrapping_sub(1));
         value.checked_shr(self.lowest.into()).unwrap_or(0) & mask
     }
 }

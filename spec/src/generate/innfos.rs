@@ -201,7 +201,7 @@ fn alarms(alarms: &Alarms) -> TokenStream {
     });
     let masks = alarms.rows.iter().map(|row| hex16(row.mask));
     let names = alarms.rows.iter().map(|row| &row.name);
-    let named = hex16(alarms.rows.iter().fold(0, |named, row| named | row.mask));
+    let known = hex16(alarms.rows.iter().fold(0, |named, row| named | row.mask));
     let other = format!(" The bits that mean an {}.", alarms.other.to_lowercase());
     quote! {
         #[doc = #doc]
@@ -220,7 +220,7 @@ fn alarms(alarms: &Alarms) -> TokenStream {
             #[doc = #other]
             #[must_use]
             pub const fn others(self) -> u16 {
-                self.0 & !#named
+                self.0 & !#known
             }
         }
     }
