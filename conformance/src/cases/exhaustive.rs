@@ -124,7 +124,7 @@ fn instruction(author: &Author<'_>, code: u8) -> Vec<Check> {
     let requirement = "dynamixel2.packet.layout";
     let id = format!("dynamixel2.instruction.{code:02x}");
     // No parameters of an instruction fit these two, so they go out as they are.
-    let without = author.both_ways(&id, requirement, &packet(&[]));
+    let without = author.both_ways(&id, "dynamixel2.packet.instruction.codes", &packet(&[]));
     let with = author.both_ways(&format!("{id}-with-params"), requirement, &packet(&[1, 2, 3]));
     without.into_iter().chain(with).map(without_call).collect()
 }
@@ -144,7 +144,7 @@ fn error_byte(author: &Author<'_>, error: u8) -> Vec<Check> {
 }
 
 fn id_byte(author: &Author<'_>, id: u8) -> Vec<Check> {
-    let requirement = "dynamixel2.packet.layout";
+    let requirement = "dynamixel2.packet.id.range";
     let ping = Packet::Instruction { id, instruction: 0x01, params: Vec::new().into() };
     let mut checks = author.both_ways(&format!("dynamixel2.id.{id}.ping"), requirement, &ping);
     if id != BROADCAST {
@@ -164,12 +164,14 @@ fn lengths(author: &Author<'_>, length: usize) -> Vec<Check> {
         ("plain", plain, "dynamixel2.packet.length"),
         ("tricky", tricky, "dynamixel2.stuffing.length"),
     ] {
+        let of_status =
+            if name == "plain" { "dynamixel2.packet.length.status" } else { requirement };
         let params = [&[0x34, 0x02], data.as_slice()].concat();
         let write = Packet::Instruction { id: 1, instruction: 0x03, params: params.into() };
         let status = Packet::Status { id: 1, error: 0, params: data.into() };
         let id = format!("dynamixel2.length.{length}.{name}");
         checks.extend(author.both_ways(&format!("{id}.write"), requirement, &write));
-        checks.extend(author.both_ways(&format!("{id}.status"), requirement, &status));
+        checks.extend(author.both_ways(&format!("{id}.status"), of_status, &status));
     }
     checks
 }

@@ -121,7 +121,10 @@ fn streams(author: &Author<'_>) -> Vec<Check> {
     for (name, parts) in scenarios {
         let stream = parts.concat();
         let id = format!("dynamixel2.stream.{name}");
-        let requirement = "dynamixel2.receive.stream";
+        let requirement = match name {
+            "stuffed-header-good" => "dynamixel2.receive.header.stuffed",
+            _ => "dynamixel2.receive.stream",
+        };
         checks.push(author.streamed(format!("{id}/stream"), requirement, &parts));
         for split in 1..stream.len() {
             let (head, tail) = stream.split_at(split);
