@@ -1,15 +1,19 @@
-//! What the benchmarks share: their input.
+//! What the benchmarks share: their inputs, the peers, and what is made of the measurements.
+//!
+//! Inputs are generated, from seeds, and so are the same in every run. `cargo bench -p
+//! actucheck-benches --features peers` measures; the program `ratios` makes `RESULTS.md` and
+//! `crc.svg` of it.
 
-/// Bytes that look random and are the same in every run (xorshift).
-#[must_use]
-pub fn noise(length: usize) -> Vec<u8> {
-    let mut state = 0x2545_F491_4F6C_DD1D_u64;
-    let mut next = || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        state.to_le_bytes()
-    };
-    let words = std::iter::repeat_with(&mut next).take(length.div_ceil(8));
-    words.flatten().take(length).collect()
-}
+pub mod chart;
+pub mod contender;
+pub mod goals;
+pub mod input;
+pub mod measured;
+#[cfg(feature = "peers")]
+pub mod peer_crc;
+#[cfg(all(feature = "peers", unix))]
+pub mod peer_dynamixel2;
+#[cfg(all(feature = "peers", unix))]
+pub mod peer_rustypot;
+pub mod table;
+pub mod traffic;

@@ -1,0 +1,36 @@
+//! How much faster than the best peer the codec is to be.
+
+/// The goal of one case of one benchmark.
+#[must_use]
+#[expect(clippy::match_same_arms, reason = "each goal is one of its own")]
+pub fn goal(group: &str, case: &str) -> Option<f64> {
+    let size: usize = case.parse().unwrap_or(0);
+    match (group, case) {
+        ("umts", _) => match size {
+            ..=10 => Some(1.0),
+            14..=512 => Some(1.3),
+            1024 => Some(1.8),
+            65_536 => Some(5.0),
+            _ => None,
+        },
+        ("modbus", _) => match size {
+            ..=64 => Some(1.0),
+            256.. => Some(2.0),
+            _ => None,
+        },
+        ("encode", "4") => Some(2.5),
+        ("encode", "20") => Some(5.0),
+        ("encode", "64") => Some(8.0),
+        ("encode", "64 stuffed") => Some(4.0),
+        ("stream", "clean") => Some(8.0),
+        ("stream", "stuffed") => Some(6.0),
+        ("stream", "half noise") => Some(5.0),
+        _ => None,
+    }
+}
+
+/// At 64 KiB: the speed as a part of what only reading the bytes reaches.
+pub const OF_READING: f64 = 0.7;
+
+/// The trap: how much longer twice the input may take.
+pub const GROWTH: f64 = 2.3;

@@ -1,0 +1,104 @@
+//! What criterion keeps of a run: `target/criterion/**/new/{benchmark,estimates}.json`.
+
+use std::fs;
+use std::io;
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::contender::{DYNAMIXEL2_AND_CALL, SYSTEM_CALL};
+
+/// One measurement.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// The benchmark, as `umts`.
+    pub group: String,
+    /// Who, as `crc-fast`.
+    pub who: String,
+    /// The case, as `64`.
+    pub case: String,
+    /// The median time of one round, in nanoseconds.
+    pub time: f64,
+    /// How far the median may be off: half its confidence interval, as a part of itself.
+    pub error: f64,
+    /// How many bytes, or packets, one round goes over.
+    pub units: f64,
+}
+
+impl Measured {
+    /// Nanoseconds a byte, or a packet.
+    #[must_use]
+    pub fn per_unit(&self) -> f64 {
+        self.time / self.units
+    }
+}
+
+/// All measurements below `folder`, in the order of their names.
+///
+/// # Errors
+/// If a file can't be read, or is not what criterion writes.
+pub fn read(folder: &Path) -> io::Result<Vec<Measured>> {
+    let mut all = Vec::new();
+    visit(folder, &mut all)?;
+    let key = |measured: &Measured| {
+        let Measured { group, case, who, .. } = measured;
+        (group.clone(), case.parse().unwrap_or(u64::MAX), case.clone(), who.clone())
+    };
+    all.sort_by_key(key);
+    subtract_system_call(&mut all);
+    Ok(all)
+}
+
+fn visit(folder: &Path, all: &mut Vec<Measured>) -> io::Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        if path.ends_with("new") {
+            let bad = || io::Error::other(format!("{}: not criterion's", path.display()));
+            let benchmark = json(&path.join("benchmark.json"))?;
+            let estimates = json(&path.join("estimates.json"))?;
+            all.push(measured(&benchmark, &estimates).ok_or_else(bad)?);
+        } else if path.is_dir() {
+            visit(&path, all)?;
+        }
+    }
+    Ok(())
+}
+
+fn json(path: &Path) -> io::Result<Value> {
+    Ok(serde_json::from_str(&fs::read_to_string(path)?)?)
+}
+
+fn measured(benchmark: &Value, estimates: &Value) -> Option<Measured> {
+    let text = |name| Some(benchmark.get(name)?.as_str()?.to_owned());
+    let median = estimates.get("median")?;
+    let number = |pointer| median.pointer(pointer)?.as_f64();
+    let time = number("/point_estimate")?;
+    let interval =
+        number("/confidence_interval/upper_bound")? - number("/confidence_interval/lower_bound")?;
+    let throughput = benchmark.get("throughput")?.as_object()?;
+    Some(Measured {
+        group: text("group_id")?,
+        who: text("function_id")?,
+        case: text("value_str")?,
+        time,
+        error: interval / 2.0 / time,
+        units: throughput.values().next()?.as_f64()?,
+    })
+}
+
+/// Turns `dynamixel2` with its system call into `dynamixel2`.
+fn subtract_system_call(all: &mut Vec<Measured>) {
+    let (calls, mut rest): (Vec<_>, Vec<_>) =
+        all.drain(..).partition(|measured| measured.who == SYSTEM_CALL);
+    for measured in rest.iter_mut().filter(|measured| measured.who == DYNAMIXEL2_AND_CALL) {
+        let same =
+            |call: &&Measured| (&call.group, &call.case) == (&measured.group, &measured.case);
+        if let Some(call) = calls.iter().find(same) {
+            let error = measured.error * measured.time + call.error * call.time;
+            measured.time -= call.time;
+            measured.error = error / measured.time;
+            "dynamixel2".clone_into(&mut measured.who);
+        }
+    }
+    *all = rest;
+}

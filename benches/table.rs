@@ -1,0 +1,154 @@
+//! Measurements as tables in Markdown.
+
+use std::fmt::Write as _;
+
+use crate::contender::{OURS, PORTABLE, READ};
+use crate::goals::{GROWTH, OF_READING, goal};
+use crate::measured::Measured;
+
+/// One case: ours, the best peer, and what was hoped for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row<'a> {
+    /// The codec's measurement.
+    pub ours: &'a Measured,
+    /// The codec's without instructions that only some processors have, where that matters.
+    pub portable: Option<&'a Measured>,
+    /// The fastest peer's, if there is a peer.
+    pub peer: Option<&'a Measured>,
+    /// How many times as fast as the peer the codec is to be.
+    pub goal: Option<f64>,
+}
+
+impl Row<'_> {
+    /// How many times as fast as the best peer the codec is.
+    #[must_use]
+    pub fn ratio(&self) -> Option<f64> {
+        self.peer.map(|peer| peer.per_unit() / self.ours.per_unit())
+    }
+
+    /// Whether the goal, if there is one, is reached.
+    #[must_use]
+    pub fn met(&self) -> Option<bool> {
+        self.goal.zip(self.ratio()).map(|(goal, ratio)| ratio >= goal)
+    }
+}
+
+/// A row for each case that the codec was measured in.
+#[must_use]
+pub fn rows(all: &[Measured]) -> Vec<Row<'_>> {
+    let ours = all.iter().filter(|measured| measured.who == OURS);
+    let row = |ours: &'_ Measured| {
+        let ours_case = (&ours.group, &ours.case);
+        let others = || all.iter().filter(move |other| (&other.group, &other.case) == ours_case);
+        let peers = others().filter(|other| ![OURS, PORTABLE, READ].contains(&other.who.as_str()));
+        let peer = peers.min_by(|a, b| a.per_unit().total_cmp(&b.per_unit()));
+        let portable = others().find(|other| other.who == PORTABLE);
+        (portable, peer, goal(&ours.group, &ours.case))
+    };
+    let rows = ours.map(|ours| {
+        let (portable, peer, goal) = row(ours);
+        Row { ours, portable, peer, goal }
+    });
+    rows.collect()
+}
+
+/// The whole of it.
+#[must_use]
+pub fn markdown(all: &[Measured]) -> String {
+    let rows = rows(all);
+    let mut text = String::new();
+    let mut groups: Vec<_> = rows.iter().map(|row| row.ours.group.as_str()).collect();
+    groups.dedup();
+    for group in groups {
+        let rows: Vec<_> = rows.iter().filter(|row| row.ours.group == group).collect();
+        // A String takes whatever is written to it.
+        let _ = write!(text, "\n### {group}\n\n{}", table(&rows));
+    }
+    text + &limits(all)
+}
+
+fn table(rows: &[&Row]) -> String {
+    let mut text = if rows.iter().any(|row| row.peer.is_some()) {
+        "| case | ours, ns | portable | best peer | its ns | ratio | ± | goal | |\n\
+         |---|---:|---:|---|---:|---:|---:|---:|---|\n"
+            .to_owned()
+    } else {
+        "| case | ours, ns | GB/s |\n|---|---:|---:|\n".to_owned()
+    };
+    for row in rows {
+        let ours = row.ours;
+        // The time of a message, or of a packet.
+        let size = bytes(ours).unwrap_or(1.0);
+        let time = |measured: &Measured| format!("{:.1}", measured.per_unit() * size);
+        let _ = if let Some(peer) = row.peer {
+            writeln!(
+                text,
+                "| {} | {} | {} | {}{} | {} | {:.2} | {:.0} % | {} | {} |",
+                ours.case,
+                time(ours),
+                row.portable.map(time).unwrap_or_default(),
+                peer.who,
+                share(ours, peer),
+                time(peer),
+                row.ratio().unwrap_or(0.0),
+                (ours.error + peer.error) * 100.0,
+                row.goal.map(|goal| format!("{goal:.1}")).unwrap_or_default(),
+                row.met().map_or("", |met| if met { "met" } else { "**missed**" }),
+            )
+        } else {
+            let speed = bytes(ours).map(|_| format!("{:.2}", 1.0 / ours.per_unit()));
+            writeln!(text, "| {} | {} | {} |", ours.case, time(ours), speed.unwrap_or_default())
+        };
+    }
+    text
+}
+
+/// The size of a case that is measured in bytes.
+fn bytes(measured: &Measured) -> Option<f64> {
+    measured.case.parse().ok().filter(|_| !measured.group.contains("code"))
+}
+
+/// The part of the packets that a peer finds, if it is not all of them.
+fn share(ours: &Measured, peer: &Measured) -> String {
+    let share = peer.units / ours.units;
+    if ours.group == "stream" && share < 1.0 {
+        format!(", finds {:.1} %", share * 100.0)
+    } else {
+        String::new()
+    }
+}
+
+/// What is not held against a peer.
+fn limits(all: &[Measured]) -> String {
+    let find = |group: &str, case: &str, who: &str| {
+        let wanted = |measured: &&Measured| {
+            (measured.group.as_str(), measured.case.as_str(), measured.who.as_str())
+                == (group, case, who)
+        };
+        all.iter().find(wanted)
+    };
+    let mut text = "\n### Limits\n\n| what | is | goal | |\n|---|---:|---:|---|\n".to_owned();
+    let verdict = |met| if met { "met" } else { "**missed**" };
+    for group in ["umts", "modbus"] {
+        if let Some((ours, read)) = find(group, "65536", OURS).zip(find(group, "65536", READ)) {
+            let part = read.time / ours.time;
+            let met = verdict(part >= OF_READING);
+            let _ = writeln!(
+                text,
+                "| {group} at 64 KiB, of the speed of reading | {part:.2} | {OF_READING} | {met} |"
+            );
+        }
+    }
+    for trap in ["trap", "unstuffed trap"] {
+        let (once, twice) = (format!("{trap}, 256 KiB"), format!("{trap}, 512 KiB"));
+        if let Some((once, twice)) = find("stream", &once, OURS).zip(find("stream", &twice, OURS)) {
+            let growth = twice.time / once.time;
+            let met = verdict(growth <= GROWTH);
+            let _ = writeln!(
+                text,
+                "| {trap}: time for twice the input | {growth:.2} | at most {GROWTH} | {met} |"
+            );
+        }
+    }
+    text
+}
