@@ -7,6 +7,8 @@
 //! Numbers have their low byte first. The length counts everything behind itself, stuffing
 //! included (JA40 document, §1.4; DYNAMIXEL Protocol 2.0, Instruction Packet).
 
+use core::fmt;
+
 use crate::dynamixel2::{BROADCAST_ID, HEADER, Instruction, MAX_ID, MIN_LENGTH, STUFFING_BYTE};
 use crate::stuffing::{self, Matcher, Unstuffed};
 use crate::{BufferTooSmall, EncodeError, FrameError, crc};
@@ -19,22 +21,52 @@ pub(crate) const CRC: usize = 2;
 ///
 /// The status packet that answers Fast Sync Read or Fast Sync Write is not stuffed and has CRCs
 /// of its own: [`FastStatus`](crate::FastStatus) reads it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy)]
 pub struct Frame<'a> {
     id: u8,
     /// The instruction's code. Which of the named ones it is costs a jump, and not everybody asks.
     code: u8,
-    params: &'a [u8],
+    /// How many bytes the body has, on the wire, and the parameters without stuffing.
+    body_len: usize,
     params_len: usize,
+    /// From the instruction on. What stands behind the body is of no meaning, but that it may be
+    /// read makes it faster to take stuffing away.
+    bytes: &'a [u8],
+}
+
+impl PartialEq for Frame<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        (self.id, self.code, self.stuffed_params())
+            == (other.id, other.code, other.stuffed_params())
+    }
+}
+
+impl Eq for Frame<'_> {}
+
+impl fmt::Debug for Frame<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Frame")
+            .field("id", &self.id)
+            .field("instruction", &self.instruction())
+            .field("stuffed_params", &self.stuffed_params())
+            .finish()
+    }
 }
 
 impl<'a> Frame<'a> {
-    /// The packet `bytes`, in which everything was found right, with `patterns` bytes of stuffing.
+    /// The packet with which `bytes` begin, `len` of them, in which everything was found right,
+    /// with `patterns` bytes of stuffing.
     #[inline]
-    pub(crate) fn checked(bytes: &'a [u8], patterns: usize) -> Option<Self> {
-        let (&[.., id, _, _, code], rest) = bytes.split_first_chunk::<{ PREFIX + 1 }>()?;
-        let (params, _) = rest.split_last_chunk::<CRC>()?;
-        Some(Self { id, code, params, params_len: params.len() - patterns })
+    pub(crate) fn checked(bytes: &'a [u8], len: usize, patterns: usize) -> Option<Self> {
+        let (&[.., id, _, _], bytes) = bytes.split_first_chunk::<PREFIX>()?;
+        let body_len = len - PREFIX - CRC;
+        Some(Self {
+            id,
+            code: *bytes.first()?,
+            body_len,
+            params_len: body_len - 1 - patterns,
+            bytes,
+        })
     }
 
     /// Reads `bytes`, which are one packet and nothing else.
@@ -58,7 +90,13 @@ impl<'a> Frame<'a> {
             let found = parts.body.len() + CRC;
             return Err(FrameError::Length { found, expected: found + 1 });
         }
-        Ok(Self { id: parts.id, code: *code, params, params_len: body_len - 1 })
+        Ok(Self {
+            id: parts.id,
+            code: *code,
+            body_len: parts.body.len(),
+            params_len: body_len - 1,
+            bytes: parts.body,
+        })
     }
 
     /// Whom an instruction packet is for, or who sent a status packet.
@@ -76,8 +114,9 @@ impl<'a> Frame<'a> {
     /// The bytes between instruction and CRC as they are on the wire, stuffing included. In a
     /// status packet the first is the error byte.
     #[must_use]
-    pub const fn stuffed_params(&self) -> &'a [u8] {
-        self.params
+    #[inline]
+    pub fn stuffed_params(&self) -> &'a [u8] {
+        self.bytes.get(1..self.body_len).unwrap_or_default()
     }
 
     /// How many bytes [`Frame::params`] yields.
@@ -91,7 +130,7 @@ impl<'a> Frame<'a> {
         // The pattern may begin with the instruction, so the search begins there too.
         let mut matcher = Matcher::default();
         let mut skip = matcher.step(self.code);
-        self.params.iter().copied().filter(move |byte| {
+        self.stuffed_params().iter().copied().filter(move |byte| {
             let keep = !skip;
             skip = keep && matcher.step(*byte);
             keep
@@ -105,10 +144,10 @@ impl<'a> Frame<'a> {
     pub fn copy_params<'b>(&self, buffer: &'b mut [u8]) -> Result<&'b [u8], BufferTooSmall> {
         let too_small = BufferTooSmall { needed: self.params_len, available: buffer.len() };
         let target = buffer.get_mut(..self.params_len).ok_or(too_small)?;
-        if target.len() == self.params.len() {
-            target.copy_from_slice(self.params);
+        if self.params_len + 1 == self.body_len {
+            target.copy_from_slice(self.stuffed_params());
         } else {
-            stuffing::remove(self.code, self.params, target);
+            stuffing::remove(self.bytes, self.body_len, target);
         }
         Ok(target)
     }
