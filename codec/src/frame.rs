@@ -7,11 +7,16 @@
 //! Numbers have their low byte first. The length counts everything behind itself, stuffing
 //! included (JA40 document, §1.4; DYNAMIXEL Protocol 2.0, Instruction Packet).
 
+mod tiny;
+mod writer;
+
 use core::fmt;
 
 use crate::dynamixel2::{BROADCAST_ID, HEADER, Instruction, MAX_ID, MIN_LENGTH, STUFFING_BYTE};
 use crate::stuffing::{self, Matcher, Unstuffed};
 use crate::{BufferTooSmall, EncodeError, FrameError, crc};
+
+pub(crate) use writer::Writer;
 
 /// Bytes before the instruction: header, ID, length.
 pub(crate) const PREFIX: usize = HEADER.len() + 3;
@@ -217,7 +222,28 @@ pub fn encode<'b>(
     params: &[&[u8]],
     buffer: &'b mut [u8],
 ) -> Result<&'b [u8], EncodeError> {
-    encode_bytes(id, instruction, params.iter().copied().flatten().copied(), buffer)
+    check_id(id).map_err(|found| EncodeError::Id { found })?;
+    if let Some(len) = tiny::encode(id, instruction.code(), params, buffer) {
+        return Writer::after(buffer, len).into_written();
+    }
+    match put_body(instruction.code(), params, buffer) {
+        Some(end) => Writer::after(buffer, end).finish(id),
+        None => encode_bytes(id, instruction, params.iter().copied().flatten().copied(), buffer),
+    }
+}
+
+/// Writes a body behind the room for the prefix; returns where it ends, or `None` if there is no
+/// room for it and the CRC.
+#[inline]
+fn put_body(code: u8, params: &[&[u8]], buffer: &mut [u8]) -> Option<usize> {
+    *buffer.get_mut(PREFIX)? = code;
+    let mut end = PREFIX + 1;
+    for part in params {
+        buffer.get_mut(end..)?.get_mut(..part.len())?.copy_from_slice(part);
+        end += part.len();
+    }
+    let end = stuffing::insert(buffer, PREFIX, end)?;
+    (end + CRC <= buffer.len()).then_some(end)
 }
 
 /// As [`encode`], with the parameters a byte at a time.
@@ -238,60 +264,6 @@ pub(crate) fn encode_bytes(
         }
     }
     writer.finish(id)
-}
-
-/// Writes a frame front to back, and goes on counting when the buffer is full.
-pub(crate) struct Writer<'b> {
-    buffer: &'b mut [u8],
-    written: usize,
-}
-
-impl<'b> Writer<'b> {
-    pub(crate) fn new(buffer: &'b mut [u8]) -> Self {
-        Self { buffer, written: 0 }
-    }
-
-    /// Leaves room for header, ID and length.
-    pub(crate) fn skip_prefix(&mut self) {
-        self.written += PREFIX;
-    }
-
-    pub(crate) fn put(&mut self, byte: u8) {
-        if let Some(slot) = self.buffer.get_mut(self.written) {
-            *slot = byte;
-        }
-        self.written += 1;
-    }
-
-    /// Appends the CRC of all that was written so far.
-    pub(crate) fn put_crc(&mut self) {
-        let crc = crc::umts(self.buffer.get(..self.written).unwrap_or_default());
-        let [low, high] = crc.to_le_bytes();
-        self.put(low);
-        self.put(high);
-    }
-
-    /// Writes header, ID and a length of so many bytes; nothing if they don't fit.
-    pub(crate) fn put_prefix(&mut self, id: u8, length: u16) {
-        let [length_low, length_high] = length.to_le_bytes();
-        let [first, second, third, reserved] = HEADER;
-        if let Some(prefix) = self.buffer.first_chunk_mut() {
-            *prefix = [first, second, third, reserved, id, length_low, length_high];
-        }
-    }
-
-    /// Fills in the prefix, appends the CRC; returns the frame.
-    fn finish(mut self, id: u8) -> Result<&'b [u8], EncodeError> {
-        let length = length_field(self.written + CRC - PREFIX)?;
-        self.put_prefix(id, length);
-        self.put_crc();
-        self.into_written()
-    }
-
-    pub(crate) fn into_written(self) -> Result<&'b [u8], EncodeError> {
-        let too_small = BufferTooSmall { needed: self.written, available: self.buffer.len() };
-        Ok(self.buffer.get(..self.written).ok_or(too_small)?)
-    }
 }
 
 pub(crate) fn length_field(length: usize) -> Result<u16, EncodeError> {

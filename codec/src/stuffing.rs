@@ -4,13 +4,17 @@
 //! A *body* is the bytes from the instruction up to the CRC. A sender puts FD behind every
 //! FF FF FD in it, a receiver takes it away.
 
+mod insert;
 mod remove;
+#[cfg(test)]
+mod tests;
 
 use core::fmt;
 
 use crate::BufferTooSmall;
 use crate::dynamixel2::{STUFFING_BYTE, STUFFING_PATTERN};
 
+pub(crate) use insert::insert;
 pub(crate) use remove::remove;
 
 /// Looks for the pattern byte by byte, across slices.

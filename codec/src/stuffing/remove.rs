@@ -15,7 +15,7 @@ pub(crate) fn remove(bytes: &[u8], stuffed: usize, target: &mut [u8]) {
 }
 
 /// The task to do so by moves of a whole window each, whatever is behind; `None` if the body is
-/// too long for it, has more than two patterns, or ends too close to the end of `bytes`.
+/// too long for it, has none or more than two patterns, or ends too close to the end of `bytes`.
 ///
 /// No branch depends on where the patterns stand, as nothing foretells it.
 struct Short<'a> {
@@ -35,7 +35,7 @@ impl Task for Short<'_> {
         let places = (1 << stuffed.checked_sub(3).filter(|last| *last < WINDOW)?) - 1;
         let patterns = backend.places(bytes.first_chunk()?).patterns & places;
         let others = patterns & patterns.wrapping_sub(1);
-        if stuffed > WINDOW || others & others.wrapping_sub(1) != 0 {
+        if stuffed > WINDOW || patterns == 0 || others & others.wrapping_sub(1) != 0 {
             return None;
         }
         // Where there is no stuffing, that of a body that ends there.
