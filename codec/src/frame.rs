@@ -7,9 +7,16 @@
 //! Numbers have their low byte first. The length counts everything behind itself, stuffing
 //! included (JA40 document, §1.4; DYNAMIXEL Protocol 2.0, Instruction Packet).
 
+mod tiny;
+mod writer;
+
+use core::fmt;
+
 use crate::dynamixel2::{BROADCAST_ID, HEADER, Instruction, MAX_ID, MIN_LENGTH, STUFFING_BYTE};
 use crate::stuffing::{self, Matcher, Unstuffed};
 use crate::{BufferTooSmall, EncodeError, FrameError, crc};
+
+pub(crate) use writer::Writer;
 
 /// Bytes before the instruction: header, ID, length.
 pub(crate) const PREFIX: usize = HEADER.len() + 3;
@@ -19,22 +26,52 @@ pub(crate) const CRC: usize = 2;
 ///
 /// The status packet that answers Fast Sync Read or Fast Sync Write is not stuffed and has CRCs
 /// of its own: [`FastStatus`](crate::FastStatus) reads it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy)]
 pub struct Frame<'a> {
     id: u8,
     /// The instruction's code. Which of the named ones it is costs a jump, and not everybody asks.
     code: u8,
-    params: &'a [u8],
+    /// How many bytes the body has, on the wire, and the parameters without stuffing.
+    body_len: usize,
     params_len: usize,
+    /// From the instruction on. What stands behind the body is of no meaning, but that it may be
+    /// read makes it faster to take stuffing away.
+    bytes: &'a [u8],
+}
+
+impl PartialEq for Frame<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        (self.id, self.code, self.stuffed_params())
+            == (other.id, other.code, other.stuffed_params())
+    }
+}
+
+impl Eq for Frame<'_> {}
+
+impl fmt::Debug for Frame<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Frame")
+            .field("id", &self.id)
+            .field("instruction", &self.instruction())
+            .field("stuffed_params", &self.stuffed_params())
+            .finish()
+    }
 }
 
 impl<'a> Frame<'a> {
-    /// The packet `bytes`, in which everything was found right, with `patterns` bytes of stuffing.
+    /// The packet with which `bytes` begin, `len` of them, in which everything was found right,
+    /// with `patterns` bytes of stuffing.
     #[inline]
-    pub(crate) fn checked(bytes: &'a [u8], patterns: usize) -> Option<Self> {
-        let (&[.., id, _, _, code], rest) = bytes.split_first_chunk::<{ PREFIX + 1 }>()?;
-        let (params, _) = rest.split_last_chunk::<CRC>()?;
-        Some(Self { id, code, params, params_len: params.len() - patterns })
+    pub(crate) fn checked(bytes: &'a [u8], len: usize, patterns: usize) -> Option<Self> {
+        let (&[.., id, _, _], bytes) = bytes.split_first_chunk::<PREFIX>()?;
+        let body_len = len - PREFIX - CRC;
+        Some(Self {
+            id,
+            code: *bytes.first()?,
+            body_len,
+            params_len: body_len - 1 - patterns,
+            bytes,
+        })
     }
 
     /// Reads `bytes`, which are one packet and nothing else.
@@ -58,7 +95,13 @@ impl<'a> Frame<'a> {
             let found = parts.body.len() + CRC;
             return Err(FrameError::Length { found, expected: found + 1 });
         }
-        Ok(Self { id: parts.id, code: *code, params, params_len: body_len - 1 })
+        Ok(Self {
+            id: parts.id,
+            code: *code,
+            body_len: parts.body.len(),
+            params_len: body_len - 1,
+            bytes: parts.body,
+        })
     }
 
     /// Whom an instruction packet is for, or who sent a status packet.
@@ -76,8 +119,9 @@ impl<'a> Frame<'a> {
     /// The bytes between instruction and CRC as they are on the wire, stuffing included. In a
     /// status packet the first is the error byte.
     #[must_use]
-    pub const fn stuffed_params(&self) -> &'a [u8] {
-        self.params
+    #[inline]
+    pub fn stuffed_params(&self) -> &'a [u8] {
+        self.bytes.get(1..self.body_len).unwrap_or_default()
     }
 
     /// How many bytes [`Frame::params`] yields.
@@ -91,7 +135,7 @@ impl<'a> Frame<'a> {
         // The pattern may begin with the instruction, so the search begins there too.
         let mut matcher = Matcher::default();
         let mut skip = matcher.step(self.code);
-        self.params.iter().copied().filter(move |byte| {
+        self.stuffed_params().iter().copied().filter(move |byte| {
             let keep = !skip;
             skip = keep && matcher.step(*byte);
             keep
@@ -105,10 +149,10 @@ impl<'a> Frame<'a> {
     pub fn copy_params<'b>(&self, buffer: &'b mut [u8]) -> Result<&'b [u8], BufferTooSmall> {
         let too_small = BufferTooSmall { needed: self.params_len, available: buffer.len() };
         let target = buffer.get_mut(..self.params_len).ok_or(too_small)?;
-        if target.len() == self.params.len() {
-            target.copy_from_slice(self.params);
+        if self.params_len + 1 == self.body_len {
+            target.copy_from_slice(self.stuffed_params());
         } else {
-            stuffing::remove(self.code, self.params, target);
+            stuffing::remove(self.bytes, self.body_len, target);
         }
         Ok(target)
     }
@@ -178,7 +222,28 @@ pub fn encode<'b>(
     params: &[&[u8]],
     buffer: &'b mut [u8],
 ) -> Result<&'b [u8], EncodeError> {
-    encode_bytes(id, instruction, params.iter().copied().flatten().copied(), buffer)
+    check_id(id).map_err(|found| EncodeError::Id { found })?;
+    if let Some(len) = tiny::encode(id, instruction.code(), params, buffer) {
+        return Writer::after(buffer, len).into_written();
+    }
+    match put_body(instruction.code(), params, buffer) {
+        Some(end) => Writer::after(buffer, end).finish(id),
+        None => encode_bytes(id, instruction, params.iter().copied().flatten().copied(), buffer),
+    }
+}
+
+/// Writes a body behind the room for the prefix; returns where it ends, or `None` if there is no
+/// room for it and the CRC.
+#[inline]
+fn put_body(code: u8, params: &[&[u8]], buffer: &mut [u8]) -> Option<usize> {
+    *buffer.get_mut(PREFIX)? = code;
+    let mut end = PREFIX + 1;
+    for part in params {
+        buffer.get_mut(end..)?.get_mut(..part.len())?.copy_from_slice(part);
+        end += part.len();
+    }
+    let end = stuffing::insert(buffer, PREFIX, end)?;
+    (end + CRC <= buffer.len()).then_some(end)
 }
 
 /// As [`encode`], with the parameters a byte at a time.
@@ -199,60 +264,6 @@ pub(crate) fn encode_bytes(
         }
     }
     writer.finish(id)
-}
-
-/// Writes a frame front to back, and goes on counting when the buffer is full.
-pub(crate) struct Writer<'b> {
-    buffer: &'b mut [u8],
-    written: usize,
-}
-
-impl<'b> Writer<'b> {
-    pub(crate) fn new(buffer: &'b mut [u8]) -> Self {
-        Self { buffer, written: 0 }
-    }
-
-    /// Leaves room for header, ID and length.
-    pub(crate) fn skip_prefix(&mut self) {
-        self.written += PREFIX;
-    }
-
-    pub(crate) fn put(&mut self, byte: u8) {
-        if let Some(slot) = self.buffer.get_mut(self.written) {
-            *slot = byte;
-        }
-        self.written += 1;
-    }
-
-    /// Appends the CRC of all that was written so far.
-    pub(crate) fn put_crc(&mut self) {
-        let crc = crc::umts(self.buffer.get(..self.written).unwrap_or_default());
-        let [low, high] = crc.to_le_bytes();
-        self.put(low);
-        self.put(high);
-    }
-
-    /// Writes header, ID and a length of so many bytes; nothing if they don't fit.
-    pub(crate) fn put_prefix(&mut self, id: u8, length: u16) {
-        let [length_low, length_high] = length.to_le_bytes();
-        let [first, second, third, reserved] = HEADER;
-        if let Some(prefix) = self.buffer.first_chunk_mut() {
-            *prefix = [first, second, third, reserved, id, length_low, length_high];
-        }
-    }
-
-    /// Fills in the prefix, appends the CRC; returns the frame.
-    fn finish(mut self, id: u8) -> Result<&'b [u8], EncodeError> {
-        let length = length_field(self.written + CRC - PREFIX)?;
-        self.put_prefix(id, length);
-        self.put_crc();
-        self.into_written()
-    }
-
-    pub(crate) fn into_written(self) -> Result<&'b [u8], EncodeError> {
-        let too_small = BufferTooSmall { needed: self.written, available: self.buffer.len() };
-        Ok(self.buffer.get(..self.written).ok_or(too_small)?)
-    }
 }
 
 pub(crate) fn length_field(length: usize) -> Result<u16, EncodeError> {

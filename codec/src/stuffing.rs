@@ -4,10 +4,18 @@
 //! A *body* is the bytes from the instruction up to the CRC. A sender puts FD behind every
 //! FF FF FD in it, a receiver takes it away.
 
+mod insert;
+mod remove;
+#[cfg(test)]
+mod tests;
+
 use core::fmt;
 
 use crate::BufferTooSmall;
 use crate::dynamixel2::{STUFFING_BYTE, STUFFING_PATTERN};
+
+pub(crate) use insert::insert;
+pub(crate) use remove::remove;
 
 /// Looks for the pattern byte by byte, across slices.
 #[derive(Clone, Copy, Debug, Default)]
@@ -119,23 +127,6 @@ pub fn unstuff<'b>(stuffed: &[u8], buffer: &'b mut [u8]) -> Result<&'b [u8], Uns
     }
     let too_small = UnstuffError::Buffer(BufferTooSmall { needed, available });
     buffer.get(..needed).ok_or(too_small)
-}
-
-/// Writes what follows the body's first byte to `target` as it was before stuffing. No branch
-/// depends on the bytes, as nothing foretells where patterns stand.
-pub(crate) fn remove(first: u8, rest: &[u8], target: &mut [u8]) {
-    let [one, two, three] = STUFFING_PATTERN;
-    let pattern = u32::from_be_bytes([0, one, two, three]);
-    let mut last_four = u32::from(first);
-    let mut next = 0;
-    for byte in rest {
-        if let Some(slot) = target.get_mut(next) {
-            *slot = *byte;
-        }
-        // Behind a pattern stands stuffing: the next byte takes its place.
-        next += usize::from(last_four & 0x00FF_FFFF != pattern);
-        last_four = (last_four << 8) | u32::from(*byte);
-    }
 }
 
 /// The bytes of a stuffed body without its stuffing; `Err` with the offset of the byte that is

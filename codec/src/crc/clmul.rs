@@ -14,12 +14,14 @@
 mod constants;
 mod narrow;
 mod wide;
+mod window;
 
 use core::arch::x86_64::{__m128i, __m256i, _mm_loadu_si128, _mm256_loadu_si256};
 
 #[cfg(feature = "std")]
 use core::sync::atomic::{AtomicU8, Ordering};
 
+use super::backend::Task;
 use super::order::Order;
 
 /// Whether the processor has all of the features: asked at run time with `std`, otherwise what
@@ -86,6 +88,17 @@ impl Narrow {
         // SAFETY: `new` alone makes a `Narrow`, having found the features that the function needs.
         unsafe { narrow::update::<O>(state, bytes) }
     }
+
+    /// Does the task with these features.
+    #[inline]
+    pub(super) fn run<T: Task>(self, task: T) -> T::Output {
+        #[target_feature(enable = "pclmulqdq,ssse3")]
+        fn run<T: Task>(backend: Narrow, task: T) -> T::Output {
+            task.run(backend)
+        }
+        // SAFETY: `new` alone makes a `Narrow`, having found the features that the function needs.
+        unsafe { run(self, task) }
+    }
 }
 
 /// Proof that the processor multiplies without carry in 256-bit registers.
@@ -95,7 +108,7 @@ pub(super) struct Wide(());
 impl Wide {
     #[inline]
     pub(super) fn new() -> Option<Self> {
-        has!("vpclmulqdq" "avx2" "pclmulqdq" "ssse3").then_some(Self(()))
+        has!("vpclmulqdq" "avx2" "pclmulqdq" "ssse3" "popcnt" "bmi1" "bmi2").then_some(Self(()))
     }
 
     /// The state after `bytes`.
@@ -104,6 +117,17 @@ impl Wide {
     pub(super) fn update<O: Order>(self, state: u16, bytes: &[u8]) -> u16 {
         // SAFETY: `new` alone makes a `Wide`, having found the features that the function needs.
         unsafe { wide::update::<O>(state, bytes) }
+    }
+
+    /// Does the task with these features.
+    #[inline]
+    pub(super) fn run<T: Task>(self, task: T) -> T::Output {
+        #[target_feature(enable = "vpclmulqdq,avx2,pclmulqdq,ssse3,popcnt,bmi1,bmi2")]
+        fn run<T: Task>(backend: Wide, task: T) -> T::Output {
+            task.run(backend)
+        }
+        // SAFETY: `new` alone makes a `Wide`, having found the features that the function needs.
+        unsafe { run(self, task) }
     }
 }
 

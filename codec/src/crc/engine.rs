@@ -1,5 +1,6 @@
 //! The choice of a back end.
 
+use super::backend::{Portable, Task};
 #[cfg(target_arch = "x86_64")]
 use super::clmul::{Narrow, Wide};
 use super::order::{Lsb, Msb, Order};
@@ -113,4 +114,22 @@ impl Engine {
             Kind::Wide(wide) => wide.update::<O>(state, bytes),
         }
     }
+
+    /// Does the task the way of this engine.
+    #[inline]
+    pub(crate) fn run<T: Task>(self, task: T) -> T::Output {
+        match self.0 {
+            Kind::Portable => portable(task),
+            #[cfg(target_arch = "x86_64")]
+            Kind::Narrow(narrow) => narrow.run(task),
+            #[cfg(target_arch = "x86_64")]
+            Kind::Wide(wide) => wide.run(task),
+        }
+    }
+}
+
+/// A function of its own, as the other engines' are.
+#[inline(never)]
+fn portable<T: Task>(task: T) -> T::Output {
+    task.run(Portable)
 }

@@ -18,6 +18,7 @@
 //! * [`Engine`]: the same, with the choice of processor instructions made once. It is for loops
 //!   over many short packets, and for tests that want one particular back end.
 
+mod backend;
 #[cfg(target_arch = "x86_64")]
 mod clmul;
 mod compact;
@@ -32,6 +33,7 @@ mod tests;
 
 use crate::dynamixel2::{CRC_INITIAL, CRC_POLYNOMIAL};
 
+pub(crate) use backend::{Backend, Places, Task, WINDOW};
 pub use engine::Engine;
 
 // The back ends are made for one polynomial. Should the documents' YAML say another, this stops

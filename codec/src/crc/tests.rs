@@ -218,3 +218,57 @@ proptest! {
         prop_assert_eq!(modbus_shift(modbus_shift(state, a), b), modbus_shift(state, a + b));
     }
 }
+
+/// What a back end says of a window.
+struct Look<'a> {
+    window: &'a [u8; WINDOW],
+    len: usize,
+}
+
+impl Task for Look<'_> {
+    type Output = (bool, Places);
+
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "see `Task`")]
+    fn run(self, backend: impl Backend) -> (bool, Places) {
+        (backend.ends_in_crc(self.window, self.len), backend.places(self.window))
+    }
+}
+
+proptest! {
+    #[test]
+    fn windows_at_every_alignment(
+        bytes in proptest::collection::vec(
+            prop_oneof![3 => Just(0xFF_u8), 2 => Just(0xFD), 3 => any::<u8>()],
+            3 * WINDOW,
+        ),
+        flip in any::<u8>(),
+    ) {
+        let mut bytes = bytes;
+        for len in 2..=WINDOW {
+            let at = WINDOW + len;
+            let crc = umts_oracle(0, &bytes[at + 2 - len..at]);
+            bytes[at..at + 2].copy_from_slice(&crc.to_le_bytes());
+            for damage in [0, flip] {
+                bytes[at - 1] ^= damage;
+                let window = bytes[at + 2 - WINDOW..][..WINDOW].first_chunk().copied().unwrap_or([0; WINDOW]);
+                bytes[at - 1] ^= damage;
+                let right = umts_oracle(0, &window[WINDOW - len..WINDOW - 2]).to_le_bytes()
+                    == window[WINDOW - 2..];
+                let mut patterns = 0;
+                let mut stuffing = 0;
+                for place in 0..WINDOW {
+                    patterns |= u64::from(window[place..].starts_with(&[0xFF, 0xFF, 0xFD])) << place;
+                    stuffing |= u64::from(window[place] == 0xFD) << place;
+                }
+                for engine in Engine::all() {
+                    let (found, places) = engine.run(Look { window: &window, len });
+                    prop_assert_eq!(found, right, "{:?}, {} bytes", engine, len);
+                    prop_assert_eq!(places.patterns, patterns, "{:?}", engine);
+                    // Not found where there is no pattern that it could be behind.
+                    prop_assert!(patterns == 0 || places.stuffing == stuffing, "{:?}", engine);
+                }
+            }
+        }
+    }
+}

@@ -2,7 +2,8 @@
 
 use super::candidate::{Progress, Verdict, Whole};
 use super::checkpoints::Checkpoints;
-use super::{BLOCK, Event, RawFastStatus, Reason, meter, search, short};
+use super::short::Ready;
+use super::{BLOCK, Event, RawFastStatus, Reason, meter, search};
 use crate::crc;
 use crate::dynamixel2::HEADER;
 use crate::frame::{CRC, Frame};
@@ -28,6 +29,8 @@ pub struct Parser<const BLOCKS: usize = 16> {
     /// The run of skipped bytes just before `start`, not reported yet; 0 if there is none.
     skipped: u64,
     reason: Reason,
+    /// What begins at `start`, as far as it was looked at.
+    ready: Ready,
     /// Of the header at `start`, if there is one.
     progress: Progress,
     /// Nothing will follow the bytes that are there.
@@ -75,6 +78,7 @@ impl<const BLOCKS: usize> Parser<BLOCKS> {
             max_packet: if max_packet < room { max_packet } else { room },
             skipped: 0,
             reason: Reason::Garbage,
+            ready: Ready::new(),
             progress: Progress::new(),
             quiet: false,
             checkpoints: Checkpoints::new(),
@@ -127,11 +131,11 @@ impl<const BLOCKS: usize> Parser<BLOCKS> {
         let start = self.start;
         self.start += len;
         self.progress = Progress::new();
-        let packet = self.buffer().get(start..start + len)?;
+        let bytes = self.buffer().get(start..)?;
         Some(if fast {
-            Event::FastStatus(RawFastStatus::new(packet))
+            Event::FastStatus(RawFastStatus::new(bytes.get(..len)?))
         } else {
-            Event::Frame(Frame::checked(packet, patterns)?)
+            Event::Frame(Frame::checked(bytes, len, patterns)?)
         })
     }
 
@@ -143,19 +147,20 @@ impl<const BLOCKS: usize> Parser<BLOCKS> {
 
     /// The usual case: a short packet directly behind another one.
     #[inline]
-    fn next_short_packet(&self) -> Option<Whole> {
-        let len = short::len(self.buffer().get(self.start..)?)?;
-        let end = self.start + len;
-        let window = self.buffer().get(..end)?.last_chunk()?;
-        if self.skipped > 0 || end > self.end || len > self.max_packet {
+    fn next_short_packet(&mut self) -> Option<Whole> {
+        if let Some(packet) = self.ready.pop() {
+            return Some(packet);
+        }
+        if self.skipped > 0 {
             return None;
         }
-        let patterns = short::check(window, len)?;
-        Some(Whole { len, patterns, fast: false })
+        let buffer = self.buffer.as_flattened().as_flattened().get(..self.end)?;
+        self.ready.find(buffer, self.start, self.max_packet);
+        self.ready.pop()
     }
 
     /// All cases.
-    #[cold]
+    #[inline(never)]
     fn search(&mut self) -> Option<Found> {
         loop {
             self.skip(search::header(self.ahead()));
@@ -243,11 +248,12 @@ impl<const BLOCKS: usize> Parser<BLOCKS> {
     fn make_room(&mut self, wanted: usize) {
         let size = 2 * BLOCKS * BLOCK;
         if self.start == self.end {
-            (self.start, self.end) = (0, 0);
+            // Not at the front: a short packet is looked at as the end of a block.
+            (self.start, self.end) = (BLOCK, BLOCK);
             self.checkpoints.clear();
         } else if size - self.end < wanted && self.start >= size / 2 {
-            // By whole blocks, so that the checkpoints move too.
-            let blocks = self.start / BLOCK;
+            // By whole blocks, so that the checkpoints move too. One more stays, as above.
+            let blocks = self.start / BLOCK - usize::from(BLOCKS > 1);
             let gone = blocks * BLOCK;
             let buffer = self.buffer.as_flattened_mut().as_flattened_mut();
             meter::add(self.end - gone);

@@ -1,10 +1,12 @@
-//! Looks for headers and for the pattern of byte stuffing, eight places at a time.
+//! Looks for headers and for the pattern of byte stuffing: many places at a time the way of the
+//! processor while there are as many, then eight at a time.
 //!
 //! Eight neighbouring places are one `u64`, the first in its lowest byte; the words that begin
 //! one, two and three bytes later hold what stands behind each. A byte of the combined word is
 //! zero where everything matches.
 
 use super::meter;
+use crate::crc::{Backend, Engine, Task, WINDOW as LARGE};
 use crate::dynamixel2::{HEADER, STUFFING_BYTE, STUFFING_PATTERN};
 
 /// Places that are looked at together.
@@ -26,7 +28,7 @@ fn word<const AT: usize, const N: usize>(window: &[u8; N]) -> u64 {
 
 /// Zero in the places where FF FF FD begins.
 #[inline]
-pub(super) fn mismatches<const N: usize>(window: &[u8; N]) -> u64 {
+fn mismatches<const N: usize>(window: &[u8; N]) -> u64 {
     let [first, second, third] = STUFFING_PATTERN;
     (word::<0, _>(window) ^ everywhere(first))
         | (word::<1, _>(window) ^ everywhere(second))
@@ -41,12 +43,6 @@ const fn zeros(word: u64) -> u64 {
     !(((word & LOW_BITS) + LOW_BITS) | word | LOW_BITS)
 }
 
-/// Some bit if some byte is zero, no bit otherwise.
-#[inline]
-pub(super) const fn some_zero(word: u64) -> u64 {
-    word.wrapping_sub(everywhere(1)) & !word & everywhere(0x80)
-}
-
 /// Whether `bytes` begin with a header, as far as they go.
 #[inline]
 pub(super) fn may_be_header(bytes: &[u8]) -> bool {
@@ -56,7 +52,13 @@ pub(super) fn may_be_header(bytes: &[u8]) -> bool {
 /// The offset of the first header, be it cut off by the end; all of `bytes` if there is none.
 pub(super) fn header(bytes: &[u8]) -> usize {
     let [_, _, _, fourth] = HEADER;
-    let mut at = 0;
+    let mut at = match Engine::new().run(FindHeader { bytes }) {
+        Ok(at) => {
+            meter::add(at + HEADER.len());
+            return at;
+        }
+        Err(at) => at,
+    };
     while let Some(window) = bytes.get(at..).and_then(<[u8]>::first_chunk::<WINDOW>) {
         let found = zeros(mismatches(window) | (word::<3, _>(window) ^ everywhere(fourth)));
         if found != 0 {
@@ -78,8 +80,9 @@ pub(super) fn header(bytes: &[u8]) -> usize {
 /// ends at `body_end`. A pattern counts as soon as the byte behind it is there.
 #[inline]
 pub(super) fn patterns(bytes: &[u8], from: usize, body_end: usize) -> Option<usize> {
-    let mut count = 0;
-    let mut at = from;
+    let large = bytes.len() >= from + LARGE;
+    let (mut count, mut at) =
+        if large { Engine::new().run(CountPatterns { bytes, from, body_end })? } else { (0, from) };
     while let Some(window) = bytes.get(at..).and_then(<[u8]>::first_chunk::<WINDOW>) {
         count += patterns_in(window, 0, at + WINDOW > body_end)?;
         at += PLACES;
@@ -107,4 +110,66 @@ fn patterns_in(window: &[u8; WINDOW], looked_at: usize, ends_body: bool) -> Opti
         stuffed &= !(0xFF << (8 * (PLACES - 1)));
     }
     (patterns & !stuffed == 0).then_some(patterns.count_ones() as usize)
+}
+
+/// How many places a large window decides about.
+const LARGE_PLACES: usize = LARGE - 3;
+const DECIDED: u64 = u64::MAX >> 3;
+
+/// The task to find the first header: its offset, or up to where there is none as `Err`.
+struct FindHeader<'a> {
+    bytes: &'a [u8],
+}
+
+impl Task for FindHeader<'_> {
+    type Output = Result<usize, usize>;
+
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "see `Task`")]
+    fn run(self, backend: impl Backend) -> Result<usize, usize> {
+        let mut at = 0;
+        while let Some(window) = self.bytes.get(at..).and_then(<[u8]>::first_chunk) {
+            let mut patterns = backend.places(window).patterns & DECIDED;
+            while patterns != 0 {
+                let found = at + patterns.trailing_zeros() as usize;
+                if self.bytes.get(found..).is_some_and(may_be_header) {
+                    return Ok(found);
+                }
+                patterns &= patterns - 1;
+            }
+            at += LARGE_PLACES;
+        }
+        Err(at)
+    }
+}
+
+/// As [`patterns`], but only as far as large windows reach: the count, and up to where.
+struct CountPatterns<'a> {
+    bytes: &'a [u8],
+    from: usize,
+    body_end: usize,
+}
+
+impl Task for CountPatterns<'_> {
+    type Output = Option<(usize, usize)>;
+
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "see `Task`")]
+    fn run(self, backend: impl Backend) -> Option<(usize, usize)> {
+        let (mut count, mut at) = (0, self.from);
+        while let Some(window) = self.bytes.get(at..).and_then(<[u8]>::first_chunk) {
+            let places = backend.places(window);
+            let ends_body = at + LARGE > self.body_end;
+            let stuffed = (places.stuffing & u64::MAX >> u32::from(ends_body)) >> 3;
+            let patterns = places.patterns & DECIDED;
+            let bare = patterns & !stuffed;
+            meter::add(3 + LARGE_PLACES.min(bare.trailing_zeros() as usize));
+            if bare != 0 {
+                return None;
+            }
+            count += patterns.count_ones() as usize;
+            at += LARGE_PLACES;
+        }
+        Some((count, at))
+    }
 }

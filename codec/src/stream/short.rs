@@ -1,79 +1,128 @@
-//! Short packets, the most of what is on a bus: their stuffing and CRC by one masked window.
+//! Short packets, the most of what is on a bus: their CRC and stuffing by one window.
 //!
 //! Where the lengths of packets vary, a loop over their bytes ends where no processor expects it.
-//! So a short packet is looked at as the end of a window of fixed size, with zeros in place of
-//! what stands before it. They change neither its CRC, which begins with 0, nor its stuffing.
+//! So a short packet is looked at as the end of a window of fixed size.
 
-use super::candidate::STATUS;
-use super::{meter, search};
-use crate::crc::{self, UMTS_INIT};
+use super::candidate::{STATUS, Whole};
+use super::meter;
+use crate::crc::{Backend, Engine, Places, Task, WINDOW};
 use crate::dynamixel2::{BROADCAST_ID, HEADER, MAX_ID, MIN_LENGTH};
 use crate::frame::{CRC, PREFIX};
 
-/// Bytes of the longest packet that is short.
-pub(super) const LONGEST: usize = WINDOW + CRC;
-/// Bytes of the window, in which a packet ends with its body.
-const WINDOW: usize = 32;
+/// How many packets are looked for at once.
+const AHEAD: usize = 16;
 
-const _: () = assert!(UMTS_INIT == 0, "zeros in front must not change a CRC");
+/// Packets found ahead, one directly behind the other. To look for several at once lets the
+/// processor begin with one before it is done with the last.
+#[derive(Clone, Debug)]
+pub(super) struct Ready {
+    packets: [Short; AHEAD],
+    next: usize,
+    count: usize,
+}
 
-/// Zeros, then as many ones: what to keep of a window, from any place on.
-static KEEP: [[u8; WINDOW]; 2] = [[0; WINDOW], [0xFF; WINDOW]];
+/// A packet that is short, in which everything is right.
+#[derive(Clone, Copy, Debug, Default)]
+struct Short {
+    len: usize,
+    patterns: usize,
+}
 
-/// Ones from the place `first` on, at most at the window's end.
-#[inline]
-fn keep_from(first: usize) -> &'static [u8; WINDOW] {
-    let kept = KEEP.as_flattened().get(WINDOW.saturating_sub(first)..);
-    kept.and_then(<[u8]>::first_chunk).unwrap_or(&[0; WINDOW])
+impl Ready {
+    pub(super) const fn new() -> Self {
+        Self { packets: [Short { len: 0, patterns: 0 }; AHEAD], next: 0, count: 0 }
+    }
+
+    /// The next of the packets found.
+    #[inline]
+    pub(super) fn pop(&mut self) -> Option<Whole> {
+        if self.next >= self.count {
+            return None;
+        }
+        let Short { len, patterns } = *self.packets.get(self.next)?;
+        self.next += 1;
+        Some(Whole { len, patterns, fast: false })
+    }
+
+    /// Looks for packets from `bytes` of the buffer on; none must be left from before.
+    #[inline(never)]
+    pub(super) fn find(&mut self, buffer: &[u8], start: usize, max_packet: usize) {
+        self.next = 0;
+        self.count =
+            Engine::new().run(Find { packets: &mut self.packets, buffer, start, max_packet });
+    }
+}
+
+/// The task to find short packets in `buffer` from `start` on; gives how many.
+struct Find<'a> {
+    packets: &'a mut [Short],
+    buffer: &'a [u8],
+    start: usize,
+    max_packet: usize,
+}
+
+impl Task for Find<'_> {
+    type Output = usize;
+
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "see `Task`")]
+    fn run(self, backend: impl Backend) -> usize {
+        let mut start = self.start;
+        let mut count = 0;
+        for slot in self.packets {
+            let Some(packet) = packet(backend, self.buffer, start, self.max_packet) else {
+                break;
+            };
+            start += packet.len;
+            *slot = packet;
+            count += 1;
+        }
+        count
+    }
+}
+
+/// The short packet that begins at `start`, if all of it is there.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "part of a `Task`")]
+fn packet(backend: impl Backend, buffer: &[u8], start: usize, max_packet: usize) -> Option<Short> {
+    let len = len(buffer.get(start..)?)?;
+    let window = buffer.get(..start + len)?.last_chunk()?;
+    if len > max_packet {
+        return None;
+    }
+    meter::add(WINDOW);
+    if !backend.ends_in_crc(window, len) {
+        return None;
+    }
+    Some(Short { len, patterns: patterns(backend.places(window), len)? })
 }
 
 /// How long a packet is if it begins with these bytes, is short, and breaks no rule before its
-/// body; the bytes themselves may be old ones.
+/// body.
 #[inline]
-pub(super) fn len(bytes: &[u8]) -> Option<usize> {
+fn len(bytes: &[u8]) -> Option<usize> {
     let &[first, second, third, fourth, id, low, high, instruction] = bytes.first_chunk()?;
     let length = u16::from_le_bytes([low, high]);
     let status = instruction == STATUS;
     let short = [first, second, third, fourth] == HEADER
         && (id <= MAX_ID || (id == BROADCAST_ID && !status))
         && length >= MIN_LENGTH + u16::from(status)
-        && usize::from(length) <= LONGEST - PREFIX;
+        && usize::from(length) <= WINDOW - PREFIX;
     short.then_some(PREFIX + usize::from(length))
 }
 
-/// How many patterns a packet has, the last `len` of the `bytes`; `None` if its CRC or stuffing
-/// is wrong.
+/// How many patterns the body of a packet has, which is the last `len` bytes of a window; `None`
+/// if one of them lacks the byte that belongs behind it.
 #[inline]
-pub(super) fn check(bytes: &[u8; LONGEST], len: usize) -> Option<usize> {
-    meter::add(2 * WINDOW);
-    let (window, found) = bytes.split_last_chunk::<CRC>()?;
-    let first = LONGEST.saturating_sub(len);
-    let mut packet = [0; WINDOW];
-    let words = window.as_chunks().0.iter().zip(keep_from(first).as_chunks().0);
-    for (slot, (bytes, keep)) in packet.as_chunks_mut().0.iter_mut().zip(words) {
-        *slot = (u64::from_ne_bytes(*bytes) & u64::from_ne_bytes(*keep)).to_ne_bytes();
+fn patterns(places: Places, len: usize) -> Option<usize> {
+    /// A pattern is in the body if its last byte is.
+    const IN_BODY: u64 = u64::MAX >> (CRC + 2);
+    let body = WINDOW - len + PREFIX;
+    let patterns = places.patterns & IN_BODY & u64::MAX << body;
+    if patterns == 0 {
+        return Some(0);
     }
-    if crc::umts(&packet) != u16::from_le_bytes(*found) {
-        return None;
-    }
-    if has_pattern(bytes, first + PREFIX) {
-        let body_end = WINDOW;
-        return search::patterns(bytes.get(..=body_end)?, first + PREFIX, body_end);
-    }
-    Some(0)
-}
-
-/// Whether the pattern of stuffing stands in the body, which begins at `first`, or across its end.
-#[inline]
-fn has_pattern(bytes: &[u8; LONGEST], first: usize) -> bool {
-    let (keep, _) = keep_from(first).as_chunks::<8>();
-    let mut found = 0;
-    for (index, keep) in keep.iter().enumerate() {
-        let Some(window) = bytes.get(8 * index..).and_then(<[u8]>::first_chunk::<10>) else {
-            return true; // there is one for each
-        };
-        let others = !u64::from_le_bytes(*keep);
-        found |= search::some_zero(search::mismatches(window) | others);
-    }
-    found != 0
+    // And so must be its stuffing.
+    let stuffed = (places.stuffing & u64::MAX >> CRC) >> 3;
+    (patterns & !stuffed == 0).then_some(patterns.count_ones() as usize)
 }

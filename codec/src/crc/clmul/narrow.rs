@@ -125,7 +125,7 @@ fn pair<O: Order>(high: u64, low: u64) -> __m128i {
 /// The sum of the words times their factors.
 #[inline]
 #[target_feature(enable = "pclmulqdq")]
-fn multiply(words: __m128i, factors: __m128i) -> __m128i {
+pub(super) fn multiply(words: __m128i, factors: __m128i) -> __m128i {
     add(_mm_clmulepi64_si128::<0x00>(words, factors), _mm_clmulepi64_si128::<0x11>(words, factors))
 }
 

@@ -106,14 +106,14 @@ fn long<O: Order>(head: __m256i, blocks: &[[u8; 32]]) -> u16 {
 
 /// The factors of a 32-byte block, the last block last.
 #[inline]
-fn factors<O: Order>() -> &'static [[u8; 32]] {
+pub(super) fn factors<O: Order>() -> &'static [[u8; 32]] {
     constants::<O>().factors.as_flattened().as_chunks().0
 }
 
 /// A block in memory order as four words in a register.
 #[inline]
 #[target_feature(enable = "avx2")]
-fn arrange<O: Order>(block: __m256i) -> __m256i {
+pub(super) fn arrange<O: Order>(block: __m256i) -> __m256i {
     if O::REFLECTED {
         block
     } else {
@@ -130,7 +130,7 @@ fn arrange<O: Order>(block: __m256i) -> __m256i {
 /// The sum of the words times their factors, in two halves.
 #[inline]
 #[target_feature(enable = "vpclmulqdq,avx2")]
-fn multiply(words: __m256i, factors: __m256i) -> __m256i {
+pub(super) fn multiply(words: __m256i, factors: __m256i) -> __m256i {
     add(
         _mm256_clmulepi64_epi128::<0x00>(words, factors),
         _mm256_clmulepi64_epi128::<0x11>(words, factors),
@@ -139,13 +139,13 @@ fn multiply(words: __m256i, factors: __m256i) -> __m256i {
 
 #[inline]
 #[target_feature(enable = "avx2")]
-fn add(a: __m256i, b: __m256i) -> __m256i {
+pub(super) fn add(a: __m256i, b: __m256i) -> __m256i {
     _mm256_xor_si256(a, b)
 }
 
 #[inline]
 #[target_feature(enable = "avx2,pclmulqdq")]
-fn finish<O: Order>(sum: __m256i) -> u16 {
+pub(super) fn finish<O: Order>(sum: __m256i) -> u16 {
     narrow::finish::<O>(narrow::add(
         _mm256_castsi256_si128(sum),
         _mm256_extracti128_si256::<1>(sum),

@@ -1,0 +1,126 @@
+//! Work on windows of 64 bytes, for code that is compiled once for each back end.
+//!
+//! A call into code for a particular processor is never inlined into code for any processor. So
+//! it is the caller's whole inner loop, a [`Task`], that goes into
+//! [`Engine::run`](super::Engine::run), and there the back end's functions become part of it.
+
+use super::{Engine, UMTS_INIT};
+use crate::dynamixel2::{STUFFING_BYTE, STUFFING_PATTERN};
+
+/// Bytes of a window.
+pub(crate) const WINDOW: usize = 64;
+
+/// Work to be compiled for a back end's processor features. Its `run` has to be `inline(always)`:
+/// what stays a function of its own is compiled for any processor.
+pub(crate) trait Task {
+    type Output;
+    fn run(self, backend: impl Backend) -> Self::Output;
+}
+
+/// What stands where in a window; bit i of a set stands for byte i.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Places {
+    /// Where FF FF FD begins.
+    pub(crate) patterns: u64,
+    /// Where the byte of stuffing, FD, stands. Only those that can be behind a pattern matter.
+    pub(crate) stuffing: u64,
+}
+
+/// What a processor does best its own way.
+pub(crate) trait Backend: Copy {
+    /// As [`umts`](super::umts).
+    fn umts(self, bytes: &[u8]) -> u16;
+
+    /// Whether the last `len` bytes of the window, at least two, end in the CRC-16/UMTS of those
+    /// before, low byte first.
+    fn ends_in_crc(self, window: &[u8; WINDOW], len: usize) -> bool;
+
+    /// The patterns that are wholly in the window, and stuffing.
+    fn places(self, window: &[u8; WINDOW]) -> Places;
+}
+
+/// Zeros, then as many ones: what to keep of a window's end.
+static KEEP: [[u8; WINDOW]; 2] = [[0; WINDOW], [0xFF; WINDOW]];
+
+/// Ones in the last `len` bytes of a window, zeros before.
+#[inline]
+pub(super) fn keep_last(len: usize) -> &'static [u8; WINDOW] {
+    let kept = KEEP.as_flattened().get(len..).and_then(<[u8]>::first_chunk);
+    kept.unwrap_or(&[0xFF; WINDOW]) // a window has no more
+}
+
+/// Any processor.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Portable;
+
+impl Backend for Portable {
+    #[inline]
+    fn umts(self, bytes: &[u8]) -> u16 {
+        Engine::portable().umts(bytes)
+    }
+
+    #[inline]
+    fn ends_in_crc(self, window: &[u8; WINDOW], len: usize) -> bool {
+        const { assert!(UMTS_INIT == 0, "zeros in front must not change a CRC") }
+        // Of a fixed size, as a loop over a packet would end where no processor expects it.
+        let mut bytes = *window;
+        let words = bytes.as_chunks_mut().0.iter_mut().zip(keep_last(len).as_chunks().0);
+        for (word, keep) in words {
+            *word = (u64::from_ne_bytes(*word) & u64::from_ne_bytes(*keep)).to_ne_bytes();
+        }
+        let (half, all) = (bytes.last_chunk::<{ WINDOW / 2 + 2 }>(), bytes.split_last_chunk());
+        let Some((before, found)) = all else {
+            return false; // never: a window has two bytes
+        };
+        let before =
+            half.filter(|_| len <= WINDOW / 2 + 2).map_or(before, |half| &half[..WINDOW / 2]);
+        self.umts(before) == u16::from_le_bytes(*found)
+    }
+
+    /// Eight neighbouring places are one `u64`; the words that begin one and two bytes later hold
+    /// what stands behind each. A byte of the combined word is zero where everything matches.
+    #[inline]
+    fn places(self, window: &[u8; WINDOW]) -> Places {
+        let [first, second, third] = STUFFING_PATTERN.map(everywhere);
+        let words = window.as_chunks::<8>().0;
+        let mut mismatches = [u64::MAX; WINDOW / 8];
+        let mut some = 0;
+        for (index, mismatches) in mismatches.iter_mut().enumerate() {
+            let word = words.get(index).copied().map_or(0, u64::from_le_bytes);
+            let next = words.get(index + 1).copied().map_or(0, u64::from_le_bytes);
+            let (one_on, two_on) = (word >> 8 | next << 56, word >> 16 | next << 48);
+            *mismatches = (word ^ first) | (one_on ^ second) | (two_on ^ third);
+            some |= some_zero(*mismatches);
+        }
+        // Patterns are rare, and where there is none nobody asks for stuffing.
+        if some == 0 {
+            return Places { patterns: 0, stuffing: 0 };
+        }
+        let stuffing =
+            words.iter().map(|word| u64::from_le_bytes(*word) ^ everywhere(STUFFING_BYTE));
+        Places { patterns: zeros(mismatches.into_iter()), stuffing: zeros(stuffing) }
+    }
+}
+
+/// The byte in every place.
+const fn everywhere(byte: u8) -> u64 {
+    u64::from_ne_bytes([byte; 8])
+}
+
+/// Some bit if some byte is zero, no bit otherwise.
+#[inline]
+const fn some_zero(word: u64) -> u64 {
+    word.wrapping_sub(everywhere(1)) & !word & everywhere(0x80)
+}
+
+/// A bit for each byte of the words that is zero, that of the first word's lowest byte the lowest.
+#[inline]
+fn zeros(words: impl DoubleEndedIterator<Item = u64>) -> u64 {
+    const LOW_BITS: u64 = everywhere(0x7F);
+    words.rev().fold(0, |bits, word| {
+        // The sum carries into a byte's highest bit if a lower bit is set, and never out of it.
+        let zeros = !(((word & LOW_BITS) + LOW_BITS) | word | LOW_BITS);
+        // The product collects the eight bits, 7 apart, in the highest byte.
+        bits << 8 | (zeros >> 7).wrapping_mul(0x0102_0408_1020_4080) >> 56
+    })
+}
