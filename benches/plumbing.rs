@@ -6,7 +6,9 @@
 use std::fs;
 use std::path::Path;
 
-use actucheck_benches::input::{BATCH, Content, Random, Write, messages, noise, writes};
+#[cfg(feature = "peers")]
+use actucheck_benches::input::Write;
+use actucheck_benches::input::{BATCH, Content, Random, messages, noise, writes};
 use actucheck_benches::measured::Measured;
 use actucheck_benches::traffic::{Traffic, count};
 use actucheck_benches::{chart, contender, measured, table};

@@ -12,7 +12,7 @@ use actucheck::run::run;
 use actucheck::testee::{Answer, Builtin, Testee};
 use actucheck::verdict::{Outcome, Totals, Verdict};
 use actucheck_spec::Spec;
-use actucheck_spec::model::{Fault, Packet};
+use actucheck_spec::model::{CheckedBy, Fault, Packet};
 
 fn checks() -> Vec<Check> {
     let options = cases::Options { cases: 100, ..cases::Options::new(Wire::Dynamixel2) };
@@ -157,4 +157,19 @@ fn rejecting_everything_fails_all_that_is_valid_but_not_what_is_open() {
     };
     assert!(passed("ja40.clear.instruction.with-parameters/decode"));
     assert!(!passed("ja40.clear.status/decode"));
+}
+
+#[test]
+fn requirements_say_whether_the_suite_checks_them() {
+    let spec = Spec::embedded().unwrap();
+    let all = Wire::ALL.into_iter().flat_map(|wire| cases::all(&spec, &cases::Options::new(wire)));
+    let named: BTreeSet<_> = all.map(|check| check.requirement).collect();
+    for row in spec.requirements.iter().flat_map(|file| &file.content.requirements) {
+        let said = match row.checked_by {
+            Some(CheckedBy::Suite) => true,
+            Some(CheckedBy::Nothing) => false,
+            None => continue,
+        };
+        assert_eq!(named.contains(&row.id), said, "{}", row.id);
+    }
 }

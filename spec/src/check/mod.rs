@@ -11,6 +11,7 @@ mod innfos;
 mod layout;
 mod overlap;
 mod reference;
+mod requirement;
 mod unique;
 mod value;
 mod vector;
@@ -20,7 +21,7 @@ use crate::{Diagnostic, Spec};
 /// Every defect that the rules find, in the order of the rules.
 #[must_use]
 pub fn all(spec: &Spec) -> Vec<Diagnostic> {
-    let rules: [fn(&Spec) -> Vec<Diagnostic>; 12] = [
+    let rules: [fn(&Spec) -> Vec<Diagnostic>; 13] = [
         citation::check,
         unique::check,
         reference::check,
@@ -33,6 +34,7 @@ pub fn all(spec: &Spec) -> Vec<Diagnostic> {
         alarm::check,
         full_scale::check,
         vector::check,
+        requirement::check,
     ];
     rules.iter().flat_map(|rule| rule(spec)).collect()
 }

@@ -28,5 +28,5 @@ pub use protocol::{
     ByteOrder, Crc, ErrorNumber, Field, Framing, Id, Instruction, Length, Protocol, Size,
     StatusFormat, Stuffing,
 };
-pub use requirement::{Level, Requirement, RequirementsFile, Role};
+pub use requirement::{CheckedBy, Level, Requirement, RequirementsFile, Role};
 pub use vector::{Fault, Outcome, Vector, VectorsFile};

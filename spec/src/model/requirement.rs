@@ -31,6 +31,18 @@ pub struct Requirement {
     /// which any codec can take: `FILE::TEST`.
     #[serde(default)]
     pub tests: Vec<String>,
+    /// What else checks it; said where neither a vector nor a test names it.
+    pub checked_by: Option<CheckedBy>,
+}
+
+/// What checks a requirement that neither a vector nor a test names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum CheckedBy {
+    /// Checks that the suite makes without a vector.
+    Suite,
+    /// Nothing yet.
+    Nothing,
 }
 
 /// How binding a requirement is.

@@ -289,6 +289,13 @@ pub mod board {
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
     pub struct Alarms(pub u16);
     impl Alarms {
+        /// The names of those that are set and have one.
+        pub fn names(self) -> impl Iterator<Item = &'static str> {
+            let rows = [];
+            rows.into_iter()
+                .filter(move |row: &(u16, _)| self.0 & row.0 != 0)
+                .map(|row| row.1)
+        }
         /// The bits that mean an none.
         #[must_use]
         pub const fn others(self) -> u16 {
