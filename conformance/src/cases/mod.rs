@@ -1,12 +1,12 @@
 //! Where checks come from.
 //!
-//! - [`golden`]: the packets of the documents;
-//! - [`exhaustive`]: everything where everything is little;
-//! - [`negative`]: each rule of the receive procedure broken;
-//! - [`generated`]: packets and streams from a seed.
+//! - golden: the packets of the documents;
+//! - exhaustive: everything where everything is little;
+//! - negative: each rule of the receive procedure broken;
+//! - generated: packets and streams from a seed.
 //!
 //! What a golden check demands is printed in a document; what the others demand comes from
-//! [`reference`](crate::reference). Ids are permanent: they name what is asked, not its place in
+//! [`reference`]. Ids are permanent: they name what is asked, not its place in
 //! the list.
 
 mod exhaustive;
