@@ -6,7 +6,7 @@
 //! - generated: packets and streams from a seed.
 //!
 //! What a golden check demands is printed in a document; what the others demand comes from
-//! [`reference`]. Ids are permanent: they name what is asked, not its place in
+//! [`mod@reference`]. Ids are permanent: they name what is asked, not its place in
 //! the list.
 
 mod exhaustive;
