@@ -2,8 +2,8 @@
 //!
 //! The wire is DYNAMIXEL Protocol 2.0 and its dialect, the JA actuators' protocol; [`innfos`] is
 //! another, with UDP below it. Instruction codes, layouts, registers and commands are generated at
-//! build time from the documents' YAML. Everything works on the caller's buffers: no allocation,
-//! no `std`.
+//! build time from the documents' YAML. Everything works on the caller's buffers: no allocation, no
+//! `std` but for the feature of that name, which asks the processor what it can do.
 //!
 //! No function of this crate panics, whatever bytes it is given. Lengths that come from the wire
 //! are checked against the bytes that are there; a buffer that is too small is an error that
