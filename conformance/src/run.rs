@@ -57,6 +57,7 @@ fn invented_op(testee: &mut dyn Testee) -> Option<Outcome> {
         request: Some(Op::Invented),
         expected: None,
         actual: None,
+        behaviour: None,
     })
 }
 

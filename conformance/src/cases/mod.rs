@@ -3,6 +3,7 @@
 //! - golden: the packets of the documents;
 //! - exhaustive: everything where everything is little;
 //! - negative: each rule of the receive procedure broken;
+//! - open: what the documents leave open, which is recorded;
 //! - generated: packets and streams from a seed.
 //!
 //! What a golden check demands is printed in a document; what the others demand comes from
@@ -14,6 +15,7 @@ mod generated;
 mod golden;
 mod innfos;
 mod negative;
+mod open;
 
 use actucheck_spec::Spec;
 use actucheck_spec::model::{Citation, Level, Packet};
@@ -51,6 +53,7 @@ pub fn all(spec: &Spec, options: &Options) -> Vec<Check> {
             let mut checks = golden::checks(&author);
             checks.extend(exhaustive::checks(&author));
             checks.extend(negative::checks(&author));
+            checks.extend(open::checks(&author));
             checks.extend(generated::checks(&author, options.seed, options.cases));
             checks
         }
