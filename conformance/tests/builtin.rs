@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)] // in what the tests share
 
 use std::collections::BTreeSet;
+use std::ops::ControlFlow;
 
 use actucheck::cases;
 use actucheck::check::Check;
@@ -25,7 +26,7 @@ struct Bent<F> {
     bend: F,
 }
 
-impl<F: Fn(&Op, Answer) -> Answer> Testee for Bent<F> {
+impl<F: Fn(&Op, Answer) -> Answer + Send> Testee for Bent<F> {
     fn hello(&self) -> &Hello {
         self.codec.hello()
     }
@@ -36,8 +37,9 @@ impl<F: Fn(&Op, Answer) -> Answer> Testee for Bent<F> {
     }
 }
 
-fn outcomes(bend: impl Fn(&Op, Answer) -> Answer) -> Vec<Outcome> {
-    run(&mut Bent { codec: Builtin::default(), bend }, &checks(), |_| {})
+fn outcomes(bend: impl Fn(&Op, Answer) -> Answer + Send + 'static) -> Vec<Outcome> {
+    let testee = Bent { codec: Builtin::default(), bend };
+    run(&mut [Box::new(testee)], &checks(), |_| ControlFlow::Continue(()))
 }
 
 /// The ops whose checks failed.
@@ -115,7 +117,7 @@ fn a_wrong_field_fails_decode() {
 fn accepting_damaged_packets_fails_each_negative_check() {
     let accepted =
         Packet::Status { id: 1, error: 0, params: actucheck_spec::model::HexBytes::default() };
-    let outcomes = outcomes(|_, answer| match answer {
+    let outcomes = outcomes(move |_, answer| match answer {
         Answer::Rejected(_) => Answer::Ok(Output::Packet(accepted.clone())),
         answer => answer,
     });

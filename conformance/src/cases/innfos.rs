@@ -14,8 +14,14 @@ const ALPHABET: [u8; 4] = [0xEE, 0xED, 0x00, 0x01];
 /// Sizes of data: those of the commands' tables, and where the length needs its other byte.
 const SIZES: [usize; 10] = [0, 1, 2, 3, 4, 8, 255, 256, 257, 1000];
 
-pub(super) fn checks(author: &Author<'_>) -> Vec<Check> {
+/// The most data that a length can tell of, and the bytes around it.
+const LARGEST: usize = 65_535;
+const AROUND: usize = 8;
+
+pub(super) fn checks(author: &Author<'_>, max_packet: Option<usize>) -> Vec<Check> {
     let mut checks = golden(author);
+    let largest = max_packet.and_then(|limit| limit.checked_sub(AROUND));
+    let largest = largest.map(|size| size.min(LARGEST)).filter(|size| !SIZES.contains(size));
     for kind in [FrameKind::Request, FrameKind::Reply] {
         checks.extend((0..=u8::MAX).flat_map(|byte| {
             let address =
@@ -23,8 +29,8 @@ pub(super) fn checks(author: &Author<'_>) -> Vec<Check> {
             let command = both_ways(author, &format!("command.{byte:02x}"), kind, 1, byte, &[1, 2]);
             address.into_iter().chain(command)
         }));
-        checks.extend(SIZES.iter().flat_map(|size| {
-            both_ways(author, &format!("size.{size}"), kind, 6, 0x2A, &vec![0x5A; *size])
+        checks.extend(SIZES.into_iter().chain(largest).flat_map(|size| {
+            both_ways(author, &format!("size.{size}"), kind, 6, 0x2A, &vec![0x5A; size])
         }));
         checks.extend((0..=4).flat_map(words).flat_map(|data| {
             both_ways(author, &format!("data.{}", hex(&data)), kind, 6, 0x0A, &data)

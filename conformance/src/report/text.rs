@@ -7,7 +7,7 @@ use anstyle::{AnsiColor, Style};
 
 use actucheck_spec::Spec;
 
-use super::Run;
+use super::{Run, Stopped};
 use crate::check::{Check, Demand, Open};
 use crate::explain::diff;
 use crate::protocol::{Op, Output};
@@ -48,6 +48,13 @@ pub fn write(run: &Run<'_>, out: &mut impl Write) -> io::Result<()> {
         outcomes(run, verdict, out)?;
     }
     log(run, &totals, out)?;
+    if let Some(stopped) = run.stopped {
+        let why = match stopped {
+            Stopped::Interrupted => "interrupted",
+            Stopped::MaxFail => "as much failed as --max-fail allows",
+        };
+        writeln!(out, "\n{why}: {} checks were not asked", run.left)?;
+    }
     summary(&totals, out)
 }
 
