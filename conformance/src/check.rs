@@ -1,13 +1,15 @@
 //! One question to an implementation, and the judgement of its answer.
 
 use actucheck_spec::model::{Citation, Fault, Level};
+use serde::{Deserialize, Serialize};
 
 use crate::protocol::{Op, Output, Rejection};
 use crate::testee::Answer;
 use crate::verdict::{Behaviour, Outcome, Verdict};
 
 /// One question to an implementation.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Check {
     /// Permanent id.
     pub id: String,
@@ -19,15 +21,19 @@ pub struct Check {
     pub source: Citation,
     /// The check that shows whether this one makes sense: one that is skipped there is skipped
     /// here. A host's library reads no instruction packets, alone or in a stream.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub presumes: Option<String>,
     /// What is asked.
+    #[serde(rename = "request")]
     pub op: Op,
     /// What is demanded.
+    #[serde(with = "serde_yaml::with::singleton_map_recursive")]
     pub demand: Demand,
 }
 
 /// What a check demands of the answer.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Demand {
     /// This and nothing else.
     Yield(Output),
@@ -40,7 +46,7 @@ pub enum Demand {
 }
 
 /// A question that the documents leave open.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Open {
     /// The question, in words.
     pub question: String,
@@ -49,7 +55,7 @@ pub struct Open {
 }
 
 /// One of several right ways.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Way {
     /// What is done, in a few words.
     pub name: String,

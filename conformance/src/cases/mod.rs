@@ -11,7 +11,7 @@
 //! the list.
 
 mod exhaustive;
-mod generated;
+pub(crate) mod generated;
 mod golden;
 mod innfos;
 mod negative;
@@ -64,13 +64,13 @@ pub fn all(spec: &Spec, options: &Options) -> Vec<Check> {
 }
 
 /// Writes checks about one wire.
-struct Author<'a> {
-    spec: &'a Spec,
-    wire: Wire,
+pub(crate) struct Author<'a> {
+    pub(crate) spec: &'a Spec,
+    pub(crate) wire: Wire,
 }
 
 impl Author<'_> {
-    fn check(&self, id: String, requirement: &str, op: Op, demand: Demand) -> Check {
+    pub(crate) fn check(&self, id: String, requirement: &str, op: Op, demand: Demand) -> Check {
         let row = self.spec.requirement(requirement);
         Check {
             id,
@@ -143,7 +143,7 @@ fn hex(bytes: &[u8]) -> String {
 }
 
 /// The requirement on an instruction's parameters: `dynamixel2.sync-read.parameters`.
-fn parameters_of(spec: &Spec, name: &str) -> String {
+pub(crate) fn parameters_of(spec: &Spec, name: &str) -> String {
     let name = name.to_lowercase().replace(' ', "-");
     let name = if name == "control-table-backup" { "backup".to_owned() } else { name };
     let ids = ["dynamixel2", "ja40"].map(|document| format!("{document}.{name}.parameters"));

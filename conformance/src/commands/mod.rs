@@ -3,6 +3,7 @@
 pub(crate) mod codec;
 pub(crate) mod completions;
 pub(crate) mod decode;
+pub(crate) mod fuzz;
 pub(crate) mod list;
 pub(crate) mod replay;
 pub(crate) mod show;
@@ -12,6 +13,8 @@ use std::fmt;
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use actucheck::cases;
 use actucheck::check::Check;
@@ -99,6 +102,11 @@ fn named(
 
 /// What is to be asked: `jobs` processes of the adapter, or the built-in codec without one.
 fn testees(adapter: &Adapter, jobs: u8) -> Result<Testees, Failure> {
+    testees_with(adapter, jobs, Settings::default().restarts)
+}
+
+/// The same, with another limit to how often each process is started again.
+fn testees_with(adapter: &Adapter, jobs: u8, restarts: u32) -> Result<Testees, Failure> {
     if adapter.command.is_empty() {
         // clap does not tell `--` with nothing behind it from no `--` at all.
         if std::env::args_os().next_back().is_some_and(|last| last == "--") {
@@ -112,7 +120,7 @@ fn testees(adapter: &Adapter, jobs: u8) -> Result<Testees, Failure> {
     let trace = adapter.trace.as_deref().map(open_trace).transpose()?;
     let timeouts = Timeouts { start: adapter.start_timeout, request: adapter.timeout };
     let start = |number| {
-        let settings = Settings { timeouts, trace: trace.clone(), number };
+        let settings = Settings { timeouts, restarts, trace: trace.clone(), number };
         Process::start(&adapter.command, settings)
             .map_err(|error| Failure::new(Failure::NOT_STARTED, error))
     };
@@ -121,6 +129,16 @@ fn testees(adapter: &Adapter, jobs: u8) -> Result<Testees, Failure> {
         testees.all.push(Box::new(start(number)?));
     }
     Ok(Testees { trace, ..testees })
+}
+
+/// A flag that Ctrl-C sets.
+fn interrupted() -> Result<Arc<AtomicBool>, Failure> {
+    let flag = Arc::new(AtomicBool::new(false));
+    let setter = Arc::clone(&flag);
+    ctrlc::set_handler(move || setter.store(true, Ordering::Relaxed)).map_err(|error| {
+        Failure::new(Failure::INCOMPLETE, format!("cannot listen for Ctrl-C: {error}"))
+    })?;
+    Ok(flag)
 }
 
 /// One implementation, once or several times.

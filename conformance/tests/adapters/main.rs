@@ -4,6 +4,7 @@
 #![cfg(unix)]
 
 mod early_end;
+mod fuzzing;
 mod misbehaving;
 mod several;
 

@@ -3,6 +3,8 @@
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
+mod fuzzed;
+
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
