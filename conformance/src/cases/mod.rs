@@ -2,6 +2,7 @@
 //!
 //! - golden: the packets of the documents;
 //! - exhaustive: everything where everything is little;
+//! - instructions: what is said of single instructions;
 //! - negative: each rule of the receive procedure broken;
 //! - open: what the documents leave open, which is recorded;
 //! - generated: packets and streams from a seed.
@@ -14,6 +15,7 @@ mod exhaustive;
 pub(crate) mod generated;
 mod golden;
 mod innfos;
+mod instructions;
 mod negative;
 mod open;
 
@@ -54,6 +56,7 @@ pub fn all(spec: &Spec, options: &Options) -> Vec<Check> {
         Wire::Dynamixel2 => {
             let mut checks = golden::checks(&author);
             checks.extend(exhaustive::checks(&author, options.max_packet));
+            checks.extend(instructions::checks(&author));
             checks.extend(negative::checks(&author));
             checks.extend(open::checks(&author));
             checks.extend(generated::checks(&author, options.seed, options.cases));
