@@ -95,12 +95,12 @@ impl Check {
     #[must_use]
     pub fn judge(&self, answer: Answer) -> Outcome {
         let broken = matches!(&answer, Answer::Rejected(why) if why.class == Fault::Internal);
-        let behaviour = match &self.demand {
+        let open = match &self.demand {
             Demand::Record(open) => open.behaviour(&answer),
             _ => None,
         };
         let (verdict, detail, actual) = match answer {
-            _ if behaviour.is_some() => (Verdict::Recorded, String::new(), None),
+            _ if open.is_some() => (Verdict::Recorded, String::new(), None),
             Answer::Ok(actual) => self.judge_output(actual),
             Answer::Rejected(rejection) => self.judge_rejection(&rejection),
             Answer::Skipped(reason) => (Verdict::Skip, reason, None),
@@ -109,10 +109,16 @@ impl Check {
             Answer::Faulty(detail) => (Verdict::AdapterFault, detail, None),
             Answer::NotAsked(reason) => (Verdict::NotRun, reason, None),
         };
-        let verdict = match (verdict, self.level) {
-            (Verdict::Fail, Level::Should) if !broken => Verdict::Warn,
-            (Verdict::Fail, Level::May) if !broken => Verdict::Pass,
-            (verdict, _) => verdict,
+        let allowed = match (verdict, self.level) {
+            (Verdict::Pass | Verdict::Warn, Level::May) => Some("does so"),
+            (Verdict::Fail, Level::May) if !broken => Some("does not"),
+            _ => None,
+        };
+        let behaviour = open.or_else(|| allowed.map(|answer| self.allowed(answer)));
+        let verdict = match verdict {
+            _ if behaviour.is_some() => Verdict::Recorded,
+            Verdict::Fail if self.level == Level::Should && !broken => Verdict::Warn,
+            verdict => verdict,
         };
         let unmet = !matches!(verdict, Verdict::Pass | Verdict::Recorded | Verdict::Skip);
         Outcome {
@@ -120,12 +126,18 @@ impl Check {
             requirement: self.requirement.clone(),
             level: self.level,
             verdict,
-            detail,
+            detail: if behaviour.is_some() { String::new() } else { detail },
             request: unmet.then(|| self.op.clone()),
             expected: self.expected().filter(|_| unmet).cloned(),
             actual: actual.filter(|_| unmet),
             behaviour,
         }
+    }
+
+    /// What is done where the requirement allows it and demands nothing.
+    fn allowed(&self, answer: &str) -> Behaviour {
+        let question = format!("Does it do what {} allows?", self.requirement);
+        Behaviour { question, answer: answer.to_owned() }
     }
 
     /// Bytes of the whole packet that it is about; `None` if it is about no whole one.

@@ -39,14 +39,14 @@ fn packets() -> Vec<(&'static str, &'static str, Packet)> {
         ("dynamixel2.sync-write.broadcast-id", "two", to_all(0x83, &[64, 0, 1, 0, 7, 1, 3, 0])),
         ("dynamixel2.bulk-read.broadcast-id", "one", to_all(0x92, &[7, 132, 0, 4, 0])),
         (
-            "dynamixel2.bulk-read.own-registers",
-            "three",
+            "dynamixel2.bulk-read.parameters",
+            "three-registers",
             to_all(0x92, &[7, 132, 0, 4, 0, 3, 126, 0, 2, 0, 9, 146, 0, 1, 0]),
         ),
         ("dynamixel2.bulk-write.broadcast-id", "one", to_all(0x93, &[7, 64, 0, 1, 0, 1])),
         (
-            "dynamixel2.bulk-write.own-registers",
-            "two",
+            "dynamixel2.bulk-write.parameters",
+            "two-registers",
             to_all(0x93, &[7, 64, 0, 1, 0, 1, 3, 102, 0, 2, 0, 0x2A, 0x01]),
         ),
         ("ja40.fast-sync-read.broadcast-id", "one", to_all(0x8A, &[0x44, 0x02, 4, 0, 7])),

@@ -10,15 +10,12 @@ use actucheck::testee::{Answer, Builtin, Testee};
 use actucheck::verdict::Verdict;
 use actucheck_spec::Spec;
 
-use super::{MUTANTS, Mutant, Mutated};
+use super::Mutated;
+use super::dynamixel2::MUTANTS;
 
 fn fuzzed(testee: &mut dyn Testee, seed: u64, cases: u64) -> Fuzzed {
     let spec = Spec::embedded().unwrap();
     fuzz(&spec, Wire::Dynamixel2, seed, cases, testee, |_, _| ControlFlow::Continue(()))
-}
-
-fn mutated(mutant: &'static Mutant) -> Mutated {
-    Mutated { codec: Builtin::default(), mutant }
 }
 
 /// How large a question is.
@@ -40,7 +37,7 @@ fn nothing_is_found_in_the_builtin_codec() {
 #[test]
 fn every_mutant_is_found_and_made_small() {
     for mutant in &MUTANTS {
-        let fuzzed = fuzzed(&mut mutated(mutant), 1, 5_000);
+        let fuzzed = fuzzed(&mut Mutated::new(mutant), 1, 5_000);
         let sizes = fuzzed.findings.iter().map(|finding| size(&finding.check.op));
         // A length of two bytes is 256 bytes, and twice as many digits.
         let smallest = sizes.min().filter(|size| *size < 700);
@@ -52,16 +49,16 @@ fn every_mutant_is_found_and_made_small() {
 #[test]
 fn a_seed_finds_the_same_again() {
     let mutant = &MUTANTS[0];
-    let first = fuzzed(&mut mutated(mutant), 7, 2_000);
+    let first = fuzzed(&mut Mutated::new(mutant), 7, 2_000);
     assert!(!first.findings.is_empty());
-    assert_eq!(first, fuzzed(&mut mutated(mutant), 7, 2_000));
-    assert_ne!(first, fuzzed(&mut mutated(mutant), 8, 2_000));
+    assert_eq!(first, fuzzed(&mut Mutated::new(mutant), 7, 2_000));
+    assert_ne!(first, fuzzed(&mut Mutated::new(mutant), 8, 2_000));
 }
 
 #[test]
 fn what_was_found_is_kept_and_fails_again() {
     let mutant = &MUTANTS[0];
-    let findings = fuzzed(&mut mutated(mutant), 1, 2_000).findings;
+    let findings = fuzzed(&mut Mutated::new(mutant), 1, 2_000).findings;
     let checks: Vec<_> = findings.iter().map(|finding| finding.check.clone()).collect();
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("findings.yaml");
@@ -72,7 +69,9 @@ fn what_was_found_is_kept_and_fails_again() {
         let outcomes = run(&mut [testee], &read, |_| ControlFlow::Continue(()));
         outcomes.into_iter().map(|outcome| outcome.verdict).collect()
     };
-    assert!(verdicts(Box::new(mutated(mutant))).iter().all(|verdict| *verdict == Verdict::Fail));
+    assert!(
+        verdicts(Box::new(Mutated::new(mutant))).iter().all(|verdict| *verdict == Verdict::Fail)
+    );
     let sound = verdicts(Box::<Builtin>::default());
     assert!(sound.iter().all(|verdict| *verdict == Verdict::Pass));
 }
