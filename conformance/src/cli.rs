@@ -2,6 +2,7 @@
 
 pub(crate) mod spec;
 
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -50,6 +51,10 @@ Examples:
       check a library behind an adapter
   actucheck codec --select '*stuffing*' --report json=report.json -- ./my-adapter
       only some checks, with a report for programs
+  actucheck codec --jobs 4 --max-fail 10 -- ./my-adapter
+      four adapters side by side, until something failed ten times
+
+Ctrl-C ends a run early and reports what was found so far.
 
 Exit status: 0 all passed, 1 something failed, 2 wrong usage, 3 something could not be run, \
 4 the adapter could not be started.";
@@ -90,8 +95,22 @@ pub(crate) struct Selection {
     /// Not the checks whose id matches; may be given more than once
     #[arg(long, value_name = "GLOB")]
     pub(crate) skip: Vec<String>,
+    /// Only the checks of requirements that bind at least so: `should` leaves out what may be
+    #[arg(long, value_enum, default_value = "may")]
+    pub(crate) level: Level,
     #[command(flatten)]
     pub(crate) growth: Growth,
+}
+
+/// How binding a requirement is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum Level {
+    /// Breaking it fails the run
+    Must,
+    /// Breaking it is a warning
+    Should,
+    /// Either way is right
+    May,
 }
 
 /// What generated checks grow from.
@@ -114,6 +133,9 @@ pub(crate) struct Adapter {
     /// Seconds that the adapter may take to start
     #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = seconds)]
     pub(crate) start_timeout: Duration,
+    /// Write every line exchanged with the adapter to this file
+    #[arg(long, value_name = "FILE")]
+    pub(crate) trace: Option<PathBuf>,
     /// The adapter's command with its arguments; the built-in codec if there is none
     #[arg(last = true, value_name = "COMMAND")]
     pub(crate) command: Vec<String>,
@@ -153,6 +175,12 @@ pub(crate) struct Codec {
     /// Write a report for programs; `-` is standard output
     #[arg(long, value_name = "json=PATH", value_parser = report)]
     pub(crate) report: Vec<Report>,
+    /// How many processes of the adapter share the work
+    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u8).range(1..))]
+    pub(crate) jobs: u8,
+    /// End the run after so many unexpected failures
+    #[arg(long, value_name = "N")]
+    pub(crate) max_fail: Option<NonZeroUsize>,
     #[command(flatten)]
     pub(crate) adapter: Adapter,
 }

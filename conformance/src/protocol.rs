@@ -174,9 +174,16 @@ pub struct Hello {
     pub wires: Vec<String>,
     /// The ops that it offers.
     pub ops: Vec<String>,
+    /// How many requests may be outstanding.
+    #[serde(default = "one")]
+    pub max_in_flight: usize,
     /// What it can't go beyond.
     #[serde(default)]
     pub limits: Limits,
+}
+
+const fn one() -> usize {
+    1
 }
 
 /// An implementation under test.

@@ -18,6 +18,8 @@ pub enum Verdict {
     Fail,
     /// Not as recommended, or rejected for another reason than the right one.
     Warn,
+    /// The documents leave it open; what is done is recorded, not judged.
+    Recorded,
     /// The implementation does not offer it.
     Skip,
     /// No answer in time.
@@ -36,10 +38,11 @@ pub enum Verdict {
 
 impl Verdict {
     /// Every verdict, in the order of reports.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Pass,
         Self::Fail,
         Self::Warn,
+        Self::Recorded,
         Self::Skip,
         Self::Timeout,
         Self::Crash,
@@ -62,6 +65,7 @@ impl fmt::Display for Verdict {
             Self::Pass => "pass",
             Self::Fail => "fail",
             Self::Warn => "warn",
+            Self::Recorded => "recorded",
             Self::Skip => "skip",
             Self::Timeout => "timeout",
             Self::Crash => "crash",
@@ -95,6 +99,18 @@ pub struct Outcome {
     /// What came instead.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub actual: Option<Output>,
+    /// What is done where the documents leave it open; only of [`Verdict::Recorded`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub behaviour: Option<Behaviour>,
+}
+
+/// What an implementation does where the documents leave it open.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Behaviour {
+    /// The question, in words.
+    pub question: String,
+    /// What is done, in a few words.
+    pub answer: String,
 }
 
 impl Outcome {
@@ -142,7 +158,8 @@ impl Totals {
     #[must_use]
     pub fn exit_status(&self) -> u8 {
         let any = |verdicts: &[Verdict]| verdicts.iter().any(|verdict| self.count(*verdict) > 0);
-        let judged = any(&[Verdict::Pass, Verdict::Warn, Verdict::ExpectedFailure]);
+        let judged =
+            any(&[Verdict::Pass, Verdict::Warn, Verdict::Recorded, Verdict::ExpectedFailure]);
         if any(&[Verdict::Fail, Verdict::UnexpectedPass]) {
             1
         } else if any(&[Verdict::Timeout, Verdict::Crash, Verdict::AdapterFault, Verdict::NotRun])

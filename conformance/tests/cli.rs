@@ -27,7 +27,7 @@ fn the_json_report_counts_every_verdict_and_lists_every_check() {
     let report: Value = serde_json::from_str(&stdout).unwrap();
     assert_eq!((status, &report["version"]), (0, &Value::from(1)));
     let totals = report["totals"].as_object().unwrap();
-    assert_eq!(totals.len(), 10);
+    assert_eq!(totals.len(), 11);
     let sum: u64 = totals.values().map(|count| count.as_u64().unwrap()).sum();
     let results = report["results"].as_array().unwrap();
     assert_eq!(sum, results.len() as u64);

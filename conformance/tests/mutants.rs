@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 
 use actucheck::cases;
 use actucheck::check::Check;
@@ -26,7 +27,7 @@ struct Mutant {
     found_by_documents: bool,
 }
 
-const MUTANTS: [Mutant; 14] = [
+static MUTANTS: [Mutant; 14] = [
     Mutant {
         name: "sends without byte stuffing",
         answer: |op| body_of(op).map(|(id, body)| bytes(reference::frame(id, &body))),
@@ -234,12 +235,12 @@ fn read_leniently(frame: &[u8]) -> Option<Output> {
 }
 
 /// The built-in codec with a mutant's answers where it has any.
-struct Mutated<'a> {
+struct Mutated {
     codec: Builtin,
-    mutant: &'a Mutant,
+    mutant: &'static Mutant,
 }
 
-impl Testee for Mutated<'_> {
+impl Testee for Mutated {
     fn hello(&self) -> &Hello {
         self.codec.hello()
     }
@@ -258,8 +259,8 @@ fn checks() -> Vec<Check> {
 fn every_mutant_is_found_by_its_check() {
     let checks = checks();
     for mutant in &MUTANTS {
-        let mut testee = Mutated { codec: Builtin::default(), mutant };
-        let outcomes = run(&mut testee, &checks, |_| {});
+        let testee = Mutated { codec: Builtin::default(), mutant };
+        let outcomes = run(&mut [Box::new(testee)], &checks, |_| ControlFlow::Continue(()));
         let failed: BTreeMap<_, _> = outcomes
             .iter()
             .filter(|outcome| outcome.verdict == Verdict::Fail)

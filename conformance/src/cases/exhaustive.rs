@@ -19,14 +19,20 @@ const INSIDE: u32 = 4;
 const LENGTHS: [usize; 17] =
     [0, 1, 2, 3, 4, 122, 123, 124, 127, 128, 129, 250, 251, 252, 255, 256, 257];
 
-pub(super) fn checks(author: &Author<'_>) -> Vec<Check> {
+/// The largest packet that a length of two bytes can tell of.
+const LARGEST: usize = 65_535 + reference::PREFIX;
+/// Bytes of a Write around its data. A status packet has one less.
+const WRITE_AROUND: usize = 12;
+
+pub(super) fn checks(author: &Author<'_>, max_packet: Option<usize>) -> Vec<Check> {
     let mut checks = Vec::new();
     checks.extend((0..=ALONE).flat_map(words).flat_map(|body| alone(author, &body)));
     checks.extend((0..=INSIDE).flat_map(words).flat_map(|body| inside(author, &body)));
     checks.extend((0..=u8::MAX).flat_map(|code| instruction(author, code)));
     checks.extend((0..=u8::MAX).flat_map(|error| error_byte(author, error)));
     checks.extend((0..=252).chain([BROADCAST]).flat_map(|id| id_byte(author, id)));
-    checks.extend(LENGTHS.iter().flat_map(|length| lengths(author, *length)));
+    let around = LENGTHS.into_iter().chain(largest(max_packet));
+    checks.extend(around.flat_map(|length| lengths(author, length)));
     checks.extend(before_params(author));
     checks
 }
@@ -153,6 +159,15 @@ fn id_byte(author: &Author<'_>, id: u8) -> Vec<Check> {
         checks.extend(author.both_ways(&name, "dynamixel2.status-packet.layout", &status));
     }
     checks
+}
+
+/// Data lengths, beyond [`LENGTHS`], of the largest packets that an implementation takes: a Write
+/// with a byte less, a Write, a status packet, and a Write that stuffing makes so large.
+fn largest(max_packet: Option<usize>) -> Vec<usize> {
+    let Some(limit) = max_packet.map(|limit| limit.min(LARGEST)) else { return Vec::new() };
+    let Some(write) = limit.checked_sub(WRITE_AROUND) else { return Vec::new() };
+    let lengths = [write.saturating_sub(1), write, write + 1, write * 3 / 4];
+    lengths.into_iter().filter(|length| !LENGTHS.contains(length)).collect()
 }
 
 /// Plain data, and data that is all patterns, of this length.

@@ -1,11 +1,12 @@
 //! The packets that the documents print, and those worked out by hand from their rules. Each
 //! yields a check an op.
 
+use actucheck_spec::Spec;
 use actucheck_spec::model::{Citation, Fault, HexBytes, Outcome, Packet, Vector, VectorsFile};
 
 use super::{Author, of_reading};
 use crate::call::Call;
-use crate::check::{Check, Demand};
+use crate::check::{Check, Demand, Open, Way};
 use crate::protocol::{Called, Fast, Op, Output, Wire};
 
 /// Bytes before the body, and behind it.
@@ -61,10 +62,7 @@ impl Golden<'_> {
 
     /// What the vector's result demands where `output` is right.
     fn demand(&self, output: Output) -> Demand {
-        match self.vector.result {
-            Outcome::Acceptable => Demand::YieldOneOfOrReject(vec![output]),
-            Outcome::Valid | Outcome::Invalid => Demand::Yield(output),
-        }
+        demand(self.author.spec, self.vector, output, Vec::new())
     }
 
     fn crc(&self, frame: &[u8]) -> Check {
@@ -162,6 +160,28 @@ impl Golden<'_> {
         };
         self.check(name, requirement, op, Demand::Reject(fault))
     }
+}
+
+/// What a vector's result demands where `output` is right, or beside it one of `others`.
+pub(super) fn demand(spec: &Spec, vector: &Vector, output: Output, others: Vec<Way>) -> Demand {
+    if vector.result != Outcome::Acceptable {
+        return Demand::Yield(output);
+    }
+    let mut ways = vec![way(vector, output)];
+    ways.extend(others);
+    Demand::Record(Open { question: question(spec, vector), ways })
+}
+
+/// To do as this vector has it.
+pub(super) fn way(vector: &Vector, output: Output) -> Way {
+    Way { name: format!("as {}", vector.id), output }
+}
+
+/// What is open about a vector, by the errata that it depends on.
+fn question(spec: &Spec, vector: &Vector) -> String {
+    let rows = spec.errata.content.errata.iter().filter(|row| vector.errata.contains(&row.id));
+    let open: Vec<_> = rows.map(|row| format!("{} ({})", row.held_right, row.id)).collect();
+    format!("{}: {}", vector.id, open.join("; "))
 }
 
 /// What a fast status packet answers.

@@ -3,6 +3,7 @@
 //! - golden: the packets of the documents;
 //! - exhaustive: everything where everything is little;
 //! - negative: each rule of the receive procedure broken;
+//! - open: what the documents leave open, which is recorded;
 //! - generated: packets and streams from a seed.
 //!
 //! What a golden check demands is printed in a document; what the others demand comes from
@@ -14,6 +15,7 @@ mod generated;
 mod golden;
 mod innfos;
 mod negative;
+mod open;
 
 use actucheck_spec::Spec;
 use actucheck_spec::model::{Citation, Level, Packet};
@@ -32,13 +34,15 @@ pub struct Options {
     pub seed: u64,
     /// How many packets are generated.
     pub cases: u32,
+    /// Bytes of the longest frame that the implementation says it takes.
+    pub max_packet: Option<usize>,
 }
 
 impl Options {
     /// The checks of a wire as they are without further options.
     #[must_use]
     pub const fn new(wire: Wire) -> Self {
-        Self { wire, seed: 1, cases: 1000 }
+        Self { wire, seed: 1, cases: 1000, max_packet: None }
     }
 }
 
@@ -49,12 +53,13 @@ pub fn all(spec: &Spec, options: &Options) -> Vec<Check> {
     match options.wire {
         Wire::Dynamixel2 => {
             let mut checks = golden::checks(&author);
-            checks.extend(exhaustive::checks(&author));
+            checks.extend(exhaustive::checks(&author, options.max_packet));
             checks.extend(negative::checks(&author));
+            checks.extend(open::checks(&author));
             checks.extend(generated::checks(&author, options.seed, options.cases));
             checks
         }
-        Wire::Innfos => innfos::checks(&author),
+        Wire::Innfos => innfos::checks(&author, options.max_packet),
     }
 }
 

@@ -2,13 +2,18 @@
 
 use std::fs::File;
 use std::io::{self, Write};
+use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use actucheck::expect::Expectations;
-use actucheck::report::{self, Run};
+use actucheck::report::{self, Run, Stopped};
 use actucheck::run;
+use actucheck::verdict::Outcome;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::Failure;
@@ -18,7 +23,10 @@ use crate::cli::Codec;
 pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     let spec = super::spec()?;
     let selection = &options.selection;
-    let all = super::checks(&spec, selection.wire, &selection.growth);
+    let mut reports = open_reports(options)?;
+    let mut testees = super::testees(&options.adapter, options.jobs)?;
+    let hello = testees.hello.clone();
+    let all = super::checks(&spec, selection.wire, &selection.growth, Some(&hello));
     let expectations = match &options.expect {
         Some(path) => {
             Expectations::read(path, &all).map_err(|error| Failure::new(Failure::USAGE, error))?
@@ -26,28 +34,70 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
         None => Expectations::default(),
     };
     let checks = super::selected(all, selection)?;
-    let mut reports = open_reports(options)?;
-    let mut testee = super::testee(&options.adapter)?;
 
     let progress = progress(checks.len());
-    let mut outcomes = run::run(testee.as_mut(), &checks, |_| progress.inc(1));
+    let mut limit = Limit::new(options.max_fail, interrupted()?);
+    let mut outcomes = run::run(&mut testees.all, &checks, |outcome| {
+        progress.inc(1);
+        limit.after(outcome, &expectations)
+    });
     progress.finish_and_clear();
     expectations.apply(&mut outcomes);
 
-    let hello = testee.hello().clone();
     let run = Run {
         spec: &spec,
         implementation: &hello.implementation,
         wire: selection.wire,
         command: &options.adapter.command,
         outcomes: &outcomes,
-        log: testee.log(),
+        stopped: limit.stopped,
+        left: checks.iter().len().saturating_sub(outcomes.iter().len()),
+        log: testees.end()?,
     };
     for (name, file) in &mut reports {
         report::json::write(&run, file).map_err(|error| cannot_write(name, &error))?;
     }
     write_text(&run, options)?;
-    Ok(ExitCode::from(run.totals().exit_status()))
+    Ok(ExitCode::from(run.exit_status()))
+}
+
+/// What ends a run early.
+struct Limit {
+    interrupted: Arc<AtomicBool>,
+    max_fail: Option<NonZeroUsize>,
+    failed: usize,
+    stopped: Option<Stopped>,
+}
+
+impl Limit {
+    fn new(max_fail: Option<NonZeroUsize>, interrupted: Arc<AtomicBool>) -> Self {
+        Self { interrupted, max_fail, failed: 0, stopped: None }
+    }
+
+    /// Whether the run goes on after this outcome.
+    fn after(&mut self, outcome: &Outcome, expectations: &Expectations) -> ControlFlow<()> {
+        if outcome.verdict.is_failure() && !expectations.expect(&outcome.id) {
+            self.failed += 1;
+        }
+        if self.interrupted.load(Ordering::Relaxed) {
+            self.stopped = Some(Stopped::Interrupted);
+        } else if self.max_fail.is_some_and(|most| self.failed >= most.get()) {
+            self.stopped = Some(Stopped::MaxFail);
+        } else {
+            return ControlFlow::Continue(());
+        }
+        ControlFlow::Break(())
+    }
+}
+
+/// A flag that Ctrl-C sets.
+fn interrupted() -> Result<Arc<AtomicBool>, Failure> {
+    let flag = Arc::new(AtomicBool::new(false));
+    let setter = Arc::clone(&flag);
+    ctrlc::set_handler(move || setter.store(true, Ordering::Relaxed)).map_err(|error| {
+        Failure::new(Failure::INCOMPLETE, format!("cannot listen for Ctrl-C: {error}"))
+    })?;
+    Ok(flag)
 }
 
 /// A report's name and where it goes.

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use super::Run;
+use super::{Run, Stopped};
 use crate::protocol::Implementation;
 use crate::verdict::{Outcome, Totals};
 
@@ -18,6 +18,8 @@ struct Report<'a> {
     implementation: &'a Implementation,
     wire: &'static str,
     totals: Totals,
+    stopped: Option<Stopped>,
+    left: usize,
     results: &'a [Outcome],
 }
 
@@ -32,6 +34,8 @@ pub fn write(run: &Run<'_>, mut out: impl Write) -> io::Result<()> {
         implementation: run.implementation,
         wire: run.wire.id(),
         totals: run.totals(),
+        stopped: run.stopped,
+        left: run.left,
         results: run.outcomes,
     };
     serde_json::to_writer_pretty(&mut out, &report)?;

@@ -4,6 +4,7 @@ pub mod json;
 pub mod text;
 
 use actucheck_spec::Spec;
+use serde::Serialize;
 
 use crate::protocol::{Implementation, Wire};
 use crate::verdict::{Outcome, Totals};
@@ -21,11 +22,35 @@ pub struct Run<'a> {
     pub command: &'a [String],
     /// What came out of each check.
     pub outcomes: &'a [Outcome],
+    /// Why it ended early, if it did.
+    pub stopped: Option<Stopped>,
+    /// How many checks were not asked for that.
+    pub left: usize,
     /// The last lines that the adapter logged.
     pub log: String,
 }
 
+/// Why a run ended early.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Stopped {
+    /// The user ended it.
+    Interrupted,
+    /// As much failed as was allowed to.
+    MaxFail,
+}
+
 impl Run<'_> {
+    /// The exit status: as [`Totals::exit_status`], and 3 for a run that ended early without a
+    /// failure.
+    #[must_use]
+    pub fn exit_status(&self) -> u8 {
+        match self.totals().exit_status() {
+            0 if self.stopped.is_some() => 3,
+            status => status,
+        }
+    }
+
     /// How often each verdict came out.
     #[must_use]
     pub fn totals(&self) -> Totals {

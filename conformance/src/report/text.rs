@@ -7,8 +7,8 @@ use anstyle::{AnsiColor, Style};
 
 use actucheck_spec::Spec;
 
-use super::Run;
-use crate::check::{Check, Demand};
+use super::{Run, Stopped};
+use crate::check::{Check, Demand, Open};
 use crate::explain::diff;
 use crate::protocol::{Op, Output};
 use crate::verdict::{Outcome, Totals, Verdict};
@@ -48,6 +48,13 @@ pub fn write(run: &Run<'_>, out: &mut impl Write) -> io::Result<()> {
         outcomes(run, verdict, out)?;
     }
     log(run, &totals, out)?;
+    if let Some(stopped) = run.stopped {
+        let why = match stopped {
+            Stopped::Interrupted => "interrupted",
+            Stopped::MaxFail => "as much failed as --max-fail allows",
+        };
+        writeln!(out, "\n{why}: {} checks were not asked", run.left)?;
+    }
     summary(&totals, out)
 }
 
@@ -63,13 +70,22 @@ pub fn check(spec: &Spec, check: &Check, out: &mut impl Write) -> io::Result<()>
     let (outputs, reject) = match &check.demand {
         Demand::Yield(output) => (std::slice::from_ref(output), None),
         Demand::YieldOneOf(outputs) => (outputs.as_slice(), None),
-        Demand::YieldOneOfOrReject(outputs) => (outputs.as_slice(), Some("or a rejection".into())),
         Demand::Reject(fault) => (&[][..], Some(format!("a rejection ({fault})"))),
+        Demand::Record(open) => return question(open, out),
     };
     for output in outputs {
         writeln!(out, "  {:9} {}", "demanded", shown(output))?;
     }
     reject.map_or(Ok(()), |reject| writeln!(out, "  {:9} {reject}", "demanded"))
+}
+
+/// A question that the documents leave open, and the ways that are foreseen.
+fn question(open: &Open, out: &mut impl Write) -> io::Result<()> {
+    writeln!(out, "  {:9} {}", "recorded", open.question)?;
+    for way in &open.ways {
+        writeln!(out, "  {:9} {}: {}", "", way.name, shown(&way.output))?;
+    }
+    writeln!(out, "  {:9} or a rejection", "")
 }
 
 /// A requirement in words, and who says so.

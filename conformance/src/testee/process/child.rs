@@ -7,6 +7,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
+use super::Settings;
+use super::trace::Trace;
+
 /// The longest line that an adapter may write.
 const MAX_LINE: u64 = 16 << 20;
 /// How much of its standard error is kept.
@@ -23,6 +26,7 @@ pub(super) struct Running {
     requests: Sender<Vec<u8>>,
     lines: Receiver<Line>,
     log: Arc<Mutex<Vec<u8>>>,
+    trace: Option<(Trace, u32)>,
 }
 
 /// What came over the adapter's standard output.
@@ -38,7 +42,7 @@ pub(super) enum Line {
 
 impl Running {
     /// Starts `command`, a program and its arguments.
-    pub(super) fn start(command: &[String]) -> io::Result<Self> {
+    pub(super) fn start(command: &[String], settings: &Settings) -> io::Result<Self> {
         let (program, arguments) = command
             .split_first()
             .ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "the command is empty"))?;
@@ -62,11 +66,13 @@ impl Running {
             let log = Arc::clone(&log);
             thread::spawn(move || keep_log(stderr, &log));
         }
-        Ok(Self { child, requests, lines, log })
+        let trace = settings.trace.clone().map(|trace| (trace, settings.number));
+        Ok(Self { child, requests, lines, log, trace })
     }
 
     /// Sends one line. An adapter that does not read it is found out by its silence.
     pub(super) fn send(&self, mut line: Vec<u8>) {
+        self.note('>', &line);
         line.push(b'\n');
         // The writer is gone only if the adapter is, and then `receive` says so.
         let _ = self.requests.send(line);
@@ -74,10 +80,23 @@ impl Running {
 
     /// Waits for the next line; `None` when the time is up.
     pub(super) fn receive(&self, limit: Duration) -> Option<Line> {
-        match self.lines.recv_timeout(limit) {
+        let line = match self.lines.recv_timeout(limit) {
             Ok(line) => Some(line),
             Err(RecvTimeoutError::Timeout) => None,
             Err(RecvTimeoutError::Disconnected) => Some(Line::End),
+        };
+        match &line {
+            Some(Line::Text(text)) => self.note('<', text),
+            Some(Line::TooLong) => self.note('!', b"a line that is too long"),
+            Some(Line::End) => self.note('!', b"closed its output"),
+            None => self.note('!', b"did not answer in time"),
+        }
+        line
+    }
+
+    fn note(&self, mark: char, line: &[u8]) {
+        if let Some((trace, number)) = &self.trace {
+            trace.note(*number, mark, line);
         }
     }
 
