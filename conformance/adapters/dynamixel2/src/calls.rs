@@ -1,6 +1,9 @@
 //! `encode`: the function of the library that sends an instruction.
 
-use actucheck_adapter::{Call, Refusal};
+use std::collections::BTreeSet;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+
+use actucheck_adapter::{Call, Device, Refusal};
 use dynamixel2::instructions::packet_id::BROADCAST;
 use dynamixel2::instructions::{BulkReadData, BulkWriteData, FactoryResetKind, SyncWriteData};
 use dynamixel2::{TransferError, WriteError};
@@ -46,7 +49,15 @@ pub(crate) fn send(bus: &mut Buffered, id: u8, call: &Call) -> Option<Result<(),
                 address: device.address,
                 count: device.length,
             });
-            transferred(bus.bulk_read(&reads.collect::<Vec<_>>()))
+            let reads: Vec<_> = reads.collect();
+            match catch_unwind(AssertUnwindSafe(|| bus.bulk_read(&reads))) {
+                Ok(result) => transferred(result),
+                // So it refuses a repeated ID, as its documentation says.
+                Err(_) if repeats(devices) => {
+                    Err(Refusal::rejected("parameter", "panicked on an ID that is there twice"))
+                }
+                Err(panic) => resume_unwind(panic),
+            }
         }
         Call::BulkWrite { devices } => {
             let writes = devices.iter().map(|device| BulkWriteData {
@@ -76,6 +87,11 @@ pub(crate) fn send_raw(
 fn for_several(call: &Call) -> bool {
     use Call::{BulkRead, BulkWrite, SyncRead, SyncWrite};
     matches!(call, SyncRead { .. } | SyncWrite { .. } | BulkRead { .. } | BulkWrite { .. })
+}
+
+fn repeats(devices: &[Device]) -> bool {
+    let ids: BTreeSet<_> = devices.iter().map(|device| device.id).collect();
+    ids.len() < devices.len()
 }
 
 fn kind(option: Option<u8>) -> Option<FactoryResetKind> {
