@@ -32,7 +32,9 @@ fn expected_failures_do_not_count_towards_the_end() {
 fn ctrl_c_ends_a_run_with_a_report() {
     let folder = tempfile::tempdir().unwrap();
     let report = folder.path().join("report.json");
-    let script = WELL_BEHAVED.replace("ANSWER", &format!("sleep 0.1; {WRONG}"));
+    let asked = folder.path().join("asked");
+    let answer = format!("echo >>{}; sleep 0.1; {WRONG}", asked.display());
+    let script = WELL_BEHAVED.replace("ANSWER", &answer);
     let child = Command::new(env!("CARGO_BIN_EXE_actucheck"))
         .args(["codec", "--select", "*/crc", "--report", &format!("json={}", report.display())])
         .args(["--", "sh", "-c", &script])
@@ -40,7 +42,11 @@ fn ctrl_c_ends_a_run_with_a_report() {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    std::thread::sleep(Duration::from_millis(800));
+    let patience = Instant::now() + Duration::from_secs(20);
+    while std::fs::read(&asked).map_or(0, |lines| lines.len()) < 3 {
+        assert!(Instant::now() < patience, "nothing was asked");
+        std::thread::sleep(Duration::from_millis(20));
+    }
     let interrupted = Instant::now();
     let pid = child.id().to_string();
     assert!(Command::new("kill").args(["-INT", &pid]).status().unwrap().success());

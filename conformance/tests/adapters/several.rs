@@ -12,7 +12,7 @@ const WRONG: &str = r#"printf '{"id":%s,"ok":{"crc":1}}\n' "$id""#;
 #[test]
 fn replies_may_come_in_any_order() {
     // Every other one comes late, so that others overtake it.
-    let answer = format!(r#"case $id in *[13579]) (sleep 0.05; {WRONG}) & ;; *) {WRONG} ;; esac"#);
+    let answer = format!(r"case $id in *[13579]) (sleep 0.05; {WRONG}) & ;; *) {WRONG} ;; esac");
     let run = check_with(&[], &taking_eight(&answer));
     assert_eq!((run.exit(), run.total("fail")), (1, run.sum()), "{}", run.report["totals"]);
 }

@@ -173,8 +173,8 @@ impl Testee for Process {
 
 impl Drop for Process {
     fn drop(&mut self) {
-        if let Some(running) = &self.running {
-            send(running, self.next_id, &Op::Bye);
+        if let Some(running) = &mut self.running {
+            running.farewell(&request(self.next_id, &Op::Bye));
         }
     }
 }
@@ -223,7 +223,7 @@ fn greet(running: &mut Running, limit: Duration) -> Result<Hello, String> {
 /// Sends a request and waits for its reply.
 fn exchange(running: &mut Running, id: u64, op: &Op, limit: Duration) -> Result<Reply, Answer> {
     let deadline = Instant::now() + limit;
-    send(running, id, op);
+    running.send(&request(id, op));
     let reply = read_reply(running, deadline, limit)?;
     match reply.id {
         Some(other) if other != id => {
@@ -261,9 +261,10 @@ fn read_reply(running: &mut Running, deadline: Instant, limit: Duration) -> Resu
     Ok(reply)
 }
 
-fn send(running: &Running, id: u64, op: &Op) {
+/// A request as a line.
+fn request(id: u64, op: &Op) -> Vec<u8> {
     // Every request can be written as JSON: it has string keys only.
-    running.send(serde_json::to_vec(&Request { id, op }).unwrap_or_default());
+    serde_json::to_vec(&Request { id, op }).unwrap_or_default()
 }
 
 fn answer(op: &Op, reply: Reply) -> Answer {

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use super::{Process, answer, read_reply, send};
+use super::{Process, answer, read_reply, request};
 use crate::protocol::Op;
 use crate::testee::{Answer, Testee};
 
@@ -52,7 +52,7 @@ impl Process {
     fn send_next(&mut self, op: &Op) -> Result<u64, String> {
         let id = self.next_id;
         self.next_id += 1;
-        send(self.running()?, id, op);
+        self.running()?.send(&request(id, op));
         Ok(id)
     }
 
