@@ -24,6 +24,9 @@ const LARGEST: usize = 65_535 + reference::PREFIX;
 /// Bytes of a Write around its data. A status packet has one less.
 const WRITE_AROUND: usize = 12;
 
+/// The address that is written, 116: some libraries end at 255.
+const REGISTER: [u8; 2] = [0x74, 0x00];
+
 pub(super) fn checks(author: &Author<'_>, max_packet: Option<usize>) -> Vec<Check> {
     let mut checks = Vec::new();
     checks.extend((0..=ALONE).flat_map(words).flat_map(|body| alone(author, &body)));
@@ -86,19 +89,21 @@ fn inside(author: &Author<'_>, word: &[u8]) -> Vec<Check> {
         Packet::Instruction { id, instruction, params: params.into() }
     };
     let status = |params: Vec<u8>| Packet::Status { id: 1, error: 0, params: params.into() };
-    let [low, high] = u16::try_from(word.len()).unwrap_or_default().to_le_bytes();
+    let size = u16::try_from(word.len()).unwrap_or_default().to_le_bytes();
+    let sync = [REGISTER.as_slice(), &size, &[1]].concat();
+    let bulk = [&[1], REGISTER.as_slice(), &size].concat();
     let mut packets = vec![
-        ("write", instruction(0x03, with(&[0x34, 0x02], &[]))),
-        ("write-middle", instruction(0x03, with(&[0x34, 0x02], &[0x05, 0x06]))),
-        ("reg-write", instruction(0x04, with(&[0x34, 0x02], &[]))),
+        ("write", instruction(0x03, with(&REGISTER, &[]))),
+        ("write-middle", instruction(0x03, with(&REGISTER, &[0x05, 0x06]))),
+        ("reg-write", instruction(0x04, with(&REGISTER, &[]))),
         ("status", status(with(&[], &[]))),
         ("status-middle", status(with(&[0x05], &[0x06]))),
     ];
     if !word.is_empty() {
         packets.extend([
-            ("sync-write", instruction(0x83, with(&[0x34, 0x02, low, high, 0x01], &[]))),
-            ("bulk-write", instruction(0x93, with(&[0x01, 0x34, 0x02, low, high], &[]))),
-            ("fast-sync-write", instruction(0x8B, with(&[0x34, 0x02, low, high, 0x01], &[]))),
+            ("sync-write", instruction(0x83, with(&sync, &[]))),
+            ("bulk-write", instruction(0x93, with(&bulk, &[]))),
+            ("fast-sync-write", instruction(0x8B, with(&sync, &[]))),
         ]);
     }
     let mut checks = Vec::new();
@@ -181,7 +186,7 @@ fn lengths(author: &Author<'_>, length: usize) -> Vec<Check> {
     ] {
         let of_status =
             if name == "plain" { "dynamixel2.packet.length.status" } else { requirement };
-        let params = [&[0x34, 0x02], data.as_slice()].concat();
+        let params = [&REGISTER, data.as_slice()].concat();
         let write = Packet::Instruction { id: 1, instruction: 0x03, params: params.into() };
         let status = Packet::Status { id: 1, error: 0, params: data.into() };
         let id = format!("dynamixel2.length.{length}.{name}");
