@@ -1,10 +1,12 @@
 //! The suite: checks an implementation of an actuator protocol against the documents.
 //!
 //! [`cases`] turns the spec into [`check::Check`]s, [`run`] asks a [`testee`] for each, judges the
-//! answers, and [`report`] tells a person or a program what came out.
+//! answers, and [`report`] tells a person or a program what came out. [`adapter`] checks the adapter
+//! itself, before what it says of a library counts.
 
 #![forbid(unsafe_code)]
 
+pub mod adapter;
 pub mod call;
 pub mod cases;
 pub mod check;
