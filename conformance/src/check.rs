@@ -1,13 +1,15 @@
 //! One question to an implementation, and the judgement of its answer.
 
 use actucheck_spec::model::{Citation, Fault, Level};
+use serde::{Deserialize, Serialize};
 
 use crate::protocol::{Op, Output, Rejection};
 use crate::testee::Answer;
 use crate::verdict::{Behaviour, Outcome, Verdict};
 
 /// One question to an implementation.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Check {
     /// Permanent id.
     pub id: String,
@@ -19,15 +21,19 @@ pub struct Check {
     pub source: Citation,
     /// The check that shows whether this one makes sense: one that is skipped there is skipped
     /// here. A host's library reads no instruction packets, alone or in a stream.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub presumes: Option<String>,
     /// What is asked.
+    #[serde(rename = "request")]
     pub op: Op,
     /// What is demanded.
+    #[serde(with = "serde_yaml::with::singleton_map_recursive")]
     pub demand: Demand,
 }
 
 /// What a check demands of the answer.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Demand {
     /// This and nothing else.
     Yield(Output),
@@ -40,7 +46,7 @@ pub enum Demand {
 }
 
 /// A question that the documents leave open.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Open {
     /// The question, in words.
     pub question: String,
@@ -49,7 +55,7 @@ pub struct Open {
 }
 
 /// One of several right ways.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Way {
     /// What is done, in a few words.
     pub name: String,
@@ -89,12 +95,12 @@ impl Check {
     #[must_use]
     pub fn judge(&self, answer: Answer) -> Outcome {
         let broken = matches!(&answer, Answer::Rejected(why) if why.class == Fault::Internal);
-        let behaviour = match &self.demand {
+        let open = match &self.demand {
             Demand::Record(open) => open.behaviour(&answer),
             _ => None,
         };
         let (verdict, detail, actual) = match answer {
-            _ if behaviour.is_some() => (Verdict::Recorded, String::new(), None),
+            _ if open.is_some() => (Verdict::Recorded, String::new(), None),
             Answer::Ok(actual) => self.judge_output(actual),
             Answer::Rejected(rejection) => self.judge_rejection(&rejection),
             Answer::Skipped(reason) => (Verdict::Skip, reason, None),
@@ -103,10 +109,16 @@ impl Check {
             Answer::Faulty(detail) => (Verdict::AdapterFault, detail, None),
             Answer::NotAsked(reason) => (Verdict::NotRun, reason, None),
         };
-        let verdict = match (verdict, self.level) {
-            (Verdict::Fail, Level::Should) if !broken => Verdict::Warn,
-            (Verdict::Fail, Level::May) if !broken => Verdict::Pass,
-            (verdict, _) => verdict,
+        let allowed = match (verdict, self.level) {
+            (Verdict::Pass | Verdict::Warn, Level::May) => Some("does so"),
+            (Verdict::Fail, Level::May) if !broken => Some("does not"),
+            _ => None,
+        };
+        let behaviour = open.or_else(|| allowed.map(|answer| self.allowed(answer)));
+        let verdict = match verdict {
+            _ if behaviour.is_some() => Verdict::Recorded,
+            Verdict::Fail if self.level == Level::Should && !broken => Verdict::Warn,
+            verdict => verdict,
         };
         let unmet = !matches!(verdict, Verdict::Pass | Verdict::Recorded | Verdict::Skip);
         Outcome {
@@ -114,12 +126,18 @@ impl Check {
             requirement: self.requirement.clone(),
             level: self.level,
             verdict,
-            detail,
+            detail: if behaviour.is_some() { String::new() } else { detail },
             request: unmet.then(|| self.op.clone()),
             expected: self.expected().filter(|_| unmet).cloned(),
             actual: actual.filter(|_| unmet),
             behaviour,
         }
+    }
+
+    /// What is done where the requirement allows it and demands nothing.
+    fn allowed(&self, answer: &str) -> Behaviour {
+        let question = format!("Does it do what {} allows?", self.requirement);
+        Behaviour { question, answer: answer.to_owned() }
     }
 
     /// Bytes of the whole packet that it is about; `None` if it is about no whole one.

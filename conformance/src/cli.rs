@@ -26,6 +26,9 @@ pub(crate) enum Command {
     /// Checks a codec: the built-in one, or a library behind an adapter
     #[command(after_help = CODEC_EXAMPLES)]
     Codec(Codec),
+    /// Looks for failures that no check foresees, and makes them small
+    #[command(after_help = FUZZ_EXAMPLES)]
+    Fuzz(Fuzz),
     /// Explains one packet field by field
     #[command(after_help = DECODE_EXAMPLES)]
     Decode(Decode),
@@ -63,6 +66,18 @@ Ctrl-C ends a run early and reports what was found so far.
 Exit status: 0 all passed, 1 something failed, 2 wrong usage, 3 something could not be run, \
 4 the adapter could not be started.";
 
+const FUZZ_EXAMPLES: &str = "\
+Examples:
+  actucheck fuzz -- python3 my_adapter.py
+      for a minute, from another seed each time
+  actucheck fuzz --seed 7 --cases 100000 -- ./my-adapter
+      the same again, whatever the machine
+  actucheck replay findings.yaml -- ./my-adapter
+      what was found, asked again
+
+Exit status: 0 nothing found, 1 something found, 2 wrong usage, 3 the adapter failed too often, \
+4 the adapter could not be started.";
+
 const DECODE_EXAMPLES: &str = "\
 Examples:
   actucheck decode ff fffd 00 01 0300 01 194e
@@ -84,6 +99,7 @@ const REPLAY_EXAMPLES: &str = "\
 Examples:
   actucheck replay dynamixel2.stuffing.goal-position/encode -- python3 my_adapter.py
   actucheck replay --seed 7 dynamixel2.seed-7.12.status/decode -- ./my-adapter
+  actucheck replay findings.yaml -- ./my-adapter
 
 Exit status: as `actucheck codec`.";
 
@@ -168,10 +184,33 @@ pub(crate) struct Show {
 
 #[derive(Debug, Args)]
 pub(crate) struct Replay {
-    /// The check's id, as `actucheck list` and reports have it
-    pub(crate) id: String,
+    /// The check's id, as `actucheck list` and reports have it, or a file with checks, as
+    /// `actucheck fuzz` writes it
+    #[arg(value_name = "ID|FILE")]
+    pub(crate) what: String,
     #[command(flatten)]
     pub(crate) growth: Growth,
+    #[command(flatten)]
+    pub(crate) adapter: Adapter,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Fuzz {
+    /// The wire whose packets are drawn
+    #[arg(long, value_enum, default_value = "dynamixel2")]
+    pub(crate) wire: Wire,
+    /// How long, as in 90s, 10m or 1h; a minute if neither this nor --cases is given
+    #[arg(long, value_name = "TIME", value_parser = duration, conflicts_with = "cases")]
+    pub(crate) time: Option<Duration>,
+    /// How many probes are drawn
+    #[arg(long, value_name = "N")]
+    pub(crate) cases: Option<u64>,
+    /// What the probes grow from; another number each time if it is not given
+    #[arg(long, value_name = "N")]
+    pub(crate) seed: Option<u64>,
+    /// Where to write what was found
+    #[arg(long, value_name = "FILE", default_value = "findings.yaml")]
+    pub(crate) out: PathBuf,
     #[command(flatten)]
     pub(crate) adapter: Adapter,
 }
@@ -180,6 +219,9 @@ pub(crate) struct Replay {
 pub(crate) struct Codec {
     #[command(flatten)]
     pub(crate) selection: Selection,
+    /// Ask the checks of this file too, as `actucheck fuzz` writes it; may be given more than once
+    #[arg(long, value_name = "FILE")]
+    pub(crate) also: Vec<PathBuf>,
     /// Known failures, which do not fail the run as long as they do fail
     #[arg(long, value_name = "FILE")]
     pub(crate) expect: Option<PathBuf>,
@@ -249,6 +291,17 @@ fn report(text: &str) -> Result<Report, String> {
         Some(("json", path)) if !path.is_empty() => Ok(Report { path: path.into() }),
         _ => Err("a report is written as json=PATH".to_owned()),
     }
+}
+
+/// A number of seconds, minutes or hours.
+fn duration(text: &str) -> Result<Duration, String> {
+    let units = [('s', 1.0), ('m', 60.0), ('h', 3600.0)];
+    let unit = units.into_iter().find_map(|(unit, size)| Some((text.strip_suffix(unit)?, size)));
+    let (number, size) = unit.unwrap_or((text, 1.0));
+    let number: Option<f64> = number.parse().ok().filter(|number| *number > 0.0);
+    number
+        .and_then(|number| Duration::try_from_secs_f64(number * size).ok())
+        .ok_or_else(|| "a time is a number above 0 with s, m or h, such as 90s".to_owned())
 }
 
 fn seconds(text: &str) -> Result<Duration, String> {

@@ -34,6 +34,7 @@ fn run() -> Result<ExitCode, Failure> {
     };
     match cli.command {
         Command::Codec(options) => commands::codec::run(&options),
+        Command::Fuzz(options) => commands::fuzz::run(&options),
         Command::Decode(options) => commands::decode::run(&options),
         Command::List(options) => commands::list::run(&options),
         Command::Show(options) => commands::show::run(&options),

@@ -11,7 +11,7 @@ use crate::call::Call;
 pub const VERSION: u32 = 1;
 
 /// A protocol whose packets are checked.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum Wire {
     /// DYNAMIXEL Protocol 2.0 and its JA dialect.
@@ -45,7 +45,7 @@ pub struct Request<'a> {
 }
 
 /// What the suite asks.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(tag = "op", rename_all = "lowercase")]
 pub enum Op {
     /// Who are you, and what can you do?
@@ -154,6 +154,18 @@ pub struct Called {
     pub call: Option<Call>,
 }
 
+impl<'de> Deserialize<'de> for Called {
+    /// The call is made from the packet again: it says the same in other words.
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let mut fields = serde_json::Map::deserialize(deserializer)?;
+        let called = fields.remove("call").is_some();
+        let packet: Packet =
+            serde_json::from_value(Value::Object(fields)).map_err(serde::de::Error::custom)?;
+        let call = called.then(|| Call::of(&packet)).flatten();
+        Ok(Self { packet, call })
+    }
+}
+
 /// What a fast status packet answers.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Fast {
@@ -239,7 +251,7 @@ pub struct Skip {
 }
 
 /// What an op yields when all is well.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Output {
     /// Of `crc`.

@@ -30,7 +30,8 @@ struct Golden<'a> {
 
 impl Golden<'_> {
     fn checks(&self) -> Vec<Check> {
-        let own = self.vector.requirement.as_deref().unwrap_or("ja40.packets");
+        let of_document = format!("{}.packets", self.source().document);
+        let own = self.vector.requirement.as_deref().unwrap_or(&of_document);
         let frame = self.vector.frame();
         let mut checks = Vec::new();
         match &self.vector.packet {
@@ -139,15 +140,19 @@ impl Golden<'_> {
         }
         let whole = vec![frame.to_vec().into()];
         let bytewise = frame.iter().map(|byte| vec![*byte].into()).collect();
-        [("stream", whole), ("stream-bytewise", bytewise)]
-            .into_iter()
-            .map(|(name, chunks)| {
-                let op = Op::Stream { wire: self.wire, chunks, kind: None };
-                let demand = Demand::Yield(Output::Packets(vec![packet.clone()]));
-                let check = self.check(name, "dynamixel2.receive.stream", op, demand);
-                Check { presumes: Some(format!("{}/decode", self.vector.id)), ..check }
-            })
-            .collect()
+        let of_document = format!("{}.packets", self.source().document);
+        [
+            ("stream", &*of_document, whole),
+            ("stream-bytewise", "dynamixel2.receive.stream", bytewise),
+        ]
+        .into_iter()
+        .map(|(name, requirement, chunks)| {
+            let op = Op::Stream { wire: self.wire, chunks, kind: None };
+            let demand = Demand::Yield(Output::Packets(vec![packet.clone()]));
+            let check = self.check(name, requirement, op, demand);
+            Check { presumes: Some(format!("{}/decode", self.vector.id)), ..check }
+        })
+        .collect()
     }
 
     fn rejects(&self, name: &str, requirement: &str, bytes: &[u8], fault: Fault) -> Check {

@@ -130,6 +130,11 @@ fn both_ways(
     command: u8,
     data: &[u8],
 ) -> Vec<Check> {
+    let requirement = match data.len() {
+        0 => "innfos.frame.no-data",
+        _ if name.starts_with("size.") => "innfos.crc.byte-order",
+        _ => "innfos.frame.layout",
+    };
     let data = data.to_vec().into();
     let (word, packet) = match kind {
         FrameKind::Request => ("request", Packet::Request { address, command, data }),
@@ -140,7 +145,6 @@ fn both_ways(
     let chunk = [frame.as_slice(), &frame].concat();
     let stream = Op::Stream { wire: author.wire, kind: Some(kind), chunks: vec![chunk.into()] };
     let (once, twice) = (Output::Packet(packet.clone()), vec![packet.clone(), packet.clone()]);
-    let requirement = "innfos.frame.layout";
     let built = Demand::Yield(Output::Bytes(frame.clone().into()));
     let read = Demand::Yield(once);
     let found = Demand::Yield(Output::Packets(twice));

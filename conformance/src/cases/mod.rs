@@ -2,6 +2,7 @@
 //!
 //! - golden: the packets of the documents;
 //! - exhaustive: everything where everything is little;
+//! - instructions: what is said of single instructions;
 //! - negative: each rule of the receive procedure broken;
 //! - open: what the documents leave open, which is recorded;
 //! - generated: packets and streams from a seed.
@@ -11,9 +12,10 @@
 //! the list.
 
 mod exhaustive;
-mod generated;
+pub(crate) mod generated;
 mod golden;
 mod innfos;
+mod instructions;
 mod negative;
 mod open;
 
@@ -54,6 +56,7 @@ pub fn all(spec: &Spec, options: &Options) -> Vec<Check> {
         Wire::Dynamixel2 => {
             let mut checks = golden::checks(&author);
             checks.extend(exhaustive::checks(&author, options.max_packet));
+            checks.extend(instructions::checks(&author));
             checks.extend(negative::checks(&author));
             checks.extend(open::checks(&author));
             checks.extend(generated::checks(&author, options.seed, options.cases));
@@ -64,13 +67,13 @@ pub fn all(spec: &Spec, options: &Options) -> Vec<Check> {
 }
 
 /// Writes checks about one wire.
-struct Author<'a> {
-    spec: &'a Spec,
-    wire: Wire,
+pub(crate) struct Author<'a> {
+    pub(crate) spec: &'a Spec,
+    pub(crate) wire: Wire,
 }
 
 impl Author<'_> {
-    fn check(&self, id: String, requirement: &str, op: Op, demand: Demand) -> Check {
+    pub(crate) fn check(&self, id: String, requirement: &str, op: Op, demand: Demand) -> Check {
         let row = self.spec.requirement(requirement);
         Check {
             id,
@@ -143,7 +146,7 @@ fn hex(bytes: &[u8]) -> String {
 }
 
 /// The requirement on an instruction's parameters: `dynamixel2.sync-read.parameters`.
-fn parameters_of(spec: &Spec, name: &str) -> String {
+pub(crate) fn parameters_of(spec: &Spec, name: &str) -> String {
     let name = name.to_lowercase().replace(' ', "-");
     let name = if name == "control-table-backup" { "backup".to_owned() } else { name };
     let ids = ["dynamixel2", "ja40"].map(|document| format!("{document}.{name}.parameters"));

@@ -11,6 +11,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use actucheck::expect::Expectations;
+use actucheck::record;
 use actucheck::report::{self, Run, Stopped};
 use actucheck::run;
 use actucheck::verdict::Outcome;
@@ -26,7 +27,12 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     let mut reports = open_reports(options)?;
     let mut testees = super::testees(&options.adapter, options.jobs)?;
     let hello = testees.hello.clone();
-    let all = super::checks(&spec, selection.wire, &selection.growth, Some(&hello));
+    let mut all = super::checks(&spec, selection.wire, &selection.growth, Some(&hello));
+    for path in &options.also {
+        let more = record::read(path).map_err(|error| Failure::new(Failure::USAGE, error))?;
+        let of_wire = more.into_iter().filter(|(wire, _)| *wire == selection.wire);
+        all.extend(of_wire.map(|(_, check)| check));
+    }
     let expectations = match &options.expect {
         Some(path) => {
             Expectations::read(path, &all).map_err(|error| Failure::new(Failure::USAGE, error))?
@@ -36,7 +42,7 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     let checks = super::selected(all, selection)?;
 
     let progress = progress(checks.len());
-    let mut limit = Limit::new(options.max_fail, interrupted()?);
+    let mut limit = Limit::new(options.max_fail, super::interrupted()?);
     let mut outcomes = run::run(&mut testees.all, &checks, |outcome| {
         progress.inc(1);
         limit.after(outcome, &expectations)
@@ -49,6 +55,7 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
         implementation: &hello.implementation,
         wire: selection.wire,
         command: &options.adapter.command,
+        record: None,
         outcomes: &outcomes,
         stopped: limit.stopped,
         left: checks.iter().len().saturating_sub(outcomes.iter().len()),
@@ -88,16 +95,6 @@ impl Limit {
         }
         ControlFlow::Break(())
     }
-}
-
-/// A flag that Ctrl-C sets.
-fn interrupted() -> Result<Arc<AtomicBool>, Failure> {
-    let flag = Arc::new(AtomicBool::new(false));
-    let setter = Arc::clone(&flag);
-    ctrlc::set_handler(move || setter.store(true, Ordering::Relaxed)).map_err(|error| {
-        Failure::new(Failure::INCOMPLETE, format!("cannot listen for Ctrl-C: {error}"))
-    })?;
-    Ok(flag)
 }
 
 /// A report's name and where it goes.

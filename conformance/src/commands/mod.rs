@@ -4,6 +4,7 @@ pub(crate) mod adapter;
 pub(crate) mod codec;
 pub(crate) mod completions;
 pub(crate) mod decode;
+pub(crate) mod fuzz;
 pub(crate) mod list;
 pub(crate) mod replay;
 pub(crate) mod show;
@@ -13,6 +14,8 @@ use std::fmt;
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use actucheck::cases;
 use actucheck::check::Check;
@@ -100,6 +103,11 @@ fn named(
 
 /// What is to be asked: `jobs` processes of the adapter, or the built-in codec without one.
 fn testees(adapter: &Adapter, jobs: u8) -> Result<Testees, Failure> {
+    testees_with(adapter, jobs, Settings::default().restarts)
+}
+
+/// The same, with another limit to how often each process is started again.
+fn testees_with(adapter: &Adapter, jobs: u8, restarts: u32) -> Result<Testees, Failure> {
     if adapter.command.is_empty() {
         // clap does not tell `--` with nothing behind it from no `--` at all.
         if std::env::args_os().next_back().is_some_and(|last| last == "--") {
@@ -112,7 +120,7 @@ fn testees(adapter: &Adapter, jobs: u8) -> Result<Testees, Failure> {
     }
     let settings = settings(&adapter.exchange)?;
     let start = |number| {
-        Process::start(&adapter.command, Settings { number, ..settings.clone() })
+        Process::start(&adapter.command, Settings { restarts, number, ..settings.clone() })
             .map_err(|error| Failure::new(Failure::NOT_STARTED, error))
     };
     let mut testees = Testees::of(start(1)?);
@@ -126,7 +134,17 @@ fn testees(adapter: &Adapter, jobs: u8) -> Result<Testees, Failure> {
 fn settings(exchange: &Exchange) -> Result<Settings, Failure> {
     let timeouts = Timeouts { start: exchange.start_timeout, request: exchange.timeout };
     let trace = exchange.trace.as_deref().map(open_trace).transpose()?;
-    Ok(Settings { timeouts, trace, number: 1 })
+    Ok(Settings { timeouts, trace, ..Settings::default() })
+}
+
+/// A flag that Ctrl-C sets.
+fn interrupted() -> Result<Arc<AtomicBool>, Failure> {
+    let flag = Arc::new(AtomicBool::new(false));
+    let setter = Arc::clone(&flag);
+    ctrlc::set_handler(move || setter.store(true, Ordering::Relaxed)).map_err(|error| {
+        Failure::new(Failure::INCOMPLETE, format!("cannot listen for Ctrl-C: {error}"))
+    })?;
+    Ok(flag)
 }
 
 /// One implementation, once or several times.

@@ -3,6 +3,8 @@
 pub mod json;
 pub mod text;
 
+use std::path::Path;
+
 use actucheck_spec::Spec;
 use serde::Serialize;
 
@@ -20,6 +22,8 @@ pub struct Run<'a> {
     pub wire: Wire,
     /// The adapter's command; empty for the built-in codec.
     pub command: &'a [String],
+    /// The file that keeps the checks, if they are not those of `actucheck list`.
+    pub record: Option<&'a Path>,
     /// What came out of each check.
     pub outcomes: &'a [Outcome],
     /// Why it ended early, if it did.

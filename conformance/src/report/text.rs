@@ -154,7 +154,8 @@ fn outcome(outcome: &Outcome, out: &mut impl Write) -> io::Result<()> {
 
 /// The command that asks the same again.
 fn replay_line(run: &Run<'_>, outcome: &Outcome, out: &mut impl Write) -> io::Result<()> {
-    write!(out, "  {:9} actucheck replay {}", "replay", outcome.id)?;
+    let what = run.record.map_or_else(|| outcome.id.clone(), |path| path.display().to_string());
+    write!(out, "  {:9} actucheck replay {what}", "replay")?;
     if let Some(rest) = outcome.id.split_once(".seed-").map(|(_, rest)| rest) {
         let digits = rest.find(|character: char| !character.is_ascii_digit());
         write!(out, " --seed {}", rest.get(..digits.unwrap_or(rest.len())).unwrap_or_default())?;

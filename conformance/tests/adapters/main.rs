@@ -5,6 +5,7 @@
 
 mod adapter_check;
 mod early_end;
+mod fuzzing;
 mod misbehaving;
 mod several;
 mod templates;

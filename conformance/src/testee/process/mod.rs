@@ -16,8 +16,6 @@ pub use self::trace::Trace;
 use super::{Answer, Testee};
 use crate::protocol::{Hello, Op, Output, Reply, Request, VERSION};
 
-/// How often an adapter is started again before the rest is given up.
-const MAX_RESTARTS: u32 = 10;
 /// The most questions that are outstanding, whatever the adapter offers.
 const MAX_IN_FLIGHT: usize = 256;
 
@@ -37,14 +35,22 @@ impl Default for Timeouts {
 }
 
 /// How an adapter is run.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Settings {
     /// How long it may take.
     pub timeouts: Timeouts,
+    /// How often it is started again before the rest is given up.
+    pub restarts: u32,
     /// Where the lines exchanged are noted.
     pub trace: Option<Trace>,
     /// The number of this process in the trace.
     pub number: u32,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { timeouts: Timeouts::default(), restarts: 10, trace: None, number: 1 }
+    }
 }
 
 /// Why an adapter could not be started.
@@ -107,14 +113,15 @@ impl Process {
     /// The running adapter, started again if need be and allowed.
     fn running(&mut self) -> Result<&mut Running, String> {
         if self.running.is_none() {
-            if self.restarts >= MAX_RESTARTS {
-                return Err(format!("the adapter failed {} times", MAX_RESTARTS + 1));
+            let most = self.settings.restarts;
+            if self.restarts >= most {
+                return Err(format!("the adapter failed {} times", most.saturating_add(1)));
             }
             self.restarts += 1;
             match start(&self.command, &self.settings) {
                 Ok((running, _)) => self.running = Some(running),
                 Err(error) => {
-                    self.restarts = MAX_RESTARTS;
+                    self.restarts = most;
                     return Err(format!("the adapter could not be started again: {error}"));
                 }
             }
