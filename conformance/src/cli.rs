@@ -1,5 +1,6 @@
 //! Subcommands and options.
 
+pub(crate) mod adapter;
 pub(crate) mod spec;
 
 use std::num::NonZeroUsize;
@@ -39,6 +40,9 @@ pub(crate) enum Command {
     /// Asks one check again and shows what was said
     #[command(after_help = REPLAY_EXAMPLES)]
     Replay(Replay),
+    /// Starts, and checks, the adapter that puts a library behind the suite
+    #[command(subcommand)]
+    Adapter(adapter::Command),
     /// Shows, compares and exports what the documents say
     #[command(subcommand)]
     Spec(spec::Spec),
@@ -140,9 +144,19 @@ pub(crate) struct Growth {
     pub(crate) cases: u32,
 }
 
-/// How an adapter is run.
+/// An adapter, or none.
 #[derive(Debug, Args)]
 pub(crate) struct Adapter {
+    #[command(flatten)]
+    pub(crate) exchange: Exchange,
+    /// The adapter's command with its arguments; the built-in codec if there is none
+    #[arg(last = true, value_name = "COMMAND")]
+    pub(crate) command: Vec<String>,
+}
+
+/// How requests and replies are exchanged with an adapter.
+#[derive(Debug, Args)]
+pub(crate) struct Exchange {
     /// Seconds that the adapter may take for a request
     #[arg(long, value_name = "SECONDS", default_value = "1", value_parser = seconds)]
     pub(crate) timeout: Duration,
@@ -152,9 +166,6 @@ pub(crate) struct Adapter {
     /// Write every line exchanged with the adapter to this file
     #[arg(long, value_name = "FILE")]
     pub(crate) trace: Option<PathBuf>,
-    /// The adapter's command with its arguments; the built-in codec if there is none
-    #[arg(last = true, value_name = "COMMAND")]
-    pub(crate) command: Vec<String>,
 }
 
 #[derive(Debug, Args)]

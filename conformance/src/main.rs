@@ -39,6 +39,7 @@ fn run() -> Result<ExitCode, Failure> {
         Command::List(options) => commands::list::run(&options),
         Command::Show(options) => commands::show::run(&options),
         Command::Replay(options) => commands::replay::run(&options),
+        Command::Adapter(command) => commands::adapter::run(&command),
         Command::Spec(command) => commands::spec::run(&command),
         Command::Completions(options) => {
             commands::completions::run(&options);

@@ -1,5 +1,6 @@
 //! What each subcommand does.
 
+pub(crate) mod adapter;
 pub(crate) mod codec;
 pub(crate) mod completions;
 pub(crate) mod decode;
@@ -24,7 +25,7 @@ use actucheck::testee::{Builtin, Process, Settings, Testee, Timeouts, Trace};
 use actucheck_spec::Spec;
 use actucheck_spec::model::Level;
 
-use crate::cli::{self, Adapter, Growth, Selection};
+use crate::cli::{self, Adapter, Exchange, Growth, Selection};
 
 /// Why a command ends early, and with which exit status.
 #[derive(Debug)]
@@ -117,18 +118,23 @@ fn testees_with(adapter: &Adapter, jobs: u8, restarts: u32) -> Result<Testees, F
         testees.all.resize_with(jobs.into(), || Box::new(Builtin::default()));
         return Ok(testees);
     }
-    let trace = adapter.trace.as_deref().map(open_trace).transpose()?;
-    let timeouts = Timeouts { start: adapter.start_timeout, request: adapter.timeout };
+    let settings = settings(&adapter.exchange)?;
     let start = |number| {
-        let settings = Settings { timeouts, restarts, trace: trace.clone(), number };
-        Process::start(&adapter.command, settings)
+        Process::start(&adapter.command, Settings { restarts, number, ..settings.clone() })
             .map_err(|error| Failure::new(Failure::NOT_STARTED, error))
     };
     let mut testees = Testees::of(start(1)?);
     for number in 2..=u32::from(jobs) {
         testees.all.push(Box::new(start(number)?));
     }
-    Ok(Testees { trace, ..testees })
+    Ok(Testees { trace: settings.trace, ..testees })
+}
+
+/// How an adapter is run, the first of its kind.
+fn settings(exchange: &Exchange) -> Result<Settings, Failure> {
+    let timeouts = Timeouts { start: exchange.start_timeout, request: exchange.timeout };
+    let trace = exchange.trace.as_deref().map(open_trace).transpose()?;
+    Ok(Settings { timeouts, trace, ..Settings::default() })
 }
 
 /// A flag that Ctrl-C sets.

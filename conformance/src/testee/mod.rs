@@ -6,6 +6,7 @@ mod process;
 use crate::protocol::{Hello, Op, Output, Rejection};
 
 pub use builtin::Builtin;
+pub(crate) use process::{Line, Running};
 pub use process::{Process, Settings, StartError, Timeouts, Trace};
 
 /// Something that can be asked.

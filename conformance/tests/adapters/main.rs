@@ -3,10 +3,12 @@
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 #![cfg(unix)]
 
+mod adapter_check;
 mod early_end;
 mod fuzzing;
 mod misbehaving;
 mod several;
+mod templates;
 
 use std::process::{Command, Output};
 use std::time::{Duration, Instant};

@@ -23,7 +23,7 @@ const GRACE: Duration = Duration::from_millis(200);
 
 /// A running adapter. Dropping it kills the process and its children.
 #[derive(Debug)]
-pub(super) struct Running {
+pub(crate) struct Running {
     // No thread of its own: a thread more for a pipe would cost each question two switches.
     runtime: Runtime,
     child: Child,
@@ -50,7 +50,7 @@ struct Pipes {
 
 /// What came over the adapter's standard output.
 #[derive(Debug)]
-pub(super) enum Line {
+pub(crate) enum Line {
     /// A line without its end.
     Text(Vec<u8>),
     /// A line that is longer than is allowed.
@@ -61,7 +61,7 @@ pub(super) enum Line {
 
 impl Running {
     /// Starts `command`, a program and its arguments.
-    pub(super) fn start(command: &[String], settings: &Settings) -> io::Result<Self> {
+    pub(crate) fn start(command: &[String], settings: &Settings) -> io::Result<Self> {
         let (program, arguments) = command
             .split_first()
             .ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "the command is empty"))?;
@@ -104,14 +104,14 @@ impl Running {
 
     /// Takes one line for the adapter, which goes out while the next line is waited for. An
     /// adapter that does not read it is found out by its silence.
-    pub(super) fn send(&mut self, line: &[u8]) {
+    pub(crate) fn send(&mut self, line: &[u8]) {
         self.note('>', line);
         self.pipes.outgoing.extend(line);
         self.pipes.outgoing.push(b'\n');
     }
 
     /// Waits for the next line; `None` when the time is up.
-    pub(super) fn receive(&mut self, limit: Duration) -> Option<Line> {
+    pub(crate) fn receive(&mut self, limit: Duration) -> Option<Line> {
         let pipes = &mut self.pipes;
         let line = self.runtime.block_on(async { timeout(limit, pipes.exchange()).await.ok() });
         match &line {
@@ -124,13 +124,13 @@ impl Running {
     }
 
     /// The end of what it wrote to its standard error.
-    pub(super) fn log(&self) -> String {
+    pub(crate) fn log(&self) -> String {
         let log = self.log.lock().unwrap_or_else(PoisonError::into_inner);
         String::from_utf8_lossy(&log).trim_end().to_owned()
     }
 
     /// How it ended, if it ends now or within a moment.
-    pub(super) fn exit_status(&mut self) -> Option<ExitStatus> {
+    pub(crate) fn exit_status(&mut self) -> Option<ExitStatus> {
         let (child, logging) = (&mut self.child, self.logging.take());
         self.runtime.block_on(async {
             let status = timeout(GRACE, child.wait()).await.ok()?.ok();

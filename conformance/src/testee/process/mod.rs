@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 use thiserror::Error;
 
-use self::child::{Line, Running};
+pub(crate) use self::child::{Line, Running};
 pub use self::trace::Trace;
 use super::{Answer, Testee};
 use crate::protocol::{Hello, Op, Output, Reply, Request, VERSION};
