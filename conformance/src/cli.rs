@@ -1,6 +1,7 @@
 //! Subcommands and options.
 
 pub(crate) mod adapter;
+pub(crate) mod report;
 pub(crate) mod spec;
 
 use std::num::NonZeroUsize;
@@ -43,6 +44,9 @@ pub(crate) enum Command {
     /// Starts, and checks, the adapter that puts a library behind the suite
     #[command(subcommand)]
     Adapter(adapter::Command),
+    /// Compares the reports of several runs, or writes one in another format
+    #[command(subcommand)]
+    Report(report::Report),
     /// Shows, compares and exports what the documents say
     #[command(subcommand)]
     Spec(spec::Spec),
@@ -56,8 +60,12 @@ Examples:
       check the built-in codec
   actucheck codec -- python3 my_adapter.py
       check a library behind an adapter
-  actucheck codec --select '*stuffing*' --report json=report.json -- ./my-adapter
-      only some checks, with a report for programs
+  actucheck codec --select '*stuffing*' -- ./my-adapter
+      only some checks
+  actucheck codec --report html=report.html --report junit=report.xml -- ./my-adapter
+      with a page to read and a file for what collects the results of tests
+  actucheck codec --report json=- -- ./my-adapter | jq .totals
+      everything, for a program
   actucheck codec --jobs 4 --max-fail 10 -- ./my-adapter
       four adapters side by side, until something failed ten times
 
@@ -225,9 +233,8 @@ pub(crate) struct Codec {
     /// Known failures, which do not fail the run as long as they do fail
     #[arg(long, value_name = "FILE")]
     pub(crate) expect: Option<PathBuf>,
-    /// Write a report for programs; `-` is standard output
-    #[arg(long, value_name = "json=PATH", value_parser = report)]
-    pub(crate) report: Vec<Report>,
+    #[command(flatten)]
+    pub(crate) reports: report::Reports,
     /// How many processes of the adapter share the work
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u8).range(1..))]
     pub(crate) jobs: u8,
@@ -278,19 +285,6 @@ pub(crate) enum Kind {
     Request,
     /// To the host
     Reply,
-}
-
-/// A report to be written.
-#[derive(Clone, Debug)]
-pub(crate) struct Report {
-    pub(crate) path: PathBuf,
-}
-
-fn report(text: &str) -> Result<Report, String> {
-    match text.split_once('=') {
-        Some(("json", path)) if !path.is_empty() => Ok(Report { path: path.into() }),
-        _ => Err("a report is written as json=PATH".to_owned()),
-    }
 }
 
 /// A number of seconds, minutes or hours.

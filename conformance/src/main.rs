@@ -40,6 +40,7 @@ fn run() -> Result<ExitCode, Failure> {
         Command::Show(options) => commands::show::run(&options),
         Command::Replay(options) => commands::replay::run(&options),
         Command::Adapter(command) => commands::adapter::run(&command),
+        Command::Report(command) => commands::report::run(&command),
         Command::Spec(command) => commands::spec::run(&command),
         Command::Completions(options) => {
             commands::completions::run(&options);

@@ -96,10 +96,10 @@ impl<W: FnMut(&Outcome) -> ControlFlow<()>> Round<'_, W> {
     /// Why a check is not even asked.
     fn not_asked(&self, hello: &Hello, check: &Check) -> Option<String> {
         let presumed = check.presumes.as_ref();
-        match presumed.filter(|id| self.ledger().skipped.contains(id.as_str())) {
-            Some(id) => Some(format!("{id} is skipped too")),
-            None => not_offered(hello, check),
+        if presumed.is_some_and(|id| self.ledger().skipped.contains(id.as_str())) {
+            return Some("the check that it presumes is skipped too".to_owned());
         }
+        not_offered(hello, check)
     }
 
     fn enter(&self, place: usize, answer: Answer) {

@@ -3,13 +3,16 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use actucheck_spec::model::{HexBytes, Level};
-use serde::Serialize;
+use actucheck_spec::model::{HexBytes, Level, Packet};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use crate::protocol::{Op, Output};
 
 /// What came out of a check, in one word.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema,
+)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
     /// As demanded.
@@ -52,6 +55,28 @@ impl Verdict {
         Self::UnexpectedPass,
     ];
 
+    /// Every verdict, the one that says most about a whole first: what went wrong before what
+    /// could not be tried, and that before what went well.
+    const WORST_FIRST: [Self; 11] = [
+        Self::Fail,
+        Self::UnexpectedPass,
+        Self::Crash,
+        Self::Timeout,
+        Self::AdapterFault,
+        Self::NotRun,
+        Self::ExpectedFailure,
+        Self::Warn,
+        Self::Pass,
+        Self::Recorded,
+        Self::Skip,
+    ];
+
+    /// Whether it tells of something that is not as demanded, or that could not be found out.
+    #[must_use]
+    pub const fn is_wrong(self) -> bool {
+        !matches!(self, Self::Pass | Self::Warn | Self::Recorded | Self::Skip)
+    }
+
     /// Whether an expected-failures file may excuse it.
     #[must_use]
     pub const fn is_failure(self) -> bool {
@@ -78,7 +103,7 @@ impl fmt::Display for Verdict {
 }
 
 /// The outcome of one check.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Outcome {
     /// The check's id.
     pub id: String,
@@ -105,7 +130,7 @@ pub struct Outcome {
 }
 
 /// What an implementation does where the documents leave it open.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Behaviour {
     /// The question, in words.
     pub question: String,
@@ -114,20 +139,37 @@ pub struct Behaviour {
 }
 
 impl Outcome {
-    /// The bytes demanded and the bytes that came, where both are bytes.
+    /// The bytes demanded and the bytes that came, where they differ; of packets the parameters of
+    /// the first that has others.
     #[must_use]
     pub fn bytes(&self) -> Option<(&HexBytes, &HexBytes)> {
-        match (&self.expected, &self.actual) {
-            (Some(Output::Bytes(expected)), Some(Output::Bytes(actual))) => {
-                Some((expected, actual))
-            }
-            _ => None,
-        }
+        let (expected, actual) = (self.expected.as_ref()?, self.actual.as_ref()?);
+        let mut pairs = bytes_of(expected).into_iter().zip(bytes_of(actual));
+        pairs.find(|(expected, actual)| expected != actual)
+    }
+}
+
+fn bytes_of(output: &Output) -> Vec<&HexBytes> {
+    match output {
+        Output::Crc(_) => Vec::new(),
+        Output::Bytes(bytes) => vec![bytes],
+        Output::Packet(packet) => parameters(packet),
+        Output::Packets(packets) => packets.iter().flat_map(parameters).collect(),
+    }
+}
+
+fn parameters(packet: &Packet) -> Vec<&HexBytes> {
+    match packet {
+        Packet::Instruction { params: data, .. }
+        | Packet::Status { params: data, .. }
+        | Packet::Request { data, .. }
+        | Packet::Reply { data, .. } => vec![data],
+        Packet::FastStatus { blocks } => blocks.iter().map(|block| &block.data).collect(),
     }
 }
 
 /// How often each verdict came out.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(transparent)]
 pub struct Totals(BTreeMap<Verdict, usize>);
 
@@ -151,6 +193,18 @@ impl Totals {
     #[must_use]
     pub fn sum(&self) -> usize {
         self.0.values().sum()
+    }
+
+    /// The verdict on all of them: the worst that came out; `None` of no checks.
+    #[must_use]
+    pub fn worst(&self) -> Option<Verdict> {
+        Verdict::WORST_FIRST.into_iter().find(|verdict| self.count(*verdict) > 0)
+    }
+
+    /// The verdicts that came out and how often, in the order of reports.
+    pub fn counts(&self) -> impl Iterator<Item = (Verdict, usize)> {
+        let counts = Verdict::ALL.into_iter().map(|verdict| (verdict, self.count(verdict)));
+        counts.filter(|(_, count)| *count > 0)
     }
 
     /// The exit status of a run with this outcome: 0 all passed, 1 something failed, 3 something

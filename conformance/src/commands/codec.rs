@@ -1,30 +1,28 @@
 //! `actucheck codec`.
 
-use std::fs::File;
-use std::io::{self, Write};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
-use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use actucheck::expect::Expectations;
 use actucheck::record;
-use actucheck::report::{self, Run, Stopped};
+use actucheck::report::{Report, Run, Stopped, text};
 use actucheck::run;
 use actucheck::verdict::Outcome;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::Failure;
+use super::output::Outputs;
 use crate::cli::Codec;
 
 /// Runs the checks and writes the reports; the exit status says what came out.
 pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     let spec = super::spec()?;
     let selection = &options.selection;
-    let mut reports = open_reports(options)?;
+    let outputs = Outputs::open(&options.reports)?;
     let mut testees = super::testees(&options.adapter, options.jobs)?;
     let hello = testees.hello.clone();
     let mut all = super::checks(&spec, selection.wire, &selection.growth, Some(&hello));
@@ -42,30 +40,30 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     let checks = super::selected(all, selection)?;
 
     let progress = progress(checks.len());
+    let started = Instant::now();
     let mut limit = Limit::new(options.max_fail, super::interrupted()?);
     let mut outcomes = run::run(&mut testees.all, &checks, |outcome| {
         progress.inc(1);
         limit.after(outcome, &expectations)
     });
+    let seconds = started.elapsed().as_secs_f64();
     progress.finish_and_clear();
     expectations.apply(&mut outcomes);
 
-    let run = Run {
+    let report = Report::from(Run {
         spec: &spec,
         implementation: &hello.implementation,
-        wire: selection.wire,
+        options: super::options(selection.wire, &selection.growth, Some(&hello)),
         command: &options.adapter.command,
         record: None,
-        outcomes: &outcomes,
-        stopped: limit.stopped,
         left: checks.iter().len().saturating_sub(outcomes.iter().len()),
+        outcomes,
+        stopped: limit.stopped,
+        seconds,
         log: testees.end()?,
-    };
-    for (name, file) in &mut reports {
-        report::json::write(&run, file).map_err(|error| cannot_write(name, &error))?;
-    }
-    write_text(&run, options)?;
-    Ok(ExitCode::from(run.exit_status()))
+    });
+    outputs.write(|format, out| format.write(&report, out), |out| text::write(&report, out))?;
+    Ok(ExitCode::from(report.exit_status()))
 }
 
 /// What ends a run early.
@@ -95,43 +93,6 @@ impl Limit {
         }
         ControlFlow::Break(())
     }
-}
-
-/// A report's name and where it goes.
-type OpenReport = (String, Box<dyn Write>);
-
-/// Opens the reports before the run, so that a wrong path costs no time.
-fn open_reports(options: &Codec) -> Result<Vec<OpenReport>, Failure> {
-    let open = |path: &Path| -> io::Result<Box<dyn Write>> {
-        if path == Path::new("-") {
-            return Ok(Box::new(io::stdout()));
-        }
-        Ok(Box::new(io::BufWriter::new(File::create(path)?)))
-    };
-    let mut reports = Vec::new();
-    for report in &options.report {
-        let name = report.path.display().to_string();
-        let file = open(&report.path).map_err(|error| {
-            Failure::new(Failure::USAGE, format!("cannot write {name}: {error}"))
-        })?;
-        reports.push((name, file));
-    }
-    Ok(reports)
-}
-
-/// Standard output, unless a report for programs goes there.
-fn write_text(run: &Run<'_>, options: &Codec) -> Result<(), Failure> {
-    let taken = options.report.iter().any(|report| report.path == Path::new("-"));
-    let written = if taken {
-        report::text::write(run, &mut anstream::stderr())
-    } else {
-        report::text::write(run, &mut anstream::stdout())
-    };
-    written.map_err(|error| cannot_write("the report", &error))
-}
-
-fn cannot_write(name: &str, error: &io::Error) -> Failure {
-    Failure::new(Failure::INCOMPLETE, format!("cannot write {name}: {error}"))
 }
 
 /// Shows on a terminal, and there only, after a second.

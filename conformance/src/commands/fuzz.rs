@@ -7,9 +7,10 @@ use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
+use actucheck::cases::Options;
 use actucheck::fuzz::{Finding, Fuzzed, fuzz};
 use actucheck::record;
-use actucheck::report::{self, Run};
+use actucheck::report::{Report, Run, text};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::Failure;
@@ -48,20 +49,21 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
 
     keep(options, &fuzzed.findings)?;
     let outcomes: Vec<_> = fuzzed.findings.iter().map(|finding| finding.outcome.clone()).collect();
-    let run = Run {
+    let took = started.elapsed();
+    let report = Report::from(Run {
         spec: &spec,
         implementation: &hello.implementation,
-        wire: options.wire,
+        options: Options { seed, ..Options::new(options.wire) },
         command: &options.adapter.command,
         record: Some(&options.out),
-        outcomes: &outcomes,
+        outcomes,
         stopped: None,
         left: 0,
+        seconds: took.as_secs_f64(),
         log: String::new(),
-    };
-    let took = started.elapsed();
+    });
     let mut out = anstream::stdout();
-    show(&run, &fuzzed.findings, &mut out)
+    show(&report, &fuzzed.findings, &mut out)
         .and_then(|()| summary(options, seed, &fuzzed, took, &mut out))
         .map_err(|error| Failure::new(Failure::INCOMPLETE, error))?;
     if let Some(reason) = &fuzzed.given_up {
@@ -86,11 +88,11 @@ fn keep(options: &Fuzz, findings: &[Finding]) -> Result<(), Failure> {
 }
 
 /// The report on the smallest case of each kind of failure, and the kinds in a line each.
-fn show(run: &Run<'_>, findings: &[Finding], out: &mut impl Write) -> io::Result<()> {
+fn show(report: &Report, findings: &[Finding], out: &mut impl Write) -> io::Result<()> {
     if findings.is_empty() {
         return Ok(());
     }
-    report::text::write(run, out)?;
+    text::write(report, out)?;
     writeln!(out)?;
     for Finding { kind, check, times, .. } in findings {
         writeln!(out, "{} {}: {}", kind.op, kind.requirement, kind.symptom)?;

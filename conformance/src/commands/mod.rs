@@ -6,7 +6,9 @@ pub(crate) mod completions;
 pub(crate) mod decode;
 pub(crate) mod fuzz;
 pub(crate) mod list;
+mod output;
 pub(crate) mod replay;
+pub(crate) mod report;
 pub(crate) mod show;
 pub(crate) mod spec;
 
@@ -67,9 +69,14 @@ fn spec() -> Result<Spec, Failure> {
 
 /// Every check of a wire; with the lengths around its limit for an implementation that says one.
 fn checks(spec: &Spec, wire: Wire, growth: &Growth, hello: Option<&Hello>) -> Vec<Check> {
+    cases::all(spec, &options(wire, growth, hello))
+}
+
+/// What decides which checks a wire has.
+fn options(wire: Wire, growth: &Growth, hello: Option<&Hello>) -> cases::Options {
     let max_packet = hello.and_then(|hello| hello.limits.max_packet);
     let Growth { seed, cases } = *growth;
-    cases::all(spec, &cases::Options { wire, seed, cases, max_packet })
+    cases::Options { wire, seed, cases, max_packet }
 }
 
 /// The checks that the user means.

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use actucheck::check::Check;
 use actucheck::protocol::{Hello, Wire};
 use actucheck::record;
-use actucheck::report::{self, Run};
+use actucheck::report::{Report, Run, text};
 use actucheck::run;
 use actucheck_spec::Spec;
 
@@ -21,24 +21,25 @@ pub(crate) fn run(options: &Replay) -> Result<ExitCode, Failure> {
     let hello = testees.hello.clone();
     let (wire, checks) = meant(options, &spec, &hello)?;
     let outcomes = run::run(&mut testees.all, &checks, |_| ControlFlow::Continue(()));
-    let run = Run {
+    let report = Report::from(Run {
         spec: &spec,
         implementation: &hello.implementation,
-        wire,
+        options: super::options(wire, &options.growth, Some(&hello)),
         command: &options.adapter.command,
         record: Some(Path::new(&options.what)).filter(|path| path.is_file()),
-        outcomes: &outcomes,
+        outcomes,
         stopped: None,
         left: 0,
+        seconds: 0.0,
         log: testees.end()?,
-    };
+    });
     let mut out = anstream::stdout();
     checks
         .iter()
-        .try_for_each(|check| report::text::check(&spec, check, &mut out))
-        .and_then(|()| report::text::write(&run, &mut out))
+        .try_for_each(|check| text::check(&spec, check, &mut out))
+        .and_then(|()| text::write(&report, &mut out))
         .map_err(|error| Failure::new(Failure::INCOMPLETE, error))?;
-    Ok(ExitCode::from(run.exit_status()))
+    Ok(ExitCode::from(report.exit_status()))
 }
 
 /// The checks of a file if there is one of that name, else the one with that id.

@@ -1,63 +1,60 @@
 //! What came out of a run, for a person and for a program.
+//!
+//! [`collect`] makes a [`model::Report`] of a run; every format writes that, and the JSON format is
+//! that, so that [`read`] can bring it back: to be written in another format, or to be held
+//! against others in [`compare`].
 
+pub mod collect;
+pub mod compare;
+pub mod html;
 pub mod json;
+pub mod junit;
+pub mod markdown;
+pub mod model;
+pub mod read;
+pub mod schema;
 pub mod text;
+pub mod view;
+mod words;
 
-use std::path::Path;
+use std::io::{self, Write};
 
-use actucheck_spec::Spec;
-use serde::Serialize;
+use anstream::adapter::strip_bytes;
 
-use crate::protocol::{Implementation, Wire};
-use crate::verdict::{Outcome, Totals};
+pub use collect::Run;
+pub use model::{Report, Stopped};
 
-/// A finished run.
-#[derive(Clone, Debug)]
-pub struct Run<'a> {
-    /// The spec that the checks come from.
-    pub spec: &'a Spec,
-    /// What was checked.
-    pub implementation: &'a Implementation,
-    /// The wire.
-    pub wire: Wire,
-    /// The adapter's command; empty for the built-in codec.
-    pub command: &'a [String],
-    /// The file that keeps the checks, if they are not those of `actucheck list`.
-    pub record: Option<&'a Path>,
-    /// What came out of each check.
-    pub outcomes: &'a [Outcome],
-    /// Why it ended early, if it did.
-    pub stopped: Option<Stopped>,
-    /// How many checks were not asked for that.
-    pub left: usize,
-    /// The last lines that the adapter logged.
-    pub log: String,
+/// What a report can be written as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Format {
+    /// As on the terminal.
+    Text,
+    /// Everything, for programs.
+    Json,
+    /// For what collects the results of tests.
+    Junit,
+    /// A summary for a CI job's page.
+    Markdown,
+    /// A page that needs no network.
+    Html,
 }
 
-/// Why a run ended early.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Stopped {
-    /// The user ended it.
-    Interrupted,
-    /// As much failed as was allowed to.
-    MaxFail,
-}
-
-impl Run<'_> {
-    /// The exit status: as [`Totals::exit_status`], and 3 for a run that ended early without a
-    /// failure.
-    #[must_use]
-    pub fn exit_status(&self) -> u8 {
-        match self.totals().exit_status() {
-            0 if self.stopped.is_some() => 3,
-            status => status,
+impl Format {
+    /// Writes a report in this format, without colours.
+    ///
+    /// # Errors
+    /// If it can't be written.
+    pub fn write(self, report: &Report, out: &mut dyn Write) -> io::Result<()> {
+        match self {
+            Self::Text => {
+                let mut text = Vec::new();
+                text::write(report, &mut text)?;
+                out.write_all(&strip_bytes(&text).into_vec())
+            }
+            Self::Json => json::write(report, out),
+            Self::Junit => junit::write(report, out),
+            Self::Markdown => markdown::write(report, out),
+            Self::Html => html::write(report, out),
         }
-    }
-
-    /// How often each verdict came out.
-    #[must_use]
-    pub fn totals(&self) -> Totals {
-        Totals::of(self.outcomes)
     }
 }
