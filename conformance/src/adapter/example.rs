@@ -5,58 +5,57 @@ use serde_json::Value;
 use super::talk::Answer;
 use super::{Problem, shape};
 use crate::check::{Check, Demand};
-use crate::protocol::{Hello, Op, Output};
+use crate::protocol::{Hello, Op, Output, Rejection};
 
-/// The checks whose questions are asked, an op and wire at least once.
-const CHECKS: [&str; 11] = [
-    "dynamixel2.write.instruction/crc",
-    "dynamixel2.stuffing.data/stuff",
-    "dynamixel2.stuffing.data/unstuff",
-    "dynamixel2.write.instruction/encode",
-    "dynamixel2.read.status/decode",
-    "ja40.fast-sync-read.status/decode",
-    "dynamixel2.read.status/stream",
-    "innfos.iq.sixty-revolutions/crc",
-    "innfos.iq.sixty-revolutions/encode",
-    "innfos.iq.sixty-revolutions/decode",
-    "innfos.request.command.06/stream-twice",
+/// The checks whose questions are asked, and what they ask for. An op and wire is there at least
+/// once, and what only one side of a line does for itself.
+const CHECKS: [(&str, &str); 14] = [
+    ("dynamixel2.write.instruction/crc", "crc on dynamixel2"),
+    ("dynamixel2.stuffing.data/stuff", "stuff on dynamixel2"),
+    ("dynamixel2.stuffing.data/unstuff", "unstuff on dynamixel2"),
+    ("dynamixel2.write.instruction/encode", "encode of an instruction packet"),
+    ("dynamixel2.read.status/encode", "encode of a status packet"),
+    ("dynamixel2.write.instruction/decode", "decode of an instruction packet"),
+    ("dynamixel2.read.status/decode", "decode of a status packet"),
+    ("ja40.fast-sync-read.status/decode", "decode of a fast status packet"),
+    ("dynamixel2.read.status/stream", "stream on dynamixel2"),
+    ("innfos.iq.sixty-revolutions/crc", "crc on innfos"),
+    ("innfos.iq.sixty-revolutions/encode", "encode of a request"),
+    ("innfos.iq.sixty-revolutions/decode", "decode of a request"),
+    ("innfos.reply.command.06/decode", "decode of a reply"),
+    ("innfos.request.command.06/stream-twice", "stream on innfos"),
 ];
 
 /// A question of the documents, as it goes to the adapter.
 #[derive(Clone, Debug)]
 pub(super) struct Example {
-    pub(super) op: Op,
+    /// What it asks for.
+    pub(super) name: &'static str,
+    op: Op,
     pub(super) request: String,
-    /// What the documents demand.
-    right: Option<Output>,
+    /// The answers that are right.
+    right: Vec<Output>,
 }
 
 impl Example {
     /// The questions, taken out of the checks of all wires.
     pub(super) fn all(checks: &[Check]) -> Vec<Self> {
-        let check = |id: &&str| checks.iter().find(|check| check.id == **id);
-        CHECKS.iter().filter_map(check).map(Self::of).collect()
+        let example = |(id, name): &(&str, &'static str)| {
+            let check = checks.iter().find(|check| check.id == *id)?;
+            Some(Self::of(check, name))
+        };
+        CHECKS.iter().filter_map(example).collect()
     }
 
-    fn of(check: &Check) -> Self {
+    fn of(check: &Check, name: &'static str) -> Self {
         let right = match &check.demand {
-            Demand::Yield(output) => Some(output.clone()),
-            _ => None,
+            Demand::Yield(output) => vec![output.clone()],
+            Demand::YieldOneOf(outputs) => outputs.clone(),
+            Demand::Reject(_) | Demand::Record(_) => Vec::new(),
         };
         // Every op can be written as JSON: it has string keys only.
         let request = serde_json::to_string(&check.op).unwrap_or_default();
-        Self { op: check.op.clone(), request, right }
-    }
-
-    /// `decode on dynamixel2`.
-    pub(super) fn name(&self) -> String {
-        let wire = self.op.wire().map_or("", |wire| wire.id());
-        let fast = matches!(&self.op, Op::Decode { fast: Some(_), .. });
-        format!(
-            "{}{} on {wire}",
-            self.op.name(),
-            if fast { " of a fast status packet" } else { "" }
-        )
+        Self { name, op: check.op.clone(), request, right }
     }
 
     /// Whether the adapter says that it answers it.
@@ -71,14 +70,17 @@ impl Example {
         Ok(match answer {
             Answer::Skip(reason) => format!("skipped: {reason}"),
             Answer::Err(rejection) => {
-                format!("rejected ({}: {}), but is valid", rejection.class, rejection.detail)
+                let Rejection { class, detail } = rejection;
+                format!(
+                    "rejected as {class} ({detail}) though valid; `skip` what the library can't do"
+                )
             }
             Answer::Ok(ok) => {
                 let output = shape::output(&self.op, ok).map_err(|problem| self.shown(problem))?;
-                if self.right.as_ref().is_some_and(|right| *right != output) {
-                    "another answer than the document has: is it the adapter or the library?".into()
-                } else {
+                if self.right.contains(&output) {
                     String::new()
+                } else {
+                    "another answer than the document has: is it the adapter or the library?".into()
                 }
             }
         })
@@ -86,10 +88,8 @@ impl Example {
 
     /// A problem with the form of an answer, with the right one as an example.
     fn shown(&self, problem: Problem) -> Problem {
-        let Some(right) = self.right.as_ref().and_then(|right| serde_json::to_string(right).ok())
-        else {
-            return problem;
-        };
+        let right = self.right.first().and_then(|right| serde_json::to_string(right).ok());
+        let Some(right) = right else { return problem };
         Problem { mend: format!("{}; here it is {right}", problem.mend), ..problem }
     }
 
@@ -133,5 +133,25 @@ impl Example {
         };
         bytes.0.truncate(bytes.len().saturating_sub(3));
         serde_json::to_string(&op).ok()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use actucheck_spec::Spec;
+
+    use super::*;
+    use crate::cases::{self, Options};
+    use crate::protocol::Wire;
+
+    #[test]
+    fn every_question_is_there_with_its_right_answer() {
+        let spec = Spec::embedded().unwrap();
+        let checks = Wire::ALL.map(|wire| cases::all(&spec, &Options::new(wire))).concat();
+        let examples = Example::all(&checks);
+        assert_eq!(examples.len(), CHECKS.len());
+        for example in examples {
+            assert!(!example.right.is_empty(), "{}", example.name);
+        }
     }
 }

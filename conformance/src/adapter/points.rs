@@ -61,7 +61,7 @@ impl Points {
 
         let mut answered = Vec::new();
         for example in offered {
-            self.point(format!("answers {}", example.name()), |talk| {
+            self.point(format!("answers {}", example.name), |talk| {
                 let answer = talk.ask(&example.request)?;
                 let remark = example.remark(&answer)?;
                 answered.push((example, answer));
@@ -212,7 +212,7 @@ fn same(
     if same {
         return Ok(());
     }
-    Err(Problem::new(format!("{} is answered another way than before", example.name()), mend))
+    Err(Problem::new(format!("{} is answered another way than before", example.name), mend))
 }
 
 fn long_line(talk: &mut Talk) -> Found {
