@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
+use std::collections::BTreeSet;
+
 use assert_cmd::Command;
 use serde_json::Value;
 
@@ -202,4 +204,15 @@ fn completions_are_there_for_a_shell() {
     let (status, stdout, _) = actucheck(&["completions", "bash"]);
     assert_eq!(status, 0);
     assert!(stdout.contains("_actucheck"));
+}
+
+#[test]
+fn a_level_leaves_out_what_binds_less() {
+    let levels = |level: &str| -> BTreeSet<String> {
+        let (status, stdout, _) = actucheck(&["list", "--wire", "innfos", "--level", level]);
+        assert_eq!(status, 0);
+        stdout.lines().map(|line| line.split_whitespace().nth(1).unwrap().to_owned()).collect()
+    };
+    assert_eq!(levels("must"), ["must".to_owned()].into());
+    assert_eq!(levels("should"), ["must".to_owned(), "should".to_owned()].into());
 }
