@@ -56,6 +56,18 @@ fn has_crc(kind: FrameKind, data: &[u8]) -> bool {
     }
 }
 
+/// Whether a reply may come without a CRC, with zeros in its place, or with it.
+fn is_open(kind: FrameKind, command: u8, data: &[u8]) -> bool {
+    kind == FrameKind::Reply && data.len() == 1 && OPEN.contains(&command)
+}
+
+/// Whether zeros or the CRC of the data, and the end, are what stands behind the data: all that
+/// tells a reply with a CRC from one without, as another frame may follow.
+fn looks_like_crc(data: &[u8], behind: &[u8]) -> bool {
+    let ends = |crc: [u8; 2]| behind.starts_with(&[&crc[..], &[TAIL]].concat());
+    ends([0, 0]) || ends(crc(data).to_le_bytes())
+}
+
 /// The packet that `bytes` are, one whole frame.
 ///
 /// # Errors
@@ -94,8 +106,9 @@ fn first(kind: FrameKind, bytes: &[u8]) -> Result<(Packet, usize), Fault> {
         }
     };
     let without_crc = PREFIX + length + 1;
-    let open = kind == FrameKind::Reply && data.len() == 1 && OPEN.contains(&command);
-    if open && behind == [TAIL] || !open && !has_crc(kind, data) {
+    if is_open(kind, command, data) && !looks_like_crc(data, behind)
+        || !is_open(kind, command, data) && !has_crc(kind, data)
+    {
         return match behind.first() {
             Some(&TAIL) => Ok((packet(), without_crc)),
             Some(_) => Err(Fault::Tail),
@@ -107,7 +120,7 @@ fn first(kind: FrameKind, bytes: &[u8]) -> Result<(Packet, usize), Fault> {
     if tail != TAIL {
         return Err(Fault::Tail);
     }
-    if found != crc(data) && !(open && found == 0) {
+    if found != crc(data) && !is_open(kind, command, data) {
         return Err(Fault::Crc);
     }
     Ok((packet(), without_crc + 2))
