@@ -75,14 +75,14 @@ macro_rules! table {
 }
 
 table! {
-    stuffing: Dynamixel2, 256;
-    crc: Dynamixel2, 256;
+    stuffing: Dynamixel2, 128;
+    crc: Dynamixel2, 128;
     stream_raw, repair: Dynamixel2, 1500;
     stream_scenario: Dynamixel2, 1000;
     stream_cost: Dynamixel2, 2000;
-    packet, repair: Dynamixel2, 256;
+    packet, repair: Dynamixel2, 160;
     register: Dynamixel2, 64;
-    fast_status, repair: Dynamixel2, 256;
+    fast_status, repair: Dynamixel2, 160;
     innfos_frame, repair: Innfos, 300;
     innfos_stream, repair: Innfos, 500;
     spec_yaml: Yaml, 2000;

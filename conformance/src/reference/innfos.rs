@@ -18,11 +18,8 @@ pub fn crc(bytes: &[u8]) -> u16 {
     for byte in bytes {
         crc ^= u16::from(*byte);
         for _ in 0..8 {
-            let carry = crc & 1 == 1;
-            crc >>= 1;
-            if carry {
-                crc ^= 0xA001;
-            }
+            let carry = crc & 1;
+            crc = (crc >> 1) ^ (0xA001 * carry);
         }
     }
     crc
@@ -73,8 +70,11 @@ fn looks_like_crc(data: &[u8], behind: &[u8]) -> bool {
 /// # Errors
 /// The first rule that they break: header, length, tail, trailing bytes, CRC.
 pub fn decode(kind: FrameKind, bytes: &[u8]) -> Result<Packet, Fault> {
-    let (packet, size) = first(kind, bytes)?;
-    if size < bytes.len() { Err(Fault::Trailing) } else { Ok(packet) }
+    let first = first(kind, bytes)?;
+    if first.size < bytes.len() {
+        return Err(Fault::Trailing);
+    }
+    if first.crc_matches { Ok(first.packet) } else { Err(Fault::Crc) }
 }
 
 /// The packets of a datagram: frame behind frame, up to the first byte that begins none.
@@ -82,15 +82,23 @@ pub fn decode(kind: FrameKind, bytes: &[u8]) -> Result<Packet, Fault> {
 pub fn packets(kind: FrameKind, datagram: &[u8]) -> Vec<Packet> {
     let mut packets = Vec::new();
     let mut rest = datagram;
-    while let Ok((packet, size)) = first(kind, rest) {
+    while let Ok(First { packet, size, crc_matches: true }) = first(kind, rest) {
         packets.push(packet);
         rest = rest.get(size..).unwrap_or_default();
     }
     packets
 }
 
-/// The packet that begins here, and its size.
-fn first(kind: FrameKind, bytes: &[u8]) -> Result<(Packet, usize), Fault> {
+/// The packet that begins somewhere, and its size.
+struct First {
+    packet: Packet,
+    size: usize,
+    /// Right, or there is none.
+    crc_matches: bool,
+}
+
+/// The packet that begins here.
+fn first(kind: FrameKind, bytes: &[u8]) -> Result<First, Fault> {
     if bytes.first().is_some_and(|byte| *byte != HEADER) {
         return Err(Fault::Header);
     }
@@ -106,11 +114,11 @@ fn first(kind: FrameKind, bytes: &[u8]) -> Result<(Packet, usize), Fault> {
         }
     };
     let without_crc = PREFIX + length + 1;
-    if is_open(kind, command, data) && !looks_like_crc(data, behind)
-        || !is_open(kind, command, data) && !has_crc(kind, data)
-    {
+    let open = is_open(kind, command, data);
+    let with_crc = if open { looks_like_crc(data, behind) } else { has_crc(kind, data) };
+    if !with_crc {
         return match behind.first() {
-            Some(&TAIL) => Ok((packet(), without_crc)),
+            Some(&TAIL) => Ok(First { packet: packet(), size: without_crc, crc_matches: true }),
             Some(_) => Err(Fault::Tail),
             None => Err(Fault::Truncated),
         };
@@ -120,8 +128,5 @@ fn first(kind: FrameKind, bytes: &[u8]) -> Result<(Packet, usize), Fault> {
     if tail != TAIL {
         return Err(Fault::Tail);
     }
-    if found != crc(data) && !is_open(kind, command, data) {
-        return Err(Fault::Crc);
-    }
-    Ok((packet(), without_crc + 2))
+    Ok(First { packet: packet(), size: without_crc + 2, crc_matches: open || found == crc(data) })
 }

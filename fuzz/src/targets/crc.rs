@@ -6,7 +6,7 @@ use actucheck_codec::crc::{self, Engine, MODBUS_INIT, UMTS_INIT};
 use crate::draw::Draw;
 
 /// The longest message, some of the time: long enough for every way of the engines.
-const LONG: usize = 2048;
+const LONG: usize = 1200;
 
 /// The input is a message, or what a long one repeats.
 ///
@@ -14,7 +14,7 @@ const LONG: usize = 2048;
 /// If the codec is wrong.
 pub fn check(input: &[u8]) {
     let mut draw = Draw::of(input);
-    let times = if draw.below(16) == 0 { LONG / input.len().max(1) } else { 1 };
+    let times = if draw.below(32) == 0 { LONG / input.len().max(1) } else { 1 };
     let message = input.repeat(times);
     let place = draw.below(64);
     let cut = draw.below(message.len() + 1);

@@ -5,6 +5,8 @@ use actucheck_codec::dynamixel2::Instruction;
 use actucheck_codec::stuffing::{stuff, stuffed_len, unstuff};
 use actucheck_codec::{BufferTooSmall, frame};
 
+use crate::draw::Draw;
+
 /// The input is a body.
 ///
 /// # Panics
@@ -36,8 +38,11 @@ fn at_every_split(body: &[u8], stuffed: &[u8]) {
     let packet = reference::frame(1, stuffed);
     let instruction = Instruction::from_code(*code);
     let mut buffer = vec![0; packet.len()];
-    // Of a long body not quite every one.
-    for split in (0..=params.len()).step_by(1 + params.len() / 32) {
+    // Of a long body a few, drawn from its bytes.
+    let mut draw = Draw::of(body);
+    let every = params.len() < 16;
+    for split in 0..if every { params.len() + 1 } else { 4 } {
+        let split = if every { split } else { draw.below(params.len() + 1) };
         let (head, tail) = params.split_at(split);
         let built = frame::encode(1, instruction, &[head, tail], &mut buffer);
         assert_eq!(built, Ok(&packet[..]), "split at {split}");
