@@ -3,6 +3,7 @@
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
+use std::fs;
 
 use actucheck_spec::model::{Bound, Register};
 use actucheck_spec::{Spec, load};
@@ -37,16 +38,27 @@ pub fn all(spec: &Spec) -> Vec<File> {
 }
 
 /// The seeds of a family by name: the vectors of a wire by their ids, the loader's files by their
-/// paths.
+/// paths, or by the cases that they are of.
 fn seeds(spec: &Spec, seeds: Seeds) -> Vec<(String, Vec<u8>)> {
     if seeds == Seeds::Yaml {
         let file = |(path, text): &(&str, &str)| {
             (path.replace('/', "."), format!("# as {path}\n{text}").into())
         };
-        return spec_yaml::BASE.iter().map(file).collect();
+        return spec_yaml::BASE.iter().map(file).chain(cases()).collect();
     }
     let vectors = spec.vectors().filter(|(file, _)| file.wire == seeds.name());
     vectors.map(|(_, vector)| (vector.id.clone(), vector.frame().to_vec())).collect()
+}
+
+/// The files of the loader's own cases, each with a defect or a register of each kind.
+fn cases() -> Vec<(String, Vec<u8>)> {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../spec/tests/cases");
+    let case = |entry: std::io::Result<fs::DirEntry>| {
+        let entry = entry.unwrap();
+        let name = entry.file_name().into_string().unwrap();
+        (name, fs::read(entry.path().join("input.yaml")).unwrap())
+    };
+    fs::read_dir(folder).unwrap().map(case).collect()
 }
 
 /// What ClusterFuzz reads beside a target's binary, and `run` here.

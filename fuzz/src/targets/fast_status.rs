@@ -30,19 +30,19 @@ pub fn check(input: &[u8]) {
 }
 
 /// The requests that could be answered so: as many devices as the packet has room for, with the
-/// IDs that stand where theirs would, and one that asks in vain.
+/// IDs that stand where theirs would. And others that could not: with another last ID, and for
+/// other data.
 fn requests(bytes: &[u8]) -> Vec<Fast> {
     let room = bytes.len().saturating_sub(HEAD);
     let fits = |devices: &usize| room.is_multiple_of(*devices) && room / devices >= OVERHEAD;
-    let mut requests: Vec<_> = (1..=6)
-        .filter(fits)
-        .map(|devices| {
-            let block = room / devices;
-            let id = |device| bytes[HEAD + block * device + 1];
-            request(block - OVERHEAD, (0..devices).map(id).collect())
-        })
-        .collect();
-    requests.push(request(room, vec![1, 2]));
+    let mut requests = vec![request(room, vec![1, 2])];
+    for devices in (1..=6).filter(fits) {
+        let block = room / devices;
+        let ids: Vec<_> = (0..devices).map(|device| bytes[HEAD + block * device + 1]).collect();
+        let mut other_ids = ids.clone();
+        other_ids[devices - 1] ^= 1;
+        requests.extend([ids, other_ids].map(|ids| request(block - OVERHEAD, ids)));
+    }
     requests
 }
 

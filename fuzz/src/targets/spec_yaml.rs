@@ -45,9 +45,10 @@ pub fn check(input: &[u8]) {
 
 /// A defect has a place in the file and can be shown.
 fn well_said(defect: &Diagnostic) {
-    assert!(defect.line > 0 && defect.column > 0, "{defect}");
-    assert!(!defect.message.is_empty(), "{defect}");
-    assert!(defect.excerpt().contains(&defect.path), "{defect}");
+    let Diagnostic { path, line, column, message, .. } = defect;
+    assert!(!message.is_empty(), "{defect}");
+    let excerpt = defect.excerpt();
+    assert!(excerpt.contains(&format!("{path}:{line}:{column}\n")), "{defect}\n{excerpt}");
 }
 
 fn accepted(spec: &Spec) {
