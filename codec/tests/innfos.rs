@@ -176,6 +176,18 @@ fn what_follows_a_damaged_frame_is_lost() {
     assert_eq!(found[1], Err(FrameError::Tail { at: 6, found: 0xEC }));
 }
 
+#[test]
+fn the_high_byte_comes_first() {
+    // 1 with 24 bits behind the point is 0x0100_0000, with 8 bits 0x0100.
+    let one = Value::Iq24(Iq24::from_f64(1.0).unwrap());
+    assert_eq!(one.encode().as_bytes(), [0x01, 0x00, 0x00, 0x00]);
+    assert_eq!(Value::decode(Format::Iq24, &[0x01, 0x00, 0x00, 0x00]), Some(one));
+    let one = Value::Iq8(Iq8::from_f64(1.0).unwrap());
+    assert_eq!(one.encode().as_bytes(), [0x01, 0x00]);
+    assert_eq!(Value::decode(Format::Iq8, &[0x01, 0x00]), Some(one));
+    assert_eq!(Value::Scaled(0x0102_0304).encode().as_bytes(), [1, 2, 3, 4]);
+}
+
 /// A value of the format, from any bits.
 fn value(format: Format, bits: i32, six: [u8; 6]) -> Value {
     let [a, b, ..] = bits.to_be_bytes();

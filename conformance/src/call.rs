@@ -4,10 +4,11 @@
 use actucheck_codec::dynamixel2::Instruction;
 use actucheck_codec::layout::{self, Item};
 use actucheck_spec::model::{HexBytes, Packet};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// A call. Its name is the instruction's, its fields are those of the parameters' layout.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Call {
     name: String,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -27,7 +28,7 @@ pub struct Call {
 }
 
 /// One device of a call for several.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 struct Target {
     id: u64,
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -1,13 +1,15 @@
 //! One question to an implementation, and the judgement of its answer.
 
 use actucheck_spec::model::{Citation, Fault, Level};
+use serde::{Deserialize, Serialize};
 
 use crate::protocol::{Op, Output, Rejection};
 use crate::testee::Answer;
-use crate::verdict::{Outcome, Verdict};
+use crate::verdict::{Behaviour, Outcome, Verdict};
 
 /// One question to an implementation.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Check {
     /// Permanent id.
     pub id: String,
@@ -19,31 +21,86 @@ pub struct Check {
     pub source: Citation,
     /// The check that shows whether this one makes sense: one that is skipped there is skipped
     /// here. A host's library reads no instruction packets, alone or in a stream.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub presumes: Option<String>,
     /// What is asked.
+    #[serde(rename = "request")]
     pub op: Op,
     /// What is demanded.
+    #[serde(with = "serde_yaml::with::singleton_map_recursive")]
     pub demand: Demand,
 }
 
 /// What a check demands of the answer.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Demand {
     /// This and nothing else.
     Yield(Output),
     /// One of these.
     YieldOneOf(Vec<Output>),
-    /// One of these, or a rejection: the documents leave it open.
-    YieldOneOfOrReject(Vec<Output>),
     /// A rejection. One for another reason than this is a warning.
     Reject(Fault),
+    /// Nothing: the documents leave it open, and what is done is recorded.
+    Record(Open),
+}
+
+/// A question that the documents leave open.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Open {
+    /// The question, in words.
+    pub question: String,
+    /// What may be done beside rejecting, the way of the reference first.
+    pub ways: Vec<Way>,
+}
+
+/// One of several right ways.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Way {
+    /// What is done, in a few words.
+    pub name: String,
+    /// What comes of it.
+    pub output: Output,
+}
+
+impl Open {
+    /// What was done, in a few words; `None` if the implementation broke down or was not asked.
+    fn behaviour(&self, answer: &Answer) -> Option<Behaviour> {
+        let answer = match answer {
+            Answer::Ok(output) => match self.ways.iter().find(|way| way.output == *output) {
+                Some(way) => way.name.clone(),
+                None => self.other(output),
+            },
+            Answer::Rejected(Rejection { class, .. }) if *class != Fault::Internal => {
+                format!("rejects it ({class})")
+            }
+            _ => return None,
+        };
+        Some(Behaviour { question: self.question.clone(), answer })
+    }
+
+    /// What none of the ways foresees.
+    fn other(&self, output: &Output) -> String {
+        match (output, self.ways.first().map(|way| &way.output)) {
+            (Output::Packets(found), Some(Output::Packets(whole))) => {
+                format!("finds {} of {} packets", found.len(), whole.len())
+            }
+            _ => "answers something else".to_owned(),
+        }
+    }
 }
 
 impl Check {
     /// What an answer comes to.
     #[must_use]
     pub fn judge(&self, answer: Answer) -> Outcome {
+        let broken = matches!(&answer, Answer::Rejected(why) if why.class == Fault::Internal);
+        let open = match &self.demand {
+            Demand::Record(open) => open.behaviour(&answer),
+            _ => None,
+        };
         let (verdict, detail, actual) = match answer {
+            _ if open.is_some() => (Verdict::Recorded, String::new(), None),
             Answer::Ok(actual) => self.judge_output(actual),
             Answer::Rejected(rejection) => self.judge_rejection(&rejection),
             Answer::Skipped(reason) => (Verdict::Skip, reason, None),
@@ -52,22 +109,35 @@ impl Check {
             Answer::Faulty(detail) => (Verdict::AdapterFault, detail, None),
             Answer::NotAsked(reason) => (Verdict::NotRun, reason, None),
         };
-        let verdict = match (verdict, self.level) {
-            (Verdict::Fail, Level::Should) => Verdict::Warn,
-            (Verdict::Fail, Level::May) => Verdict::Pass,
-            (verdict, _) => verdict,
+        let allowed = match (verdict, self.level) {
+            (Verdict::Pass | Verdict::Warn, Level::May) => Some("does so"),
+            (Verdict::Fail, Level::May) if !broken => Some("does not"),
+            _ => None,
         };
-        let unmet = !matches!(verdict, Verdict::Pass | Verdict::Skip);
+        let behaviour = open.or_else(|| allowed.map(|answer| self.allowed(answer)));
+        let verdict = match verdict {
+            _ if behaviour.is_some() => Verdict::Recorded,
+            Verdict::Fail if self.level == Level::Should && !broken => Verdict::Warn,
+            verdict => verdict,
+        };
+        let unmet = !matches!(verdict, Verdict::Pass | Verdict::Recorded | Verdict::Skip);
         Outcome {
             id: self.id.clone(),
             requirement: self.requirement.clone(),
             level: self.level,
             verdict,
-            detail,
+            detail: if behaviour.is_some() { String::new() } else { detail },
             request: unmet.then(|| self.op.clone()),
             expected: self.expected().filter(|_| unmet).cloned(),
             actual: actual.filter(|_| unmet),
+            behaviour,
         }
+    }
+
+    /// What is done where the requirement allows it and demands nothing.
+    fn allowed(&self, answer: &str) -> Behaviour {
+        let question = format!("Does it do what {} allows?", self.requirement);
+        Behaviour { question, answer: answer.to_owned() }
     }
 
     /// Bytes of the whole packet that it is about; `None` if it is about no whole one.
@@ -85,7 +155,8 @@ impl Check {
     fn expected(&self) -> Option<&Output> {
         match &self.demand {
             Demand::Yield(output) => Some(output),
-            Demand::YieldOneOf(outputs) | Demand::YieldOneOfOrReject(outputs) => outputs.first(),
+            Demand::YieldOneOf(outputs) => outputs.first(),
+            Demand::Record(open) => open.ways.first().map(|way| &way.output),
             Demand::Reject(_) => None,
         }
     }
@@ -93,10 +164,8 @@ impl Check {
     fn judge_output(&self, actual: Output) -> (Verdict, String, Option<Output>) {
         let right = match &self.demand {
             Demand::Yield(expected) => *expected == actual,
-            Demand::YieldOneOf(outputs) | Demand::YieldOneOfOrReject(outputs) => {
-                outputs.contains(&actual)
-            }
-            Demand::Reject(_) => false,
+            Demand::YieldOneOf(outputs) => outputs.contains(&actual),
+            Demand::Reject(_) | Demand::Record(_) => false,
         };
         match &self.demand {
             _ if right => (Verdict::Pass, String::new(), None),
@@ -114,10 +183,9 @@ impl Check {
             return (Verdict::Fail, format!("broke down: {detail}"), None);
         }
         match &self.demand {
-            Demand::Yield(_) | Demand::YieldOneOf(_) => {
+            Demand::Yield(_) | Demand::YieldOneOf(_) | Demand::Record(_) => {
                 (Verdict::Fail, format!("rejected ({class}: {detail}), but is valid"), None)
             }
-            Demand::YieldOneOfOrReject(_) => (Verdict::Pass, String::new(), None),
             Demand::Reject(fault) if fault == class => (Verdict::Pass, String::new(), None),
             Demand::Reject(fault) => {
                 (Verdict::Warn, format!("rejected as {class}, the fault is {fault}"), None)

@@ -1,7 +1,10 @@
 //! Subcommands and options.
 
+pub(crate) mod adapter;
+pub(crate) mod report;
 pub(crate) mod spec;
 
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -24,6 +27,9 @@ pub(crate) enum Command {
     /// Checks a codec: the built-in one, or a library behind an adapter
     #[command(after_help = CODEC_EXAMPLES)]
     Codec(Codec),
+    /// Looks for failures that no check foresees, and makes them small
+    #[command(after_help = FUZZ_EXAMPLES)]
+    Fuzz(Fuzz),
     /// Explains one packet field by field
     #[command(after_help = DECODE_EXAMPLES)]
     Decode(Decode),
@@ -35,6 +41,12 @@ pub(crate) enum Command {
     /// Asks one check again and shows what was said
     #[command(after_help = REPLAY_EXAMPLES)]
     Replay(Replay),
+    /// Starts, and checks, the adapter that puts a library behind the suite
+    #[command(subcommand)]
+    Adapter(adapter::Command),
+    /// Compares the reports of several runs, or writes one in another format
+    #[command(subcommand)]
+    Report(report::Report),
     /// Shows, compares and exports what the documents say
     #[command(subcommand)]
     Spec(spec::Spec),
@@ -48,10 +60,30 @@ Examples:
       check the built-in codec
   actucheck codec -- python3 my_adapter.py
       check a library behind an adapter
-  actucheck codec --select '*stuffing*' --report json=report.json -- ./my-adapter
-      only some checks, with a report for programs
+  actucheck codec --select '*stuffing*' -- ./my-adapter
+      only some checks
+  actucheck codec --report html=report.html --report junit=report.xml -- ./my-adapter
+      with a page to read and a file for what collects the results of tests
+  actucheck codec --report json=- -- ./my-adapter | jq .totals
+      everything, for a program
+  actucheck codec --jobs 4 --max-fail 10 -- ./my-adapter
+      four adapters side by side, until something failed ten times
+
+Ctrl-C ends a run early and reports what was found so far.
 
 Exit status: 0 all passed, 1 something failed, 2 wrong usage, 3 something could not be run, \
+4 the adapter could not be started.";
+
+const FUZZ_EXAMPLES: &str = "\
+Examples:
+  actucheck fuzz -- python3 my_adapter.py
+      for a minute, from another seed each time
+  actucheck fuzz --seed 7 --cases 100000 -- ./my-adapter
+      the same again, whatever the machine
+  actucheck replay findings.yaml -- ./my-adapter
+      what was found, asked again
+
+Exit status: 0 nothing found, 1 something found, 2 wrong usage, 3 the adapter failed too often, \
 4 the adapter could not be started.";
 
 const DECODE_EXAMPLES: &str = "\
@@ -75,6 +107,7 @@ const REPLAY_EXAMPLES: &str = "\
 Examples:
   actucheck replay dynamixel2.stuffing.goal-position/encode -- python3 my_adapter.py
   actucheck replay --seed 7 dynamixel2.seed-7.12.status/decode -- ./my-adapter
+  actucheck replay findings.yaml -- ./my-adapter
 
 Exit status: as `actucheck codec`.";
 
@@ -90,8 +123,22 @@ pub(crate) struct Selection {
     /// Not the checks whose id matches; may be given more than once
     #[arg(long, value_name = "GLOB")]
     pub(crate) skip: Vec<String>,
+    /// Only the checks of requirements that bind at least so: `should` leaves out what may be
+    #[arg(long, value_enum, default_value = "may")]
+    pub(crate) level: Level,
     #[command(flatten)]
     pub(crate) growth: Growth,
+}
+
+/// How binding a requirement is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum Level {
+    /// Breaking it fails the run
+    Must,
+    /// Breaking it is a warning
+    Should,
+    /// Either way is right
+    May,
 }
 
 /// What generated checks grow from.
@@ -105,18 +152,28 @@ pub(crate) struct Growth {
     pub(crate) cases: u32,
 }
 
-/// How an adapter is run.
+/// An adapter, or none.
 #[derive(Debug, Args)]
 pub(crate) struct Adapter {
+    #[command(flatten)]
+    pub(crate) exchange: Exchange,
+    /// The adapter's command with its arguments; the built-in codec if there is none
+    #[arg(last = true, value_name = "COMMAND")]
+    pub(crate) command: Vec<String>,
+}
+
+/// How requests and replies are exchanged with an adapter.
+#[derive(Debug, Args)]
+pub(crate) struct Exchange {
     /// Seconds that the adapter may take for a request
     #[arg(long, value_name = "SECONDS", default_value = "1", value_parser = seconds)]
     pub(crate) timeout: Duration,
     /// Seconds that the adapter may take to start
     #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = seconds)]
     pub(crate) start_timeout: Duration,
-    /// The adapter's command with its arguments; the built-in codec if there is none
-    #[arg(last = true, value_name = "COMMAND")]
-    pub(crate) command: Vec<String>,
+    /// Write every line exchanged with the adapter to this file
+    #[arg(long, value_name = "FILE")]
+    pub(crate) trace: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
@@ -135,10 +192,33 @@ pub(crate) struct Show {
 
 #[derive(Debug, Args)]
 pub(crate) struct Replay {
-    /// The check's id, as `actucheck list` and reports have it
-    pub(crate) id: String,
+    /// The check's id, as `actucheck list` and reports have it, or a file with checks, as
+    /// `actucheck fuzz` writes it
+    #[arg(value_name = "ID|FILE")]
+    pub(crate) what: String,
     #[command(flatten)]
     pub(crate) growth: Growth,
+    #[command(flatten)]
+    pub(crate) adapter: Adapter,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Fuzz {
+    /// The wire whose packets are drawn
+    #[arg(long, value_enum, default_value = "dynamixel2")]
+    pub(crate) wire: Wire,
+    /// How long, as in 90s, 10m or 1h; a minute if neither this nor --cases is given
+    #[arg(long, value_name = "TIME", value_parser = duration, conflicts_with = "cases")]
+    pub(crate) time: Option<Duration>,
+    /// How many probes are drawn
+    #[arg(long, value_name = "N")]
+    pub(crate) cases: Option<u64>,
+    /// What the probes grow from; another number each time if it is not given
+    #[arg(long, value_name = "N")]
+    pub(crate) seed: Option<u64>,
+    /// Where to write what was found
+    #[arg(long, value_name = "FILE", default_value = "findings.yaml")]
+    pub(crate) out: PathBuf,
     #[command(flatten)]
     pub(crate) adapter: Adapter,
 }
@@ -147,12 +227,20 @@ pub(crate) struct Replay {
 pub(crate) struct Codec {
     #[command(flatten)]
     pub(crate) selection: Selection,
+    /// Ask the checks of this file too, as `actucheck fuzz` writes it; may be given more than once
+    #[arg(long, value_name = "FILE")]
+    pub(crate) also: Vec<PathBuf>,
     /// Known failures, which do not fail the run as long as they do fail
     #[arg(long, value_name = "FILE")]
     pub(crate) expect: Option<PathBuf>,
-    /// Write a report for programs; `-` is standard output
-    #[arg(long, value_name = "json=PATH", value_parser = report)]
-    pub(crate) report: Vec<Report>,
+    #[command(flatten)]
+    pub(crate) reports: report::Reports,
+    /// How many processes of the adapter share the work
+    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u8).range(1..))]
+    pub(crate) jobs: u8,
+    /// End the run after so many unexpected failures
+    #[arg(long, value_name = "N")]
+    pub(crate) max_fail: Option<NonZeroUsize>,
     #[command(flatten)]
     pub(crate) adapter: Adapter,
 }
@@ -199,17 +287,15 @@ pub(crate) enum Kind {
     Reply,
 }
 
-/// A report to be written.
-#[derive(Clone, Debug)]
-pub(crate) struct Report {
-    pub(crate) path: PathBuf,
-}
-
-fn report(text: &str) -> Result<Report, String> {
-    match text.split_once('=') {
-        Some(("json", path)) if !path.is_empty() => Ok(Report { path: path.into() }),
-        _ => Err("a report is written as json=PATH".to_owned()),
-    }
+/// A number of seconds, minutes or hours.
+fn duration(text: &str) -> Result<Duration, String> {
+    let units = [('s', 1.0), ('m', 60.0), ('h', 3600.0)];
+    let unit = units.into_iter().find_map(|(unit, size)| Some((text.strip_suffix(unit)?, size)));
+    let (number, size) = unit.unwrap_or((text, 1.0));
+    let number: Option<f64> = number.parse().ok().filter(|number| *number > 0.0);
+    number
+        .and_then(|number| Duration::try_from_secs_f64(number * size).ok())
+        .ok_or_else(|| "a time is a number above 0 with s, m or h, such as 90s".to_owned())
 }
 
 fn seconds(text: &str) -> Result<Duration, String> {

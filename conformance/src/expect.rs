@@ -2,7 +2,7 @@
 
 use std::fmt;
 use std::path::Path;
-use std::rc::Rc;
+use std::sync::Arc;
 
 use globset::GlobMatcher;
 use serde::Deserialize;
@@ -63,8 +63,17 @@ struct Row {
 /// The failures that are expected of an implementation.
 #[derive(Debug, Default)]
 pub struct Expectations {
-    /// A glob and the row that it stands in.
-    globs: Vec<(GlobMatcher, Rc<Row>)>,
+    globs: Vec<Expectation>,
+}
+
+/// A glob of a row.
+#[derive(Debug)]
+struct Expectation {
+    glob: GlobMatcher,
+    /// The row that it stands in.
+    row: Arc<Row>,
+    /// How many checks it stands for.
+    checks: usize,
 }
 
 impl Expectations {
@@ -82,30 +91,39 @@ impl Expectations {
         let mut globs = Vec::new();
         for (index, row) in file.expected_failures.into_iter().enumerate() {
             let fault = |message| ExpectError::Row { path: name.clone(), row: index + 1, message };
-            let row = Rc::new(row);
+            let row = Arc::new(row);
             for id in &row.ids {
-                let matcher = glob(id).map_err(fault)?.compile_matcher();
-                if !checks.iter().any(|check| matcher.is_match(&check.id)) {
+                let glob = glob(id).map_err(fault)?.compile_matcher();
+                let checks = checks.iter().filter(|check| glob.is_match(&check.id)).count();
+                if checks == 0 {
                     return Err(fault(format!("`{id}` is the id of no check")));
                 }
-                globs.push((matcher, Rc::clone(&row)));
+                globs.push(Expectation { glob, row: Arc::clone(&row), checks });
             }
         }
         Ok(Self { globs })
     }
 
-    /// Turns expected failures into [`Verdict::ExpectedFailure`]. Where none of the checks that an
-    /// id or glob stands for failed, their passes become [`Verdict::UnexpectedPass`].
+    /// Whether the check with this id is expected to fail.
+    #[must_use]
+    pub fn expect(&self, id: &str) -> bool {
+        self.globs.iter().any(|expected| expected.glob.is_match(id))
+    }
+
+    /// Turns expected failures into [`Verdict::ExpectedFailure`]. Where all checks that an id or
+    /// glob stands for were asked and none of them failed, their passes become
+    /// [`Verdict::UnexpectedPass`].
     pub fn apply(&self, outcomes: &mut [Outcome]) {
-        for (glob, row) in &self.globs {
+        for Expectation { glob, row, checks } in &self.globs {
             let mut matched: Vec<_> =
                 outcomes.iter_mut().filter(|outcome| glob.is_match(&outcome.id)).collect();
             let failed = matched.iter().any(|outcome| outcome.verdict.is_failure());
+            let stale = !failed && matched.len() == *checks;
             for outcome in &mut matched {
                 if outcome.verdict.is_failure() {
                     outcome.verdict = Verdict::ExpectedFailure;
                     outcome.detail = format!("{}; expected: {row}", outcome.detail);
-                } else if outcome.verdict == Verdict::Pass && !failed {
+                } else if outcome.verdict == Verdict::Pass && stale {
                     outcome.verdict = Verdict::UnexpectedPass;
                     outcome.detail = format!(
                         "passes, though `{}` is an expected failure; take it out of the file",

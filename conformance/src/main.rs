@@ -34,10 +34,13 @@ fn run() -> Result<ExitCode, Failure> {
     };
     match cli.command {
         Command::Codec(options) => commands::codec::run(&options),
+        Command::Fuzz(options) => commands::fuzz::run(&options),
         Command::Decode(options) => commands::decode::run(&options),
         Command::List(options) => commands::list::run(&options),
         Command::Show(options) => commands::show::run(&options),
         Command::Replay(options) => commands::replay::run(&options),
+        Command::Adapter(command) => commands::adapter::run(&command),
+        Command::Report(command) => commands::report::run(&command),
         Command::Spec(command) => commands::spec::run(&command),
         Command::Completions(options) => {
             commands::completions::run(&options);

@@ -1,7 +1,10 @@
 //! The adapter protocol, version 1: what the suite and an adapter say to each other, one JSON
 //! object a line.
 
+use std::fmt;
+
 use actucheck_spec::model::{Fault, FrameKind, HexBytes, Packet};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -11,7 +14,9 @@ use crate::call::Call;
 pub const VERSION: u32 = 1;
 
 /// A protocol whose packets are checked.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, clap::ValueEnum)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema, clap::ValueEnum,
+)]
 #[serde(rename_all = "lowercase")]
 pub enum Wire {
     /// DYNAMIXEL Protocol 2.0 and its JA dialect.
@@ -45,7 +50,7 @@ pub struct Request<'a> {
 }
 
 /// What the suite asks.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "op", rename_all = "lowercase")]
 pub enum Op {
     /// Who are you, and what can you do?
@@ -143,8 +148,15 @@ impl Op {
     }
 }
 
+/// As it goes over the pipe, but for its number.
+impl fmt::Display for Op {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&json(self)?)
+    }
+}
+
 /// A packet, and the call that sends it for a library that has calls rather than packets.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Called {
     /// The packet.
     #[serde(flatten)]
@@ -154,8 +166,20 @@ pub struct Called {
     pub call: Option<Call>,
 }
 
+impl<'de> Deserialize<'de> for Called {
+    /// The call is made from the packet again: it says the same in other words.
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let mut fields = serde_json::Map::deserialize(deserializer)?;
+        let called = fields.remove("call").is_some();
+        let packet: Packet =
+            serde_json::from_value(Value::Object(fields)).map_err(serde::de::Error::custom)?;
+        let call = called.then(|| Call::of(&packet)).flatten();
+        Ok(Self { packet, call })
+    }
+}
+
 /// What a fast status packet answers.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Fast {
     /// Bytes of data a block; 0 for Fast Sync Write.
     pub length: u16,
@@ -174,13 +198,20 @@ pub struct Hello {
     pub wires: Vec<String>,
     /// The ops that it offers.
     pub ops: Vec<String>,
+    /// How many requests may be outstanding.
+    #[serde(default = "one")]
+    pub max_in_flight: usize,
     /// What it can't go beyond.
     #[serde(default)]
     pub limits: Limits,
 }
 
+const fn one() -> usize {
+    1
+}
+
 /// An implementation under test.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Implementation {
     /// Its name.
     pub name: String,
@@ -232,7 +263,7 @@ pub struct Skip {
 }
 
 /// What an op yields when all is well.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Output {
     /// Of `crc`.
@@ -274,4 +305,20 @@ impl Output {
             _ => Self::Bytes(serde_json::from_value::<Bytes>(ok)?.bytes),
         })
     }
+}
+
+/// A CRC as a number in hex, bytes in hex, and packets as they come over the pipe.
+impl fmt::Display for Output {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Crc(crc) => write!(f, "{crc:#06X}"),
+            Self::Bytes(bytes) => bytes.fmt(f),
+            Self::Packet(packet) => f.write_str(&json(packet)?),
+            Self::Packets(packets) => f.write_str(&json(packets)?),
+        }
+    }
+}
+
+fn json(value: &impl Serialize) -> Result<String, fmt::Error> {
+    serde_json::to_string(value).map_err(|_| fmt::Error)
 }

@@ -3,13 +3,16 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use actucheck_spec::model::{HexBytes, Level};
-use serde::Serialize;
+use actucheck_spec::model::{HexBytes, Level, Packet};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use crate::protocol::{Op, Output};
 
 /// What came out of a check, in one word.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema,
+)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
     /// As demanded.
@@ -18,6 +21,8 @@ pub enum Verdict {
     Fail,
     /// Not as recommended, or rejected for another reason than the right one.
     Warn,
+    /// The documents leave it open; what is done is recorded, not judged.
+    Recorded,
     /// The implementation does not offer it.
     Skip,
     /// No answer in time.
@@ -36,10 +41,11 @@ pub enum Verdict {
 
 impl Verdict {
     /// Every verdict, in the order of reports.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Pass,
         Self::Fail,
         Self::Warn,
+        Self::Recorded,
         Self::Skip,
         Self::Timeout,
         Self::Crash,
@@ -48,6 +54,28 @@ impl Verdict {
         Self::ExpectedFailure,
         Self::UnexpectedPass,
     ];
+
+    /// Every verdict, the one that says most about a whole first: what went wrong before what
+    /// could not be tried, and that before what went well.
+    const WORST_FIRST: [Self; 11] = [
+        Self::Fail,
+        Self::UnexpectedPass,
+        Self::Crash,
+        Self::Timeout,
+        Self::AdapterFault,
+        Self::NotRun,
+        Self::ExpectedFailure,
+        Self::Warn,
+        Self::Pass,
+        Self::Recorded,
+        Self::Skip,
+    ];
+
+    /// Whether it tells of something that is not as demanded, or that could not be found out.
+    #[must_use]
+    pub const fn is_wrong(self) -> bool {
+        !matches!(self, Self::Pass | Self::Warn | Self::Recorded | Self::Skip)
+    }
 
     /// Whether an expected-failures file may excuse it.
     #[must_use]
@@ -62,6 +90,7 @@ impl fmt::Display for Verdict {
             Self::Pass => "pass",
             Self::Fail => "fail",
             Self::Warn => "warn",
+            Self::Recorded => "recorded",
             Self::Skip => "skip",
             Self::Timeout => "timeout",
             Self::Crash => "crash",
@@ -74,7 +103,7 @@ impl fmt::Display for Verdict {
 }
 
 /// The outcome of one check.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Outcome {
     /// The check's id.
     pub id: String,
@@ -95,23 +124,52 @@ pub struct Outcome {
     /// What came instead.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub actual: Option<Output>,
+    /// What is done where the documents leave it open; only of [`Verdict::Recorded`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub behaviour: Option<Behaviour>,
+}
+
+/// What an implementation does where the documents leave it open.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Behaviour {
+    /// The question, in words.
+    pub question: String,
+    /// What is done, in a few words.
+    pub answer: String,
 }
 
 impl Outcome {
-    /// The bytes demanded and the bytes that came, where both are bytes.
+    /// The bytes demanded and the bytes that came, where they differ; of packets the parameters of
+    /// the first that has others.
     #[must_use]
     pub fn bytes(&self) -> Option<(&HexBytes, &HexBytes)> {
-        match (&self.expected, &self.actual) {
-            (Some(Output::Bytes(expected)), Some(Output::Bytes(actual))) => {
-                Some((expected, actual))
-            }
-            _ => None,
-        }
+        let (expected, actual) = (self.expected.as_ref()?, self.actual.as_ref()?);
+        let mut pairs = bytes_of(expected).into_iter().zip(bytes_of(actual));
+        pairs.find(|(expected, actual)| expected != actual)
+    }
+}
+
+fn bytes_of(output: &Output) -> Vec<&HexBytes> {
+    match output {
+        Output::Crc(_) => Vec::new(),
+        Output::Bytes(bytes) => vec![bytes],
+        Output::Packet(packet) => parameters(packet),
+        Output::Packets(packets) => packets.iter().flat_map(parameters).collect(),
+    }
+}
+
+fn parameters(packet: &Packet) -> Vec<&HexBytes> {
+    match packet {
+        Packet::Instruction { params: data, .. }
+        | Packet::Status { params: data, .. }
+        | Packet::Request { data, .. }
+        | Packet::Reply { data, .. } => vec![data],
+        Packet::FastStatus { blocks } => blocks.iter().map(|block| &block.data).collect(),
     }
 }
 
 /// How often each verdict came out.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(transparent)]
 pub struct Totals(BTreeMap<Verdict, usize>);
 
@@ -137,12 +195,25 @@ impl Totals {
         self.0.values().sum()
     }
 
+    /// The verdict on all of them: the worst that came out; `None` of no checks.
+    #[must_use]
+    pub fn worst(&self) -> Option<Verdict> {
+        Verdict::WORST_FIRST.into_iter().find(|verdict| self.count(*verdict) > 0)
+    }
+
+    /// The verdicts that came out and how often, in the order of reports.
+    pub fn counts(&self) -> impl Iterator<Item = (Verdict, usize)> {
+        let counts = Verdict::ALL.into_iter().map(|verdict| (verdict, self.count(verdict)));
+        counts.filter(|(_, count)| *count > 0)
+    }
+
     /// The exit status of a run with this outcome: 0 all passed, 1 something failed, 3 something
     /// could not be run.
     #[must_use]
     pub fn exit_status(&self) -> u8 {
         let any = |verdicts: &[Verdict]| verdicts.iter().any(|verdict| self.count(*verdict) > 0);
-        let judged = any(&[Verdict::Pass, Verdict::Warn, Verdict::ExpectedFailure]);
+        let judged =
+            any(&[Verdict::Pass, Verdict::Warn, Verdict::Recorded, Verdict::ExpectedFailure]);
         if any(&[Verdict::Fail, Verdict::UnexpectedPass]) {
             1
         } else if any(&[Verdict::Timeout, Verdict::Crash, Verdict::AdapterFault, Verdict::NotRun])

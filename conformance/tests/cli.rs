@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
+use std::collections::BTreeSet;
+
 use assert_cmd::Command;
 use serde_json::Value;
 
@@ -25,9 +27,9 @@ fn the_main_job_passes_on_the_builtin_codec() {
 fn the_json_report_counts_every_verdict_and_lists_every_check() {
     let (status, stdout, _) = actucheck(&["codec", "--report", "json=-"]);
     let report: Value = serde_json::from_str(&stdout).unwrap();
-    assert_eq!((status, &report["version"]), (0, &Value::from(1)));
+    assert_eq!((status, &report["version"]), (0, &Value::from(2)));
     let totals = report["totals"].as_object().unwrap();
-    assert_eq!(totals.len(), 10);
+    assert_eq!(totals.len(), 11);
     let sum: u64 = totals.values().map(|count| count.as_u64().unwrap()).sum();
     let results = report["results"].as_array().unwrap();
     assert_eq!(sum, results.len() as u64);
@@ -202,4 +204,15 @@ fn completions_are_there_for_a_shell() {
     let (status, stdout, _) = actucheck(&["completions", "bash"]);
     assert_eq!(status, 0);
     assert!(stdout.contains("_actucheck"));
+}
+
+#[test]
+fn a_level_leaves_out_what_binds_less() {
+    let levels = |level: &str| -> BTreeSet<String> {
+        let (status, stdout, _) = actucheck(&["list", "--wire", "innfos", "--level", level]);
+        assert_eq!(status, 0);
+        stdout.lines().map(|line| line.split_whitespace().nth(1).unwrap().to_owned()).collect()
+    };
+    assert_eq!(levels("must"), ["must".to_owned()].into());
+    assert_eq!(levels("should"), ["must".to_owned(), "should".to_owned()].into());
 }

@@ -1,11 +1,18 @@
-//! The reference model against the documents: every golden vector, built and read.
+//! The reference model against the documents: every golden vector, built and read. It passes every
+//! check of the suite as well.
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
-use actucheck::protocol::Fast;
-use actucheck::reference;
+use std::ops::ControlFlow;
+
+use actucheck::cases;
+use actucheck::protocol::{Fast, Hello, Op, Output, Rejection, Wire};
+use actucheck::reference::{self, innfos};
+use actucheck::run::run;
+use actucheck::testee::{Answer, Builtin, Testee};
+use actucheck::verdict::Verdict;
 use actucheck_spec::Spec;
-use actucheck_spec::model::{FrameKind, Outcome, Packet};
+use actucheck_spec::model::{Fault, FrameKind, Outcome, Packet};
 
 #[test]
 fn every_golden_vector_is_built_read_or_rejected_as_it_says() {
@@ -48,10 +55,10 @@ fn every_innfos_vector_is_built_read_or_rejected_as_it_says() {
             Some(_) => FrameKind::Request,
             None => vector.kind.unwrap(),
         };
-        let decoded = reference::innfos::decode(kind, vector.frame());
+        let decoded = innfos::decode(kind, vector.frame());
         if let Some(packet) = &vector.packet {
             if vector.result == Outcome::Valid {
-                let built = reference::innfos::encode(packet);
+                let built = innfos::encode(packet);
                 assert_eq!(built.as_deref(), Some(vector.frame()), "{id}");
             }
             assert_eq!(decoded.as_ref(), Ok(packet), "{id}");
@@ -70,4 +77,66 @@ fn the_reference_finds_packets_among_noise() {
     let cut = &one[..one.len() - 3];
     let stream = [&[0xFF, 0xFF, 0xFD], cut, &one, &[0xFF, 0xFF, 0xFD, 0x00, 0x01], &two].concat();
     assert_eq!(reference::packets(&stream), [status(1), status(2)]);
+}
+
+/// The reference model as an implementation.
+struct Model(Builtin);
+
+impl Testee for Model {
+    fn hello(&self) -> &Hello {
+        self.0.hello()
+    }
+
+    fn ask(&mut self, op: &Op) -> Answer {
+        let bytes = |bytes: Vec<u8>| Ok(Output::Bytes(bytes.into()));
+        let answer = match op {
+            Op::Crc { wire: Wire::Dynamixel2, bytes } => {
+                Ok(Output::Crc(reference::crc(bytes).into()))
+            }
+            Op::Crc { wire: Wire::Innfos, bytes } => Ok(Output::Crc(innfos::crc(bytes).into())),
+            Op::Stuff { bytes: body, .. } => bytes(reference::stuff(body)),
+            Op::Unstuff { bytes: body, .. } => reference::unstuff(body).and_then(bytes),
+            Op::Encode { wire, packet } => match wire {
+                Wire::Dynamixel2 => reference::encode(&packet.packet),
+                Wire::Innfos => innfos::encode(&packet.packet),
+            }
+            .ok_or(Fault::Length)
+            .and_then(bytes),
+            Op::Decode { bytes, fast: Some(fast), .. } => {
+                reference::decode_fast(bytes, fast).map(Output::Packet)
+            }
+            Op::Decode { bytes, kind: Some(kind), .. } => {
+                innfos::decode(*kind, bytes).map(Output::Packet)
+            }
+            Op::Decode { bytes, .. } => reference::decode(bytes).map(Output::Packet),
+            Op::Stream { chunks, kind, .. } => Ok(Output::Packets(match kind {
+                Some(kind) => {
+                    chunks.iter().flat_map(|chunk| innfos::packets(*kind, chunk)).collect()
+                }
+                None => {
+                    reference::packets(&chunks.iter().flat_map(|c| c.0.clone()).collect::<Vec<_>>())
+                }
+            })),
+            Op::Hello { .. } | Op::Invented | Op::Bye => return self.0.ask(op),
+        };
+        answer.map_or_else(
+            |class| Answer::Rejected(Rejection { class, detail: String::new() }),
+            Answer::Ok,
+        )
+    }
+}
+
+#[test]
+fn the_reference_passes_every_check() {
+    let spec = Spec::embedded().unwrap();
+    for wire in Wire::ALL {
+        let options = cases::Options { cases: 100, ..cases::Options::new(wire) };
+        let checks = cases::all(&spec, &options);
+        let model = Model(Builtin::default());
+        let outcomes = run(&mut [Box::new(model)], &checks, |_| ControlFlow::Continue(()));
+        let bad = outcomes
+            .iter()
+            .find(|outcome| !matches!(outcome.verdict, Verdict::Pass | Verdict::Recorded));
+        assert_eq!((bad, outcomes.len()), (None, checks.len()));
+    }
 }

@@ -21,7 +21,8 @@ pub struct CheckName<'a> {
 pub struct Row<'a> {
     /// The requirement.
     pub requirement: &'a Requirement,
-    /// The suite's checks that name it, by what they are asked of.
+    /// The suite's checks that name it, or the one that it is checked with, by what they are asked
+    /// of.
     pub checks: BTreeMap<Role, Checks>,
 }
 
@@ -83,9 +84,10 @@ pub fn matrix<'a, 'b>(
     spec.requirements
         .iter()
         .flat_map(|file| &file.content.requirements)
-        .map(|requirement| Row {
-            requirement,
-            checks: by_requirement.remove(requirement.id.as_str()).unwrap_or_default(),
+        .map(|requirement| {
+            let own = by_requirement.get(requirement.id.as_str());
+            let shared = requirement.checked_with.as_deref().and_then(|id| by_requirement.get(id));
+            Row { requirement, checks: own.or(shared).cloned().unwrap_or_default() }
         })
         .collect()
 }

@@ -55,19 +55,23 @@ fn file_name(name: &str) -> String {
 
 /// The schema of what is read.
 fn source<T: JsonSchema>(name: &str) -> SchemaFile {
-    file::<T>(file_name(name), SchemaSettings::draft2020_12())
+    SchemaFile { path: file_name(name), text: text::<T>(SchemaSettings::draft2020_12()) }
 }
 
 /// The schema of what is written.
 fn export<T: JsonSchema>(name: &str) -> SchemaFile {
-    let path = file_name(&format!("export/{name}"));
-    file::<T>(path, SchemaSettings::draft2020_12().for_serialize())
+    SchemaFile { path: file_name(&format!("export/{name}")), text: of_written::<T>() }
 }
 
-fn file<T: JsonSchema>(path: String, settings: SchemaSettings) -> SchemaFile {
+/// The text of the schema of what is written: every field is there, if only with `null`.
+#[must_use]
+pub fn of_written<T: JsonSchema>() -> String {
+    text::<T>(SchemaSettings::draft2020_12().for_serialize())
+}
+
+fn text<T: JsonSchema>(settings: SchemaSettings) -> String {
     let schema = settings.into_generator().into_root_schema_for::<T>();
     // A schema has string keys only, so it can be written. `{:#}` indents it.
     // The model's documentation links as rustdoc does, which nobody else follows.
-    let text = format!("{:#}\n", schema.as_value()).replace("[`", "`").replace("`]", "`");
-    SchemaFile { path, text }
+    format!("{:#}\n", schema.as_value()).replace("[`", "`").replace("`]", "`")
 }

@@ -5,8 +5,6 @@ The SDK is used as published, through its public classes, over a port in memory.
 every packet reported is the SDK's work, its mistakes included; what it cannot do is skipped.
 """
 
-import json
-import sys
 from importlib.metadata import version
 
 from dynamixel_sdk import (
@@ -16,7 +14,6 @@ from dynamixel_sdk import (
     DXL_HIBYTE,
     DXL_LOBYTE,
     DXL_MAKEWORD,
-    INST_STATUS,
 )
 
 # By its module: the package exports these names for Protocol 1.0 as well.
@@ -30,11 +27,10 @@ from dynamixel_sdk.protocol2_packet_handler import (
     TXPACKET_MAX_LEN,
 )
 
+from adapter_kit import Skipped, is_instruction, serve, unhex
 from calls import CALLS, sync_read_group
-from common import SDK, BadRequest, Fields, Rejected, Skipped, unhex
+from common import SDK, rejected
 from memory_port import MemoryPort
-
-WIRE = "dynamixel2"
 
 # The list that the SDK's methods pass around: seven bytes of header with the length field, the body,
 # two bytes for the CRC. Header and CRC are txPacket's to fill in.
@@ -86,7 +82,7 @@ def encode(request):
         result = SDK.txPacket(port, packet_list(packet["id"], body))
     # Some methods also wait for the answer, which never comes.
     if result not in (COMM_SUCCESS, COMM_RX_TIMEOUT):
-        raise Rejected.by(result)
+        raise rejected(result)
     return {"bytes": port.written.hex()}
 
 
@@ -99,10 +95,9 @@ def decode(request):
     received, result = SDK.rxPacket(port, False)
     if result == COMM_SUCCESS:
         return {"packet": status(received)}
-    instruction = frame[PKT_INSTRUCTION : PKT_INSTRUCTION + 1]
-    if frame.startswith(b"\xff\xff\xfd\x00") and instruction not in (b"", bytes([INST_STATUS])):
+    if is_instruction(frame):
         raise Skipped("a host's SDK: it reads no instruction packets")
-    raise Rejected.by(result)
+    raise rejected(result)
 
 
 def status(received):
@@ -121,7 +116,7 @@ def fast_status(port, fast):
     group = sync_read_group(port, BROADCAST_ID, {"address": 0, "length": length, "ids": ids})
     result = group.fastSyncReadRxPacket()
     if result != COMM_SUCCESS:
-        raise Rejected.by(result)
+        raise rejected(result)
     # Byte by byte, because getData knows the lengths 1, 2 and 4 only. The group throws the devices'
     # error bytes away and reports success: to its caller that is "no error".
     return {
@@ -144,63 +139,14 @@ def stream(request):
     return {"packets": packets}
 
 
-def hello(request):
-    if 1 not in request["protocol"]:
-        raise BadRequest("this adapter speaks protocol 1 only")
-    return {
-        "protocol": 1,
-        "implementation": {
+if __name__ == "__main__":
+    serve(
+        {
             "name": "dynamixel-sdk",
             "version": version("dynamixel-sdk"),
-            "language": "Python",
             "url": "https://github.com/ROBOTIS-GIT/DynamixelSDK",
         },
-        "wires": [WIRE],
-        "ops": ["hello", *OPS, "bye"],
-        "limits": {"max_packet": TXPACKET_MAX_LEN},
-    }
-
-
-OPS = {op.__name__: op for op in (crc, stuff, unstuff, encode, decode, stream)}
-
-
-def answer(request):
-    try:
-        op = request["op"]
-        if op == "hello":
-            return {"ok": hello(request)}
-        if op not in OPS:
-            return {"skip": {"reason": f"no op {op!r}"}}
-        if request["wire"] != WIRE:
-            return {"skip": {"reason": f"the SDK does not speak {request['wire']!r}"}}
-        return {"ok": OPS[op](request)}
-    except Skipped as skipped:
-        return {"skip": {"reason": str(skipped)}}
-    except Rejected as error:
-        return {"err": {"class": error.error_class, "detail": str(error)}}
-    except BadRequest as error:
-        return {"err": {"class": "parameter", "detail": f"bad request: {error}"}}
-    except Exception as error:  # whatever the SDK lets through is a finding
-        return {"err": {"class": "internal", "detail": f"{type(error).__name__}: {error}"}}
-
-
-def main():
-    replies = sys.stdout
-    sys.stdout = sys.stderr  # should the SDK print, it must not print into the protocol
-    for line in sys.stdin.buffer:
-        try:
-            request = json.loads(line, object_hook=Fields)
-        except (ValueError, RecursionError) as error:
-            sys.exit(f"adapter: not a line of JSON: {error}")
-        if not isinstance(request, dict) or type(request.get("id")) is not int:
-            sys.exit("adapter: a request is an object with an integer id")
-        if request.get("op") == "bye":
-            break
-        print(json.dumps({"id": request["id"], **answer(request)}), file=replies, flush=True)
-
-
-if __name__ == "__main__":
-    try:
-        main()
-    except (BrokenPipeError, KeyboardInterrupt):
-        sys.exit(1)
+        "dynamixel2",
+        {op.__name__: op for op in (crc, stuff, unstuff, encode, decode, stream)},
+        {"max_packet": TXPACKET_MAX_LEN},
+    )

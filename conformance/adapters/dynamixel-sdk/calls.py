@@ -5,7 +5,8 @@ A function makes the SDK send and returns the SDK's result code; the bytes are l
 
 from dynamixel_sdk import BROADCAST_ID, GroupBulkRead, GroupBulkWrite, GroupSyncRead, GroupSyncWrite
 
-from common import SDK, Rejected, Skipped, unhex
+from adapter_kit import Rejected, Skipped, unhex
+from common import SDK
 
 # The one thing that clearMultiTurn can send.
 CLEAR_PARAMS = "0144584c22"

@@ -1,4 +1,4 @@
-"""What adapter.py and calls.py share: the SDK, the ways a request can end, reading its fields."""
+"""What adapter.py and calls.py share: the SDK and its result codes."""
 
 from dynamixel_sdk import (
     COMM_NOT_AVAILABLE,
@@ -9,6 +9,8 @@ from dynamixel_sdk import (
     COMM_TX_FAIL,
     PacketHandler,
 )
+
+from adapter_kit import Rejected
 
 SDK = PacketHandler(2.0)
 
@@ -24,36 +26,7 @@ ERROR_CLASSES = {
 }
 
 
-class Rejected(Exception):
-    """The SDK says no."""
-
-    def __init__(self, error_class, detail):
-        super().__init__(detail)
-        self.error_class = error_class
-
-    @classmethod
-    def by(cls, result):
-        detail = SDK.getTxRxResult(result) or f"unknown result {result}"
-        return cls(ERROR_CLASSES.get(result, "internal"), detail)
-
-
-class Skipped(Exception):
-    """The SDK has nothing for this."""
-
-
-class BadRequest(Exception):
-    """The request breaks the adapter protocol."""
-
-
-class Fields(dict):
-    """A JSON object that takes a missing field for a bad request, not for an error in the SDK."""
-
-    def __missing__(self, name):
-        raise BadRequest(f"no field {name!r}")
-
-
-def unhex(text):
-    try:
-        return bytes.fromhex(text)
-    except (TypeError, ValueError) as error:
-        raise BadRequest(f"{text!r} is not hex: {error}") from None
+def rejected(result):
+    """The SDK says no with a result code."""
+    detail = SDK.getTxRxResult(result) or f"unknown result {result}"
+    return Rejected(ERROR_CLASSES.get(result, "internal"), detail)

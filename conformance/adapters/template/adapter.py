@@ -12,6 +12,10 @@ class Rejected(Exception):
         self.fault = fault
 
 
+class Skipped(Exception):
+    """Raise it where the library has nothing for the request, with the reason."""
+
+
 # An op takes the request and returns the object that `ok` holds, for example:
 #
 #     def crc(request):
@@ -36,6 +40,8 @@ def answer(request):
         return {"skip": {"reason": f"no {op}"}}
     try:
         return {"ok": OPS[op](request)}
+    except Skipped as skipped:
+        return {"skip": {"reason": str(skipped)}}
     except Rejected as rejected:
         return {"err": {"class": rejected.fault, "detail": str(rejected)}}
     except Exception as error:  # what the library lets through is a finding

@@ -19,14 +19,23 @@ const INSIDE: u32 = 4;
 const LENGTHS: [usize; 17] =
     [0, 1, 2, 3, 4, 122, 123, 124, 127, 128, 129, 250, 251, 252, 255, 256, 257];
 
-pub(super) fn checks(author: &Author<'_>) -> Vec<Check> {
+/// The largest packet that a length of two bytes can tell of.
+const LARGEST: usize = 65_535 + reference::PREFIX;
+/// Bytes of a Write around its data. A status packet has one less.
+const WRITE_AROUND: usize = 12;
+
+/// The address that is written, 116: some libraries end at 255.
+const REGISTER: [u8; 2] = [0x74, 0x00];
+
+pub(super) fn checks(author: &Author<'_>, max_packet: Option<usize>) -> Vec<Check> {
     let mut checks = Vec::new();
     checks.extend((0..=ALONE).flat_map(words).flat_map(|body| alone(author, &body)));
     checks.extend((0..=INSIDE).flat_map(words).flat_map(|body| inside(author, &body)));
     checks.extend((0..=u8::MAX).flat_map(|code| instruction(author, code)));
     checks.extend((0..=u8::MAX).flat_map(|error| error_byte(author, error)));
     checks.extend((0..=252).chain([BROADCAST]).flat_map(|id| id_byte(author, id)));
-    checks.extend(LENGTHS.iter().flat_map(|length| lengths(author, *length)));
+    let around = LENGTHS.into_iter().chain(largest(max_packet));
+    checks.extend(around.flat_map(|length| lengths(author, length)));
     checks.extend(before_params(author));
     checks
 }
@@ -80,19 +89,21 @@ fn inside(author: &Author<'_>, word: &[u8]) -> Vec<Check> {
         Packet::Instruction { id, instruction, params: params.into() }
     };
     let status = |params: Vec<u8>| Packet::Status { id: 1, error: 0, params: params.into() };
-    let [low, high] = u16::try_from(word.len()).unwrap_or_default().to_le_bytes();
+    let size = u16::try_from(word.len()).unwrap_or_default().to_le_bytes();
+    let sync = [REGISTER.as_slice(), &size, &[1]].concat();
+    let bulk = [&[1], REGISTER.as_slice(), &size].concat();
     let mut packets = vec![
-        ("write", instruction(0x03, with(&[0x34, 0x02], &[]))),
-        ("write-middle", instruction(0x03, with(&[0x34, 0x02], &[0x05, 0x06]))),
-        ("reg-write", instruction(0x04, with(&[0x34, 0x02], &[]))),
+        ("write", instruction(0x03, with(&REGISTER, &[]))),
+        ("write-middle", instruction(0x03, with(&REGISTER, &[0x05, 0x06]))),
+        ("reg-write", instruction(0x04, with(&REGISTER, &[]))),
         ("status", status(with(&[], &[]))),
         ("status-middle", status(with(&[0x05], &[0x06]))),
     ];
     if !word.is_empty() {
         packets.extend([
-            ("sync-write", instruction(0x83, with(&[0x34, 0x02, low, high, 0x01], &[]))),
-            ("bulk-write", instruction(0x93, with(&[0x01, 0x34, 0x02, low, high], &[]))),
-            ("fast-sync-write", instruction(0x8B, with(&[0x34, 0x02, low, high, 0x01], &[]))),
+            ("sync-write", instruction(0x83, with(&sync, &[]))),
+            ("bulk-write", instruction(0x93, with(&bulk, &[]))),
+            ("fast-sync-write", instruction(0x8B, with(&sync, &[]))),
         ]);
     }
     let mut checks = Vec::new();
@@ -155,6 +166,15 @@ fn id_byte(author: &Author<'_>, id: u8) -> Vec<Check> {
     checks
 }
 
+/// Data lengths, beyond [`LENGTHS`], of the largest packets that an implementation takes: a Write
+/// with a byte less, a Write, a status packet, and a Write that stuffing makes so large.
+fn largest(max_packet: Option<usize>) -> Vec<usize> {
+    let Some(limit) = max_packet.map(|limit| limit.min(LARGEST)) else { return Vec::new() };
+    let Some(write) = limit.checked_sub(WRITE_AROUND) else { return Vec::new() };
+    let lengths = [write.saturating_sub(1), write, write + 1, write * 3 / 4];
+    lengths.into_iter().filter(|length| !LENGTHS.contains(length)).collect()
+}
+
 /// Plain data, and data that is all patterns, of this length.
 fn lengths(author: &Author<'_>, length: usize) -> Vec<Check> {
     let plain = vec![0x11; length];
@@ -166,7 +186,7 @@ fn lengths(author: &Author<'_>, length: usize) -> Vec<Check> {
     ] {
         let of_status =
             if name == "plain" { "dynamixel2.packet.length.status" } else { requirement };
-        let params = [&[0x34, 0x02], data.as_slice()].concat();
+        let params = [&REGISTER, data.as_slice()].concat();
         let write = Packet::Instruction { id: 1, instruction: 0x03, params: params.into() };
         let status = Packet::Status { id: 1, error: 0, params: data.into() };
         let id = format!("dynamixel2.length.{length}.{name}");

@@ -1,11 +1,12 @@
 //! The packets that the documents print, and those worked out by hand from their rules. Each
 //! yields a check an op.
 
+use actucheck_spec::Spec;
 use actucheck_spec::model::{Citation, Fault, HexBytes, Outcome, Packet, Vector, VectorsFile};
 
 use super::{Author, of_reading};
 use crate::call::Call;
-use crate::check::{Check, Demand};
+use crate::check::{Check, Demand, Open, Way};
 use crate::protocol::{Called, Fast, Op, Output, Wire};
 
 /// Bytes before the body, and behind it.
@@ -29,7 +30,8 @@ struct Golden<'a> {
 
 impl Golden<'_> {
     fn checks(&self) -> Vec<Check> {
-        let own = self.vector.requirement.as_deref().unwrap_or("ja40.packets");
+        let of_document = format!("{}.packets", self.source().document);
+        let own = self.vector.requirement.as_deref().unwrap_or(&of_document);
         let frame = self.vector.frame();
         let mut checks = Vec::new();
         match &self.vector.packet {
@@ -61,10 +63,7 @@ impl Golden<'_> {
 
     /// What the vector's result demands where `output` is right.
     fn demand(&self, output: Output) -> Demand {
-        match self.vector.result {
-            Outcome::Acceptable => Demand::YieldOneOfOrReject(vec![output]),
-            Outcome::Valid | Outcome::Invalid => Demand::Yield(output),
-        }
+        demand(self.author.spec, self.vector, output, Vec::new())
     }
 
     fn crc(&self, frame: &[u8]) -> Check {
@@ -141,15 +140,19 @@ impl Golden<'_> {
         }
         let whole = vec![frame.to_vec().into()];
         let bytewise = frame.iter().map(|byte| vec![*byte].into()).collect();
-        [("stream", whole), ("stream-bytewise", bytewise)]
-            .into_iter()
-            .map(|(name, chunks)| {
-                let op = Op::Stream { wire: self.wire, chunks, kind: None };
-                let demand = Demand::Yield(Output::Packets(vec![packet.clone()]));
-                let check = self.check(name, "dynamixel2.receive.stream", op, demand);
-                Check { presumes: Some(format!("{}/decode", self.vector.id)), ..check }
-            })
-            .collect()
+        let of_document = format!("{}.packets", self.source().document);
+        [
+            ("stream", &*of_document, whole),
+            ("stream-bytewise", "dynamixel2.receive.stream", bytewise),
+        ]
+        .into_iter()
+        .map(|(name, requirement, chunks)| {
+            let op = Op::Stream { wire: self.wire, chunks, kind: None };
+            let demand = Demand::Yield(Output::Packets(vec![packet.clone()]));
+            let check = self.check(name, requirement, op, demand);
+            Check { presumes: Some(format!("{}/decode", self.vector.id)), ..check }
+        })
+        .collect()
     }
 
     fn rejects(&self, name: &str, requirement: &str, bytes: &[u8], fault: Fault) -> Check {
@@ -162,6 +165,28 @@ impl Golden<'_> {
         };
         self.check(name, requirement, op, Demand::Reject(fault))
     }
+}
+
+/// What a vector's result demands where `output` is right, or beside it one of `others`.
+pub(super) fn demand(spec: &Spec, vector: &Vector, output: Output, others: Vec<Way>) -> Demand {
+    if vector.result != Outcome::Acceptable {
+        return Demand::Yield(output);
+    }
+    let mut ways = vec![way(vector, output)];
+    ways.extend(others);
+    Demand::Record(Open { question: question(spec, vector), ways })
+}
+
+/// To do as this vector has it.
+pub(super) fn way(vector: &Vector, output: Output) -> Way {
+    Way { name: format!("as {}", vector.id), output }
+}
+
+/// What is open about a vector, by the errata that it depends on.
+fn question(spec: &Spec, vector: &Vector) -> String {
+    let rows = spec.errata.content.errata.iter().filter(|row| vector.errata.contains(&row.id));
+    let open: Vec<_> = rows.map(|row| format!("{} ({})", row.held_right, row.id)).collect();
+    format!("{}: {}", vector.id, open.join("; "))
 }
 
 /// What a fast status packet answers.

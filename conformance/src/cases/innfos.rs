@@ -1,10 +1,11 @@
 //! Checks of the INNFOS Ethernet protocol: the document's frames, everything where everything is
 //! little, and each rule broken alone.
 
-use actucheck_spec::model::{Fault, FrameKind, Outcome, Packet, Vector};
+use actucheck_spec::model::{Citation, Fault, FrameKind, Outcome, Packet, Vector};
 
+use super::golden::{demand, way};
 use super::{Author, hex};
-use crate::check::{Check, Demand};
+use crate::check::{Check, Demand, Open, Way};
 use crate::protocol::{Called, Op, Output};
 use crate::reference::innfos as reference;
 
@@ -13,8 +14,14 @@ const ALPHABET: [u8; 4] = [0xEE, 0xED, 0x00, 0x01];
 /// Sizes of data: those of the commands' tables, and where the length needs its other byte.
 const SIZES: [usize; 10] = [0, 1, 2, 3, 4, 8, 255, 256, 257, 1000];
 
-pub(super) fn checks(author: &Author<'_>) -> Vec<Check> {
+/// The most data that a length can tell of, and the bytes around it.
+const LARGEST: usize = 65_535;
+const AROUND: usize = 8;
+
+pub(super) fn checks(author: &Author<'_>, max_packet: Option<usize>) -> Vec<Check> {
     let mut checks = golden(author);
+    let largest = max_packet.and_then(|limit| limit.checked_sub(AROUND));
+    let largest = largest.map(|size| size.min(LARGEST)).filter(|size| !SIZES.contains(size));
     for kind in [FrameKind::Request, FrameKind::Reply] {
         checks.extend((0..=u8::MAX).flat_map(|byte| {
             let address =
@@ -22,13 +29,14 @@ pub(super) fn checks(author: &Author<'_>) -> Vec<Check> {
             let command = both_ways(author, &format!("command.{byte:02x}"), kind, 1, byte, &[1, 2]);
             address.into_iter().chain(command)
         }));
-        checks.extend(SIZES.iter().flat_map(|size| {
-            both_ways(author, &format!("size.{size}"), kind, 6, 0x2A, &vec![0x5A; *size])
+        checks.extend(SIZES.into_iter().chain(largest).flat_map(|size| {
+            both_ways(author, &format!("size.{size}"), kind, 6, 0x2A, &vec![0x5A; size])
         }));
         checks.extend((0..=4).flat_map(words).flat_map(|data| {
             both_ways(author, &format!("data.{}", hex(&data)), kind, 6, 0x0A, &data)
         }));
         checks.extend(damaged(author, kind));
+        checks.extend(behind_damage(author, kind));
     }
     checks
 }
@@ -55,10 +63,11 @@ fn golden(author: &Author<'_>) -> Vec<Check> {
             if let Some((op, demand)) = crc(author, packet) {
                 add("crc", "innfos.crc.value", op, demand);
             }
-            add("encode", own, encode(author, packet), encode_demand(vector, packet, &vectors));
-            let output = Output::Packet(packet.clone());
-            let kind = kind_of(packet);
-            add("decode", own, decode(author, kind, vector.frame()), demand(vector, output));
+            let others = others(vector, packet, &vectors);
+            let built = demand(author.spec, vector, frame(vector), others);
+            add("encode", own, encode(author, packet), built);
+            let read = demand(author.spec, vector, Output::Packet(packet.clone()), Vec::new());
+            add("decode", own, decode(author, kind_of(packet), vector.frame()), read);
         } else if let (Some(kind), Some(fault)) = (vector.kind, vector.fault) {
             add("decode", own, decode(author, kind, vector.frame()), Demand::Reject(fault));
         }
@@ -72,21 +81,18 @@ fn golden(author: &Author<'_>) -> Vec<Check> {
     checks
 }
 
-fn demand(vector: &Vector, output: Output) -> Demand {
-    match vector.result {
-        Outcome::Acceptable => Demand::YieldOneOfOrReject(vec![output]),
-        Outcome::Valid | Outcome::Invalid => Demand::Yield(output),
-    }
+/// The other frames that a packet has where readings of the document differ.
+fn others(vector: &Vector, packet: &Packet, all: &[(&Citation, &Vector)]) -> Vec<Way> {
+    let others = all.iter().map(|(_, other)| *other).filter(|other| {
+        other.id != vector.id
+            && other.result == Outcome::Acceptable
+            && other.packet.as_ref() == Some(packet)
+    });
+    others.map(|other| way(other, frame(other))).collect()
 }
 
-/// Where readings of the document differ, a packet has several frames; each will do.
-fn encode_demand<S>(vector: &Vector, packet: &Packet, all: &[(S, &Vector)]) -> Demand {
-    let bytes = |vector: &Vector| Output::Bytes(vector.frame().to_vec().into());
-    if vector.result != Outcome::Acceptable {
-        return Demand::Yield(bytes(vector));
-    }
-    let same = all.iter().filter(|(_, other)| other.packet.as_ref() == Some(packet));
-    Demand::YieldOneOfOrReject(same.map(|(_, other)| bytes(other)).collect())
+fn frame(vector: &Vector) -> Output {
+    Output::Bytes(vector.frame().to_vec().into())
 }
 
 /// The CRC of a packet's data. The document's function returns the two bytes the other way round
@@ -124,6 +130,11 @@ fn both_ways(
     command: u8,
     data: &[u8],
 ) -> Vec<Check> {
+    let requirement = match data.len() {
+        0 => "innfos.frame.no-data",
+        _ if name.starts_with("size.") => "innfos.crc.byte-order",
+        _ => "innfos.frame.layout",
+    };
     let data = data.to_vec().into();
     let (word, packet) = match kind {
         FrameKind::Request => ("request", Packet::Request { address, command, data }),
@@ -134,7 +145,6 @@ fn both_ways(
     let chunk = [frame.as_slice(), &frame].concat();
     let stream = Op::Stream { wire: author.wire, kind: Some(kind), chunks: vec![chunk.into()] };
     let (once, twice) = (Output::Packet(packet.clone()), vec![packet.clone(), packet.clone()]);
-    let requirement = "innfos.frame.layout";
     let built = Demand::Yield(Output::Bytes(frame.clone().into()));
     let read = Demand::Yield(once);
     let found = Demand::Yield(Output::Packets(twice));
@@ -147,11 +157,7 @@ fn both_ways(
 
 /// A frame with a bit flipped, cut short or with a byte too many.
 fn damaged(author: &Author<'_>, kind: FrameKind) -> Vec<Check> {
-    let data = vec![0x01, 0x02, 0x03, 0x04].into();
-    let (word, packet) = match kind {
-        FrameKind::Request => ("request", Packet::Request { address: 6, command: 0x0A, data }),
-        FrameKind::Reply => ("reply", Packet::Reply { address: 6, command: 0x06, data }),
-    };
+    let (word, packet) = example(kind);
     let frame = reference::encode(&packet).unwrap_or_default();
     let mut damaged = Vec::new();
     for at in 0..frame.len() {
@@ -177,6 +183,55 @@ fn damaged(author: &Author<'_>, kind: FrameKind) -> Vec<Check> {
         checks.push(author.check(id, requirement, decode(author, kind, &bytes), demand));
     }
     checks
+}
+
+/// A good frame behind something else in one datagram, which the document does not speak of.
+fn behind_damage(author: &Author<'_>, kind: FrameKind) -> Vec<Check> {
+    let (word, packet) = example(kind);
+    let good = reference::encode(&packet).unwrap_or_default();
+    let flipped = |at: usize| {
+        let mut frame = good.clone();
+        if let Some(byte) = frame.get_mut(at) {
+            *byte ^= 1;
+        }
+        frame
+    };
+    let cut = good.get(..good.len() - 1).unwrap_or_default().to_vec();
+    let scenarios = [
+        ("garbage", vec![0x00, 0x01]),
+        ("wrong-header", flipped(0)),
+        ("wrong-length", flipped(4)),
+        ("wrong-crc", flipped(good.len() - 2)),
+        ("wrong-tail", flipped(good.len() - 1)),
+        ("cut", cut),
+    ];
+    let check = |(name, damage): (&str, Vec<u8>)| {
+        let datagram = [damage, good.clone()].concat();
+        let ways = [
+            ("it is found", reference::packets_anywhere(kind, &datagram)),
+            ("the datagram is dropped from the damage on", reference::packets(kind, &datagram)),
+        ];
+        let ways = ways
+            .map(|(name, packets)| Way { name: name.to_owned(), output: Output::Packets(packets) });
+        let question = format!(
+            "What becomes of a good frame in a datagram behind {}?",
+            name.replace('-', " ")
+        );
+        let open = Open { question, ways: ways.into() };
+        let id = format!("innfos.open.{word}.behind-{name}/stream");
+        let op = Op::Stream { wire: author.wire, chunks: vec![datagram.into()], kind: Some(kind) };
+        author.check(id, "innfos.frame.layout", op, Demand::Record(open))
+    };
+    scenarios.map(check).into()
+}
+
+/// A packet with data that can be damaged.
+fn example(kind: FrameKind) -> (&'static str, Packet) {
+    let data = vec![0x01, 0x02, 0x03, 0x04].into();
+    match kind {
+        FrameKind::Request => ("request", Packet::Request { address: 6, command: 0x0A, data }),
+        FrameKind::Reply => ("reply", Packet::Reply { address: 6, command: 0x06, data }),
+    }
 }
 
 fn requirement_of(fault: Fault) -> &'static str {

@@ -2,7 +2,9 @@
 //!
 //! - golden: the packets of the documents;
 //! - exhaustive: everything where everything is little;
+//! - instructions: what is said of single instructions;
 //! - negative: each rule of the receive procedure broken;
+//! - open: what the documents leave open, which is recorded;
 //! - generated: packets and streams from a seed.
 //!
 //! What a golden check demands is printed in a document; what the others demand comes from
@@ -10,10 +12,12 @@
 //! the list.
 
 mod exhaustive;
-mod generated;
+pub(crate) mod generated;
 mod golden;
 mod innfos;
+mod instructions;
 mod negative;
+mod open;
 
 use actucheck_spec::Spec;
 use actucheck_spec::model::{Citation, Level, Packet};
@@ -32,13 +36,15 @@ pub struct Options {
     pub seed: u64,
     /// How many packets are generated.
     pub cases: u32,
+    /// Bytes of the longest frame that the implementation says it takes.
+    pub max_packet: Option<usize>,
 }
 
 impl Options {
     /// The checks of a wire as they are without further options.
     #[must_use]
     pub const fn new(wire: Wire) -> Self {
-        Self { wire, seed: 1, cases: 1000 }
+        Self { wire, seed: 1, cases: 1000, max_packet: None }
     }
 }
 
@@ -49,23 +55,25 @@ pub fn all(spec: &Spec, options: &Options) -> Vec<Check> {
     match options.wire {
         Wire::Dynamixel2 => {
             let mut checks = golden::checks(&author);
-            checks.extend(exhaustive::checks(&author));
+            checks.extend(exhaustive::checks(&author, options.max_packet));
+            checks.extend(instructions::checks(&author));
             checks.extend(negative::checks(&author));
+            checks.extend(open::checks(&author));
             checks.extend(generated::checks(&author, options.seed, options.cases));
             checks
         }
-        Wire::Innfos => innfos::checks(&author),
+        Wire::Innfos => innfos::checks(&author, options.max_packet),
     }
 }
 
 /// Writes checks about one wire.
-struct Author<'a> {
-    spec: &'a Spec,
-    wire: Wire,
+pub(crate) struct Author<'a> {
+    pub(crate) spec: &'a Spec,
+    pub(crate) wire: Wire,
 }
 
 impl Author<'_> {
-    fn check(&self, id: String, requirement: &str, op: Op, demand: Demand) -> Check {
+    pub(crate) fn check(&self, id: String, requirement: &str, op: Op, demand: Demand) -> Check {
         let row = self.spec.requirement(requirement);
         Check {
             id,
@@ -138,7 +146,7 @@ fn hex(bytes: &[u8]) -> String {
 }
 
 /// The requirement on an instruction's parameters: `dynamixel2.sync-read.parameters`.
-fn parameters_of(spec: &Spec, name: &str) -> String {
+pub(crate) fn parameters_of(spec: &Spec, name: &str) -> String {
     let name = name.to_lowercase().replace(' ', "-");
     let name = if name == "control-table-backup" { "backup".to_owned() } else { name };
     let ids = ["dynamixel2", "ja40"].map(|document| format!("{document}.{name}.parameters"));

@@ -1,7 +1,6 @@
 //! The receive procedure with one rule broken, one rule at a time; and what comes after.
 //!
-//! What the documents leave open is not here: a bare pattern, IDs 253 and 255, and where to go on
-//! behind a packet whose length can't be trusted.
+//! What the documents leave open is not here but in `open.rs`.
 
 use actucheck_spec::model::Packet;
 

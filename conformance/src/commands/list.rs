@@ -10,7 +10,7 @@ use crate::cli::List;
 pub(crate) fn run(options: &List) -> Result<ExitCode, Failure> {
     let spec = super::spec()?;
     let selection = &options.selection;
-    let checks = super::checks(&spec, selection.wire, &selection.growth);
+    let checks = super::checks(&spec, selection.wire, &selection.growth, None);
     let checks = super::selected(checks, selection)?;
     let mut out = io::BufWriter::new(io::stdout().lock());
     for check in &checks {

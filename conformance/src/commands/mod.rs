@@ -1,23 +1,33 @@
 //! What each subcommand does.
 
+pub(crate) mod adapter;
 pub(crate) mod codec;
 pub(crate) mod completions;
 pub(crate) mod decode;
+pub(crate) mod fuzz;
 pub(crate) mod list;
+mod output;
 pub(crate) mod replay;
+pub(crate) mod report;
 pub(crate) mod show;
 pub(crate) mod spec;
 
 use std::fmt;
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use actucheck::cases;
 use actucheck::check::Check;
-use actucheck::protocol::Wire;
+use actucheck::protocol::{Hello, Wire};
 use actucheck::select::select;
-use actucheck::testee::{Builtin, Process, Testee, Timeouts};
+use actucheck::testee::{Builtin, Process, Settings, Testee, Timeouts, Trace};
 use actucheck_spec::Spec;
+use actucheck_spec::model::Level;
 
-use crate::cli::{Adapter, Growth, Selection};
+use crate::cli::{self, Adapter, Exchange, Growth, Selection};
 
 /// Why a command ends early, and with which exit status.
 #[derive(Debug)]
@@ -57,41 +67,123 @@ fn spec() -> Result<Spec, Failure> {
     })
 }
 
-/// Every check of a wire.
-fn checks(spec: &Spec, wire: Wire, growth: &Growth) -> Vec<Check> {
-    cases::all(spec, &cases::Options { wire, seed: growth.seed, cases: growth.cases })
+/// Every check of a wire; with the lengths around its limit for an implementation that says one.
+fn checks(spec: &Spec, wire: Wire, growth: &Growth, hello: Option<&Hello>) -> Vec<Check> {
+    cases::all(spec, &options(wire, growth, hello))
+}
+
+/// What decides which checks a wire has.
+fn options(wire: Wire, growth: &Growth, hello: Option<&Hello>) -> cases::Options {
+    let max_packet = hello.and_then(|hello| hello.limits.max_packet);
+    let Growth { seed, cases } = *growth;
+    cases::Options { wire, seed, cases, max_packet }
 }
 
 /// The checks that the user means.
 fn selected(checks: Vec<Check>, selection: &Selection) -> Result<Vec<Check>, Failure> {
+    let level = match selection.level {
+        cli::Level::Must => Level::Must,
+        cli::Level::Should => Level::Should,
+        cli::Level::May => Level::May,
+    };
     select(checks, &selection.select, &selection.skip)
+        .map(|checks| checks.into_iter().filter(|check| check.level <= level).collect())
         .map_err(|error| Failure::new(Failure::USAGE, error))
 }
 
 /// The check with this id, of whichever wire.
-fn named(spec: &Spec, id: &str, growth: &Growth) -> Result<(Wire, Check), Failure> {
+fn named(
+    spec: &Spec,
+    id: &str,
+    growth: &Growth,
+    hello: Option<&Hello>,
+) -> Result<(Wire, Check), Failure> {
     let wires = [Wire::Dynamixel2, Wire::Innfos];
-    let all = wires
-        .into_iter()
-        .flat_map(|wire| checks(spec, wire, growth).into_iter().map(move |check| (wire, check)));
+    let all = wires.into_iter().flat_map(|wire| {
+        checks(spec, wire, growth, hello).into_iter().map(move |check| (wire, check))
+    });
     all.into_iter().find(|(_, check)| check.id == id).ok_or_else(|| {
         let message = format!("no check has the id `{id}`; `actucheck list` has them all");
         Failure::new(Failure::USAGE, message)
     })
 }
 
-/// What is to be asked: the adapter, or the built-in codec without one.
-fn testee(adapter: &Adapter) -> Result<Box<dyn Testee>, Failure> {
+/// What is to be asked: `jobs` processes of the adapter, or the built-in codec without one.
+fn testees(adapter: &Adapter, jobs: u8) -> Result<Testees, Failure> {
+    testees_with(adapter, jobs, Settings::default().restarts)
+}
+
+/// The same, with another limit to how often each process is started again.
+fn testees_with(adapter: &Adapter, jobs: u8, restarts: u32) -> Result<Testees, Failure> {
     if adapter.command.is_empty() {
         // clap does not tell `--` with nothing behind it from no `--` at all.
         if std::env::args_os().next_back().is_some_and(|last| last == "--") {
             let message = "no command behind `--`; give the adapter's, such as python3 adapter.py";
             return Err(Failure::new(Failure::USAGE, message));
         }
-        return Ok(Box::new(Builtin::default()));
+        let mut testees = Testees::of(Builtin::default());
+        testees.all.resize_with(jobs.into(), || Box::new(Builtin::default()));
+        return Ok(testees);
     }
-    let timeouts = Timeouts { start: adapter.start_timeout, request: adapter.timeout };
-    let process = Process::start(&adapter.command, timeouts)
-        .map_err(|error| Failure::new(Failure::NOT_STARTED, error))?;
-    Ok(Box::new(process))
+    let settings = settings(&adapter.exchange)?;
+    let start = |number| {
+        Process::start(&adapter.command, Settings { restarts, number, ..settings.clone() })
+            .map_err(|error| Failure::new(Failure::NOT_STARTED, error))
+    };
+    let mut testees = Testees::of(start(1)?);
+    for number in 2..=u32::from(jobs) {
+        testees.all.push(Box::new(start(number)?));
+    }
+    Ok(Testees { trace: settings.trace, ..testees })
+}
+
+/// How an adapter is run, the first of its kind.
+fn settings(exchange: &Exchange) -> Result<Settings, Failure> {
+    let timeouts = Timeouts { start: exchange.start_timeout, request: exchange.timeout };
+    let trace = exchange.trace.as_deref().map(open_trace).transpose()?;
+    Ok(Settings { timeouts, trace, ..Settings::default() })
+}
+
+/// A flag that Ctrl-C sets.
+fn interrupted() -> Result<Arc<AtomicBool>, Failure> {
+    let flag = Arc::new(AtomicBool::new(false));
+    let setter = Arc::clone(&flag);
+    ctrlc::set_handler(move || setter.store(true, Ordering::Relaxed)).map_err(|error| {
+        Failure::new(Failure::INCOMPLETE, format!("cannot listen for Ctrl-C: {error}"))
+    })?;
+    Ok(flag)
+}
+
+/// One implementation, once or several times.
+struct Testees {
+    /// What it says of itself.
+    hello: Hello,
+    all: Vec<Box<dyn Testee + Send>>,
+    trace: Option<Trace>,
+}
+
+impl Testees {
+    fn of(testee: impl Testee + Send + 'static) -> Self {
+        Self { hello: testee.hello().clone(), all: vec![Box::new(testee)], trace: None }
+    }
+
+    /// Ends it; the last lines that it logged.
+    fn end(self) -> Result<String, Failure> {
+        let logs = self.all.iter().map(|testee| testee.log());
+        let log = logs.filter(|log| !log.is_empty()).collect::<Vec<_>>().join("\n");
+        drop(self.all);
+        if let Some(trace) = self.trace {
+            trace.finish().map_err(|error| {
+                Failure::new(Failure::INCOMPLETE, format!("cannot write the trace: {error}"))
+            })?;
+        }
+        Ok(log)
+    }
+}
+
+fn open_trace(path: &Path) -> Result<Trace, Failure> {
+    let file = File::create(path).map_err(|error| {
+        Failure::new(Failure::USAGE, format!("cannot write {}: {error}", path.display()))
+    })?;
+    Ok(Trace::new(Box::new(BufWriter::new(file))))
 }

@@ -1,31 +1,55 @@
 //! `actucheck replay`.
 
+use std::ops::ControlFlow;
+use std::path::Path;
 use std::process::ExitCode;
 
-use actucheck::report::{self, Run};
+use actucheck::check::Check;
+use actucheck::protocol::{Hello, Wire};
+use actucheck::record;
+use actucheck::report::{Report, Run, text};
 use actucheck::run;
+use actucheck_spec::Spec;
 
 use super::Failure;
 use crate::cli::Replay;
 
-/// Asks one check and prints the whole report on it.
+/// Asks one check, or those of a file, and prints the whole report on them.
 pub(crate) fn run(options: &Replay) -> Result<ExitCode, Failure> {
     let spec = super::spec()?;
-    let (wire, check) = super::named(&spec, &options.id, &options.growth)?;
-    let mut testee = super::testee(&options.adapter)?;
-    let outcomes = run::run(testee.as_mut(), std::slice::from_ref(&check), |_| {});
-    let hello = testee.hello().clone();
-    let run = Run {
+    let mut testees = super::testees(&options.adapter, 1)?;
+    let hello = testees.hello.clone();
+    let (wire, checks) = meant(options, &spec, &hello)?;
+    let outcomes = run::run(&mut testees.all, &checks, |_| ControlFlow::Continue(()));
+    let report = Report::from(Run {
         spec: &spec,
         implementation: &hello.implementation,
-        wire,
+        options: super::options(wire, &options.growth, Some(&hello)),
         command: &options.adapter.command,
-        outcomes: &outcomes,
-        log: testee.log(),
-    };
+        record: Some(Path::new(&options.what)).filter(|path| path.is_file()),
+        outcomes,
+        stopped: None,
+        left: 0,
+        seconds: 0.0,
+        log: testees.end()?,
+    });
     let mut out = anstream::stdout();
-    report::text::check(&spec, &check, &mut out)
-        .and_then(|()| report::text::write(&run, &mut out))
+    checks
+        .iter()
+        .try_for_each(|check| text::check(&spec, check, &mut out))
+        .and_then(|()| text::write(&report, &mut out))
         .map_err(|error| Failure::new(Failure::INCOMPLETE, error))?;
-    Ok(ExitCode::from(run.totals().exit_status()))
+    Ok(ExitCode::from(report.exit_status()))
+}
+
+/// The checks of a file if there is one of that name, else the one with that id.
+fn meant(options: &Replay, spec: &Spec, hello: &Hello) -> Result<(Wire, Vec<Check>), Failure> {
+    let path = Path::new(&options.what);
+    if !path.is_file() {
+        let (wire, check) = super::named(spec, &options.what, &options.growth, Some(hello))?;
+        return Ok((wire, vec![check]));
+    }
+    let checks = record::read(path).map_err(|error| Failure::new(Failure::USAGE, error))?;
+    let wire = checks.first().map_or(Wire::Dynamixel2, |(wire, _)| *wire);
+    Ok((wire, checks.into_iter().map(|(_, check)| check).collect()))
 }

@@ -11,7 +11,7 @@ use crate::cli::Show;
 /// Prints one check.
 pub(crate) fn run(options: &Show) -> Result<ExitCode, Failure> {
     let spec = super::spec()?;
-    let (_, check) = super::named(&spec, &options.id, &options.growth)?;
+    let (_, check) = super::named(&spec, &options.id, &options.growth, None)?;
     let mut text = Vec::new();
     text::check(&spec, &check, &mut text)
         .map_err(|error| Failure::new(Failure::INCOMPLETE, error))?;

@@ -1,23 +1,45 @@
 //! Two runs of bytes beside each other, with brackets around what differs.
 
+use std::fmt;
+
+use actucheck_spec::model::HexBytes;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use similar::{Algorithm, DiffOp, capture_diff_slices};
 
-/// The bytes demanded and the bytes that came, as text of the same form.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// The bytes demanded and the bytes that came, cut where they differ.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Diff {
-    /// What was demanded, brackets around what is missing.
-    pub expected: String,
-    /// What came, brackets around what is wrong.
-    pub actual: String,
+    /// What was demanded; what differs in it is missing.
+    pub expected: Row,
+    /// What came; what differs in it is wrong.
+    pub actual: Row,
     /// The first byte that differs, from 0; `None` if none does.
     pub first: Option<usize>,
+}
+
+/// Bytes in their order.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Row(pub Vec<Segment>);
+
+/// Some bytes of a row.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Segment {
+    /// They are in the other row too.
+    Same(HexBytes),
+    /// They are in this row only.
+    Differs(HexBytes),
+    /// So many bytes of a long stretch that both rows have.
+    LeftOut(usize),
 }
 
 /// Compares two runs of bytes. Long stretches in which they agree are left out.
 ///
 /// ```
 /// let diff = actucheck::explain::diff::bytes(&[1, 0xFD, 0xFD], &[1, 0xFD]);
-/// assert_eq!((diff.expected.as_str(), diff.actual.as_str()), ("01 fd [fd]", "01 fd"));
+/// assert_eq!(diff.expected.to_string(), "01 fd [fd]");
+/// assert_eq!(diff.actual.to_string(), "01 fd");
 /// assert_eq!(diff.first, Some(2));
 /// ```
 #[must_use]
@@ -27,16 +49,41 @@ pub fn bytes(expected: &[u8], actual: &[u8]) -> Diff {
         let old = expected.get(op.old_range()).unwrap_or_default();
         let new = actual.get(op.new_range()).unwrap_or_default();
         if matches!(op, DiffOp::Equal { .. }) {
-            left.push(shortened(old));
-            right.push(shortened(new));
+            left.extend(same(old));
+            right.extend(same(new));
         } else {
-            left.extend(bracketed(old));
-            right.extend(bracketed(new));
+            left.extend(differs(old));
+            right.extend(differs(new));
         }
     }
     let agree = expected.iter().zip(actual).take_while(|(a, b)| a == b).count();
     let first = (expected != actual).then_some(agree);
-    Diff { expected: left.join(" "), actual: right.join(" "), first }
+    Diff { expected: Row(left), actual: Row(right), first }
+}
+
+impl fmt::Display for Row {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let segments: Vec<_> = self.0.iter().map(ToString::to_string).collect();
+        f.write_str(&segments.join(" "))
+    }
+}
+
+/// What differs stands in brackets.
+impl fmt::Display for Segment {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Same(bytes) => f.write_str(&spaced(bytes)),
+            Self::Differs(bytes) => write!(f, "[{}]", spaced(bytes)),
+            Self::LeftOut(bytes) => write!(f, "(… {bytes} bytes …)"),
+        }
+    }
+}
+
+/// Bytes in hex with spaces between.
+#[must_use]
+pub fn spaced(bytes: &[u8]) -> String {
+    let bytes: Vec<_> = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
+    bytes.join(" ")
 }
 
 /// The part of a packet that the byte at `offset` of a whole frame belongs to.
@@ -52,23 +99,19 @@ pub fn part_of_frame(frame: &[u8], offset: usize) -> &'static str {
     }
 }
 
-fn hex(bytes: &[u8]) -> String {
-    let bytes: Vec<_> = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
-    bytes.join(" ")
+fn differs(bytes: &[u8]) -> Option<Segment> {
+    (!bytes.is_empty()).then(|| Segment::Differs(bytes.to_vec().into()))
 }
 
-fn bracketed(bytes: &[u8]) -> Option<String> {
-    (!bytes.is_empty()).then(|| format!("[{}]", hex(bytes)))
-}
-
-/// Bytes of which only the ends matter.
-fn shortened(bytes: &[u8]) -> String {
+/// Of many bytes only the ends matter.
+fn same(bytes: &[u8]) -> Vec<Segment> {
     const ENDS: usize = 12;
+    let whole = |bytes: &[u8]| Segment::Same(bytes.to_vec().into());
     match (bytes.get(..ENDS), bytes.len().checked_sub(ENDS).and_then(|at| bytes.get(at..))) {
         (Some(head), Some(tail)) if bytes.len() > 3 * ENDS => {
-            format!("{} (… {} bytes …) {}", hex(head), bytes.len() - 2 * ENDS, hex(tail))
+            vec![whole(head), Segment::LeftOut(bytes.len() - 2 * ENDS), whole(tail)]
         }
-        _ => hex(bytes),
+        _ => vec![whole(bytes)],
     }
 }
 
@@ -79,15 +122,16 @@ mod tests {
     #[test]
     fn what_is_missing_and_what_is_wrong_stand_in_brackets() {
         let diff = bytes(&[9, 0, 0xFF, 0xFD, 0xFD, 0x70], &[8, 0, 0xFF, 0xFD, 0x81]);
-        assert_eq!(diff.expected, "[09] 00 ff [fd] fd [70]");
-        assert_eq!(diff.actual, "[08] 00 ff fd [81]");
+        assert_eq!(diff.expected.to_string(), "[09] 00 ff [fd] fd [70]");
+        assert_eq!(diff.actual.to_string(), "[08] 00 ff fd [81]");
         assert_eq!(diff.first, Some(0));
     }
 
     #[test]
     fn long_stretches_that_agree_are_left_out() {
         let diff = bytes(&[0; 100], &[0; 100]);
-        assert!(diff.expected.contains("(… 76 bytes …)"), "{}", diff.expected);
+        let zeros = ["00"; 12].join(" ");
+        assert_eq!(diff.expected.to_string(), format!("{zeros} (… 76 bytes …) {zeros}"));
         assert_eq!(diff.first, None);
     }
 

@@ -82,11 +82,36 @@ pub fn decode(kind: FrameKind, bytes: &[u8]) -> Result<Packet, Fault> {
 pub fn packets(kind: FrameKind, datagram: &[u8]) -> Vec<Packet> {
     let mut packets = Vec::new();
     let mut rest = datagram;
-    while let Ok(First { packet, size, crc_matches: true }) = first(kind, rest) {
+    while let Some((packet, size)) = whole(kind, rest) {
         packets.push(packet);
         rest = rest.get(size..).unwrap_or_default();
     }
     packets
+}
+
+/// The packets of a datagram wherever they begin: where none does, the search goes on one byte
+/// further.
+#[must_use]
+pub fn packets_anywhere(kind: FrameKind, datagram: &[u8]) -> Vec<Packet> {
+    let mut packets = Vec::new();
+    let mut rest = datagram;
+    while !rest.is_empty() {
+        let size = match whole(kind, rest) {
+            Some((packet, size)) => {
+                packets.push(packet);
+                size
+            }
+            None => 1,
+        };
+        rest = rest.get(size..).unwrap_or_default();
+    }
+    packets
+}
+
+/// The packet that begins here if everything is right with it, and its size.
+fn whole(kind: FrameKind, bytes: &[u8]) -> Option<(Packet, usize)> {
+    let first = first(kind, bytes).ok().filter(|first| first.crc_matches)?;
+    Some((first.packet, first.size))
 }
 
 /// The packet that begins somewhere, and its size.
@@ -99,6 +124,27 @@ struct First {
 
 /// The packet that begins here.
 fn first(kind: FrameKind, bytes: &[u8]) -> Result<First, Fault> {
+/// The packets of a datagram wherever they begin: where none does, the search goes on one byte
+/// further.
+#[must_use]
+pub fn packets_anywhere(kind: FrameKind, datagram: &[u8]) -> Vec<Packet> {
+    let mut packets = Vec::new();
+    let mut rest = datagram;
+    while !rest.is_empty() {
+        let size = match first(kind, rest) {
+            Ok((packet, size)) => {
+                packets.push(packet);
+                size
+            }
+            Err(_) => 1,
+        };
+        rest = rest.get(size..).unwrap_or_default();
+    }
+    packets
+}
+
+/// The packet that begins here, and its size.
+fn first(kind: FrameKind, bytes: &[u8]) -> Result<(Packet, usize), Fault> {
     if bytes.first().is_some_and(|byte| *byte != HEADER) {
         return Err(Fault::Header);
     }

@@ -63,15 +63,16 @@ pub fn frame(id: u8, body: &[u8]) -> Vec<u8> {
     frame
 }
 
-/// The bytes of a packet; `None` for one of another protocol.
+/// The bytes of a packet; `None` for one of another protocol or longer than its length can tell.
 #[must_use]
 pub fn encode(packet: &Packet) -> Option<Vec<u8>> {
+    let fitting = |id, body: &[u8]| (body.len() + 2 <= 0xFFFF).then(|| frame(id, body));
     match packet {
         Packet::Instruction { id, instruction, params } => {
-            Some(frame(*id, &stuff(&[&[*instruction], params.0.as_slice()].concat())))
+            fitting(*id, &stuff(&[&[*instruction], params.0.as_slice()].concat()))
         }
         Packet::Status { id, error, params } => {
-            Some(frame(*id, &stuff(&[&[STATUS, *error], params.0.as_slice()].concat())))
+            fitting(*id, &stuff(&[&[STATUS, *error], params.0.as_slice()].concat()))
         }
         Packet::FastStatus { blocks } => Some(encode_fast(blocks)),
         _ => None,

@@ -2,7 +2,7 @@
 
 use actucheck_spec::model::{Fault, Packet};
 
-use super::{PREFIX, decode};
+use super::{HEADER, PREFIX, decode};
 
 /// The packets of a stream, however it was cut into chunks. Where no packet begins, the search
 /// goes on one byte further; behind a packet, it goes on at its end. What is incomplete at the end
@@ -23,11 +23,32 @@ pub fn packets(stream: &[u8]) -> Vec<Packet> {
     packets
 }
 
+/// The packets that a receiver finds which believes every length: where a header is, it goes on
+/// behind the bytes that the length covers, whether they were a packet or not, and waits for them.
+#[must_use]
+pub fn packets_behind_lengths(stream: &[u8]) -> Vec<Packet> {
+    let mut packets = Vec::new();
+    let mut rest = stream;
+    while !rest.is_empty() {
+        let covered = rest.starts_with(&HEADER).then(|| size(rest)).flatten();
+        if let Some((packet, _)) = first(rest) {
+            packets.push(packet);
+        }
+        rest = rest.get(covered.unwrap_or(1)..).unwrap_or_default();
+    }
+    packets
+}
+
 /// The packet that begins here, and its size.
 fn first(bytes: &[u8]) -> Option<(Packet, usize)> {
-    let [_, _, _, _, _, low, high, ..] = *bytes else { return None };
-    let size = PREFIX + usize::from(u16::from_le_bytes([low, high]));
+    let size = size(bytes)?;
     let frame = bytes.get(..size)?;
     let packet: Result<Packet, Fault> = decode(frame);
     Some((packet.ok()?, size))
+}
+
+/// The size that the length claims.
+fn size(bytes: &[u8]) -> Option<usize> {
+    let [_, _, _, _, _, low, high, ..] = *bytes else { return None };
+    Some(PREFIX + usize::from(u16::from_le_bytes([low, high])))
 }

@@ -1,220 +1,185 @@
 //! The report for a person at a terminal.
 
-use std::collections::BTreeMap;
 use std::io::{self, Write};
 
+use actucheck_spec::Spec;
+use actucheck_spec::model::Level;
 use anstyle::{AnsiColor, Style};
 
-use actucheck_spec::Spec;
+use super::model::{CheckResult, Report, Statement};
+use super::view::Group;
+use super::words;
+use crate::check::{Check, Demand, Open};
+use crate::verdict::{Totals, Verdict};
 
-use super::Run;
-use crate::check::{Check, Demand};
-use crate::explain::diff;
-use crate::protocol::{Op, Output};
-use crate::verdict::{Outcome, Totals, Verdict};
+/// How many checks of a group are shown with their evidence, and how many more by their ids.
+const WHOLE: usize = 5;
+const NAMED: usize = 20;
 
-/// How many outcomes of one requirement are shown whole; the rest are counted.
-const SHOWN: usize = 5;
-
-const BOLD: Style = Style::new().bold();
-const DIM: Style = Style::new().dimmed();
+pub(super) const BOLD: Style = Style::new().bold();
+pub(super) const DIM: Style = Style::new().dimmed();
 
 /// Writes the report with ANSI colours, which the writer may take out.
 ///
 /// # Errors
 /// If it can't be written.
-pub fn write(run: &Run<'_>, out: &mut impl Write) -> io::Result<()> {
-    let totals = run.totals();
-    let who = run.implementation;
+pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+    let who = &report.implementation;
     writeln!(
         out,
         "{BOLD}{} {}{BOLD:#} ({})  wire {}  {} checks",
         who.name,
         who.version,
         who.language,
-        run.wire.id(),
-        totals.sum()
+        report.wire.id(),
+        report.totals.sum()
     )?;
-    requirements(run, out)?;
-    for verdict in [
-        Verdict::ExpectedFailure,
-        Verdict::Warn,
-        Verdict::Fail,
-        Verdict::UnexpectedPass,
-        Verdict::Timeout,
-        Verdict::Crash,
-        Verdict::AdapterFault,
-    ] {
-        outcomes(run, verdict, out)?;
+    requirements(report, out)?;
+    // What is most urgent stands last, where the terminal ends.
+    for verdict in Report::URGENT.into_iter().rev() {
+        for group in report.groups(verdict) {
+            self::group(&group, out)?;
+        }
     }
-    log(run, &totals, out)?;
-    summary(&totals, out)
+    profile(report, out)?;
+    log(report, out)?;
+    if let Some(sentence) = report.cut_short() {
+        writeln!(out, "\n{sentence}")?;
+    }
+    summary(report, out)
 }
 
 /// Writes one check: what it asks, what it demands, and which sentence of which document that is.
 ///
 /// # Errors
 /// If it can't be written.
-pub fn check(spec: &Spec, check: &Check, out: &mut impl Write) -> io::Result<()> {
+pub fn check(spec: &Spec, check: &Check, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "{BOLD}{}{BOLD:#}", check.id)?;
-    statement(spec, &check.requirement, out)?;
+    if let Some(words) = Statement::of(spec, &check.requirement) {
+        statement(check.level, &words, out)?;
+    }
     writeln!(out, "  {:9} {DIM}{}{DIM:#}", "packet of", spec.place(&check.source))?;
-    writeln!(out, "  {:9} {}", "request", request(&check.op))?;
+    writeln!(out, "  {:9} {}", "request", check.op)?;
     let (outputs, reject) = match &check.demand {
         Demand::Yield(output) => (std::slice::from_ref(output), None),
         Demand::YieldOneOf(outputs) => (outputs.as_slice(), None),
-        Demand::YieldOneOfOrReject(outputs) => (outputs.as_slice(), Some("or a rejection".into())),
         Demand::Reject(fault) => (&[][..], Some(format!("a rejection ({fault})"))),
+        Demand::Record(open) => return question(open, out),
     };
     for output in outputs {
-        writeln!(out, "  {:9} {}", "demanded", shown(output))?;
+        writeln!(out, "  {:9} {output}", "demanded")?;
     }
     reject.map_or(Ok(()), |reject| writeln!(out, "  {:9} {reject}", "demanded"))
 }
 
+/// A question that the documents leave open, and the ways that are foreseen.
+fn question(open: &Open, out: &mut dyn Write) -> io::Result<()> {
+    writeln!(out, "  {:9} {}", "recorded", open.question)?;
+    for way in &open.ways {
+        writeln!(out, "  {:9} {}: {}", "", way.name, way.output)?;
+    }
+    writeln!(out, "  {:9} or a rejection", "")
+}
+
 /// A requirement in words, and who says so.
-fn statement(spec: &Spec, requirement: &str, out: &mut impl Write) -> io::Result<()> {
-    let Some(row) = spec.requirement(requirement) else { return Ok(()) };
-    writeln!(out, "  {:9} {}", row.level, row.text)?;
-    writeln!(out, "  {:9} {DIM}{}{DIM:#}", "says who", spec.place(&row.source))
+fn statement(level: Level, statement: &Statement, out: &mut dyn Write) -> io::Result<()> {
+    writeln!(out, "  {level:9} {}", statement.text)?;
+    writeln!(out, "  {:9} {DIM}{}{DIM:#}", "says who", statement.place())
 }
 
 /// A line a requirement: how its checks came out.
-fn requirements(run: &Run<'_>, out: &mut impl Write) -> io::Result<()> {
-    let width = run.outcomes.iter().map(|outcome| outcome.requirement.len()).max().unwrap_or(0);
-    for (requirement, outcomes) in by_requirement(run.outcomes) {
-        let totals = Totals::of(outcomes);
-        let counts = counts(&totals);
-        writeln!(out, "  {requirement:width$}  {counts}")?;
+fn requirements(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+    let width = report.requirements.iter().map(|row| row.id.len()).max().unwrap_or(0);
+    for row in &report.requirements {
+        writeln!(out, "  {:width$}  {}", row.id, counts(&row.totals))?;
     }
     Ok(())
 }
 
-/// All outcomes with this verdict, grouped by requirement.
-fn outcomes(run: &Run<'_>, verdict: Verdict, out: &mut impl Write) -> io::Result<()> {
-    let with_verdict = run.outcomes.iter().filter(|outcome| outcome.verdict == verdict);
-    let style = style(verdict);
-    for (requirement, outcomes) in by_requirement(with_verdict) {
-        let word = verdict.to_string().to_uppercase().replace('-', " ");
-        writeln!(out)?;
-        writeln!(out, "{style}{word}{style:#} {BOLD}{requirement}{BOLD:#}")?;
-        statement(run.spec, requirement, out)?;
-        for outcome in outcomes.iter().take(SHOWN) {
-            self::outcome(outcome, out)?;
-            replay_line(run, outcome, out)?;
-        }
-        if let Some(more @ 1..) = outcomes.len().checked_sub(SHOWN) {
-            writeln!(out, "  … and {more} more; --report json=FILE has them all:")?;
-            for outcome in outcomes.iter().skip(SHOWN) {
-                writeln!(out, "            {}", outcome.id)?;
-            }
-        }
+fn group(group: &Group<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let Group { verdict, requirement, results } = group;
+    let style = style(*verdict);
+    let word = verdict.to_string().to_uppercase().replace('-', " ");
+    writeln!(out)?;
+    write!(out, "{style}{word}{style:#} {BOLD}{}{BOLD:#}", requirement.id)?;
+    match results.len() {
+        1 => writeln!(out)?,
+        many => writeln!(out, "  {many} of {} checks, the smallest first", requirement.checks())?,
+    }
+    if let Some(words) = &requirement.statement {
+        statement(requirement.level, words, out)?;
+    }
+    let shown = group.shown(WHOLE, NAMED);
+    for result in shown.whole {
+        self::result(result, out)?;
+    }
+    if !shown.named.is_empty() {
+        let more = shown.named.len() + shown.beyond;
+        writeln!(out, "  … and {more} more; --report json=FILE has them all:")?;
+    }
+    for result in shown.named {
+        writeln!(out, "            {}", result.outcome.id)?;
+    }
+    if shown.beyond > 0 {
+        writeln!(out, "            … and {} more", shown.beyond)?;
     }
     Ok(())
 }
 
-fn outcome(outcome: &Outcome, out: &mut impl Write) -> io::Result<()> {
-    writeln!(out, "  {:9} {BOLD}{}{BOLD:#}", "check", outcome.id)?;
-    if let Some(op) = &outcome.request {
-        writeln!(out, "  {:9} {}", "request", request(op))?;
+fn result(result: &CheckResult, out: &mut dyn Write) -> io::Result<()> {
+    writeln!(out, "  {:9} {BOLD}{}{BOLD:#}", "check", result.outcome.id)?;
+    for (label, text) in result.evidence() {
+        writeln!(out, "  {label:9} {text}")?;
     }
-    if let Some((expected, actual)) = outcome.bytes() {
-        let diff = diff::bytes(expected, actual);
-        writeln!(out, "  {:9} {}", "expected", diff.expected)?;
-        writeln!(out, "  {:9} {}", "got", diff.actual)?;
-        if let (Some(at), Some(Op::Encode { .. })) = (diff.first, &outcome.request) {
-            let part = diff::part_of_frame(expected, at);
-            writeln!(out, "  {:9} byte {at}, in the {part}", "differs")?;
-        }
-    } else {
-        for (label, output) in [("expected", &outcome.expected), ("got", &outcome.actual)] {
-            if let Some(output) = output {
-                writeln!(out, "  {label:9} {}", shown(output))?;
-            }
-        }
-    }
-    writeln!(out, "  {:9} {}", "because", outcome.detail)
+    Ok(())
 }
 
-/// The command that asks the same again.
-fn replay_line(run: &Run<'_>, outcome: &Outcome, out: &mut impl Write) -> io::Result<()> {
-    write!(out, "  {:9} actucheck replay {}", "replay", outcome.id)?;
-    if let Some(rest) = outcome.id.split_once(".seed-").map(|(_, rest)| rest) {
-        let digits = rest.find(|character: char| !character.is_ascii_digit());
-        write!(out, " --seed {}", rest.get(..digits.unwrap_or(rest.len())).unwrap_or_default())?;
+/// Whoever mixes implementations on a bus may want to know.
+fn profile(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+    if report.profile.is_empty() {
+        return Ok(());
     }
-    if !run.command.is_empty() {
-        write!(out, " -- {}", run.command.join(" "))?;
-    }
-    writeln!(out)
-}
-
-fn request(op: &Op) -> String {
-    // Every op can be written as JSON: it has string keys only.
-    serde_json::to_string(op).unwrap_or_default()
-}
-
-fn shown(output: &Output) -> String {
-    match output {
-        Output::Crc(crc) => format!("{crc:#06X}"),
-        Output::Bytes(bytes) => bytes.to_string(),
-        Output::Packet(packet) => serde_json::to_string(packet).unwrap_or_default(),
-        Output::Packets(packets) => serde_json::to_string(packets).unwrap_or_default(),
-    }
+    let many = words::count(report.profile.len(), "question");
+    let rest = "that the documents leave open: --report html=FILE shows what it does there";
+    writeln!(out, "\n{DIM}{many} {rest}{DIM:#}")
 }
 
 /// What the adapter logged, where something went wrong with the adapter itself.
-fn log(run: &Run<'_>, totals: &Totals, out: &mut impl Write) -> io::Result<()> {
-    let broke = [Verdict::Timeout, Verdict::Crash, Verdict::AdapterFault, Verdict::NotRun];
-    if run.log.is_empty() || broke.iter().all(|verdict| totals.count(*verdict) == 0) {
+fn log(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+    if report.log.is_empty() || !report.adapter_broke() {
         return Ok(());
     }
     writeln!(out, "\nThe adapter's standard error ends with:")?;
-    for line in run.log.lines() {
+    for line in report.log.lines() {
         writeln!(out, "  {line}")?;
     }
     Ok(())
 }
 
-fn summary(totals: &Totals, out: &mut impl Write) -> io::Result<()> {
-    let (word, color) = match totals.exit_status() {
-        0 => ("passed", AnsiColor::Green),
-        1 => ("FAILED", AnsiColor::Red),
-        _ => ("incomplete", AnsiColor::Yellow),
+fn summary(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+    let color = match report.exit_status() {
+        0 => AnsiColor::Green,
+        1 => AnsiColor::Red,
+        _ => AnsiColor::Yellow,
     };
     let style = color.on_default().bold();
-    writeln!(out, "\n{style}{word}{style:#}  {}", counts(totals))
+    writeln!(out, "\n{style}{}{style:#}  {}", report.word(), counts(&report.totals))
 }
 
 /// `12 pass  3 fail`, without the verdicts that did not come out.
-fn counts(totals: &Totals) -> String {
-    let counts: Vec<_> = Verdict::ALL
-        .iter()
-        .filter(|verdict| totals.count(**verdict) > 0)
-        .map(|verdict| {
-            let style = style(*verdict);
-            format!("{style}{} {verdict}{style:#}", totals.count(*verdict))
-        })
-        .collect();
-    counts.join("  ")
+pub(super) fn counts(totals: &Totals) -> String {
+    let count = |(verdict, count)| {
+        let style = style(verdict);
+        format!("{style}{count} {verdict}{style:#}")
+    };
+    totals.counts().map(count).collect::<Vec<_>>().join("  ")
 }
 
-const fn style(verdict: Verdict) -> Style {
+pub(super) const fn style(verdict: Verdict) -> Style {
     match verdict {
         Verdict::Pass => AnsiColor::Green.on_default(),
         Verdict::Fail | Verdict::UnexpectedPass => AnsiColor::Red.on_default().bold(),
         Verdict::Skip => DIM,
         _ => AnsiColor::Yellow.on_default(),
     }
-}
-
-/// Outcomes by requirement, in the order of the requirements' ids.
-fn by_requirement<'a>(
-    outcomes: impl IntoIterator<Item = &'a Outcome>,
-) -> BTreeMap<&'a str, Vec<&'a Outcome>> {
-    let mut groups: BTreeMap<&str, Vec<&Outcome>> = BTreeMap::new();
-    for outcome in outcomes {
-        groups.entry(&outcome.requirement).or_default().push(outcome);
-    }
-    groups
 }

@@ -6,7 +6,8 @@ mod process;
 use crate::protocol::{Hello, Op, Output, Rejection};
 
 pub use builtin::Builtin;
-pub use process::{Process, StartError, Timeouts};
+pub(crate) use process::{Line, Running};
+pub use process::{Process, Settings, StartError, Timeouts, Trace};
 
 /// Something that can be asked.
 pub trait Testee {
@@ -15,6 +16,18 @@ pub trait Testee {
 
     /// Asks it. Never blocks for longer than its time limits.
     fn ask(&mut self, op: &Op) -> Answer;
+
+    /// Asks it all `questions`, several at once where it takes them, and hands on each answer with
+    /// the number of its question, in any order.
+    fn ask_all(
+        &mut self,
+        questions: &mut dyn Iterator<Item = (usize, &Op)>,
+        answered: &mut dyn FnMut(usize, Answer),
+    ) {
+        for (number, op) in questions {
+            answered(number, self.ask(op));
+        }
+    }
 
     /// The last lines that it logged; empty if there are none.
     fn log(&self) -> String {

@@ -1,8 +1,9 @@
-//! A requirement is used: a vector or a test names it, or its row says what else checks it.
+//! A requirement is used: a vector or a test names it, or its row says what else checks it. One that
+//! is checked with another is as binding for no more than those whom the other binds.
 
 use std::collections::BTreeSet;
 
-use crate::model::CheckedBy;
+use crate::model::{CheckedBy, Requirement};
 use crate::{Diagnostic, Spec};
 
 pub(super) fn check(spec: &Spec) -> Vec<Diagnostic> {
@@ -11,12 +12,20 @@ pub(super) fn check(spec: &Spec) -> Vec<Diagnostic> {
     let mut defects = Vec::new();
     for file in &spec.requirements {
         for (index, row) in file.content.requirements.iter().enumerate() {
-            let used = named.contains(row.id.as_str()) || !row.tests.is_empty();
+            if let Some(other) = &row.checked_with
+                && let Some(message) = not_with(spec, row, other)
+            {
+                let node = format!("requirements[{index}].checked_with");
+                defects.push(file.diagnostic(&node, format!("{} {message}", row.id)));
+            }
+            let used = named.contains(row.id.as_str())
+                || !row.tests.is_empty()
+                || row.checked_with.is_some();
             let (node, message) = match row.checked_by {
                 None if !used => (
                     "id",
-                    "is used nowhere; name it in a vector, or say `checked_by: suite` or \
-                     `checked_by: nothing`",
+                    "is used nowhere; name it in a vector, or say `checked_by: suite`, \
+                     `checked_by: nothing` or `checked_with: ID`",
                 ),
                 Some(CheckedBy::Nothing) if used => {
                     ("checked_by", "is named by a vector or a test; leave `checked_by` out")
@@ -28,4 +37,18 @@ pub(super) fn check(spec: &Spec) -> Vec<Diagnostic> {
         }
     }
     defects
+}
+
+/// Why a requirement can't be checked with another one.
+fn not_with(spec: &Spec, row: &Requirement, other: &str) -> Option<String> {
+    let Some(with) = spec.requirement(other) else {
+        return Some(format!("is checked with `{other}`, which is no requirement"));
+    };
+    if with.checked_with.is_some() {
+        return Some(format!("is checked with {other}, which is checked with another one itself"));
+    }
+    if with.level > row.level || !row.binds.iter().all(|role| with.binds.contains(role)) {
+        return Some(format!("is checked with {other}, which binds less or fewer"));
+    }
+    None
 }

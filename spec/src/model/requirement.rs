@@ -33,6 +33,8 @@ pub struct Requirement {
     pub tests: Vec<String>,
     /// What else checks it; said where neither a vector nor a test names it.
     pub checked_by: Option<CheckedBy>,
+    /// Another document's requirement that demands the same, so that its checks show this one too.
+    pub checked_with: Option<String>,
 }
 
 /// What checks a requirement that neither a vector nor a test names.

@@ -37,6 +37,7 @@ impl Default for Builtin {
             ops: ["crc", "stuff", "unstuff", "encode", "decode", "stream"]
                 .map(str::to_owned)
                 .to_vec(),
+            max_in_flight: 1,
             limits: Limits { max_packet: Some(MAX_FRAME) },
         };
         Self { hello, buffer: vec![0; MAX_FRAME] }

@@ -1,33 +1,56 @@
-//! An adapter's process: its pipes, each served by a thread, and its end.
+//! An adapter's process: its pipes and its end.
 
-use std::io::{self, BufRead, BufReader, Read, Write};
-use std::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
-use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender, SyncSender};
+use std::io;
+use std::process::{ExitStatus, Stdio};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::thread;
 use std::time::Duration;
 
+use tokio::io::{AsyncBufReadExt, AsyncReadExt, AsyncWriteExt, BufReader};
+use tokio::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command};
+use tokio::runtime::Runtime;
+use tokio::task::JoinHandle;
+use tokio::time::timeout;
+
+use super::Settings;
+use super::trace::Trace;
+
 /// The longest line that an adapter may write.
-const MAX_LINE: u64 = 16 << 20;
+const MAX_LINE: usize = 16 << 20;
 /// How much of its standard error is kept.
 const MAX_LOG: usize = 16 << 10;
-/// Lines that wait to be read. A flood stops at the pipe instead of filling the memory.
-const QUEUE: usize = 16;
 /// How long an ending process is given to say why.
 const GRACE: Duration = Duration::from_millis(200);
 
 /// A running adapter. Dropping it kills the process and its children.
 #[derive(Debug)]
-pub(super) struct Running {
+pub(crate) struct Running {
+    // No thread of its own: a thread more for a pipe would cost each question two switches.
+    runtime: Runtime,
     child: Child,
-    requests: Sender<Vec<u8>>,
-    lines: Receiver<Line>,
+    /// Its process group, which outlives it where it has children.
+    #[cfg(unix)]
+    group: Option<rustix::process::Pid>,
+    pipes: Pipes,
+    /// What reads its standard error.
+    logging: Option<JoinHandle<()>>,
     log: Arc<Mutex<Vec<u8>>>,
+    trace: Option<(Trace, u32)>,
+}
+
+/// Its standard input and output, and what is on the way.
+#[derive(Debug)]
+struct Pipes {
+    stdin: Option<ChildStdin>,
+    stdout: Option<BufReader<ChildStdout>>,
+    /// What is still to be written.
+    outgoing: Vec<u8>,
+    /// The part of a line that was read so far.
+    incoming: Vec<u8>,
 }
 
 /// What came over the adapter's standard output.
 #[derive(Debug)]
-pub(super) enum Line {
+pub(crate) enum Line {
     /// A line without its end.
     Text(Vec<u8>),
     /// A line that is longer than is allowed.
@@ -38,66 +61,105 @@ pub(super) enum Line {
 
 impl Running {
     /// Starts `command`, a program and its arguments.
-    pub(super) fn start(command: &[String]) -> io::Result<Self> {
+    pub(crate) fn start(command: &[String], settings: &Settings) -> io::Result<Self> {
         let (program, arguments) = command
             .split_first()
             .ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "the command is empty"))?;
         let mut command = Command::new(program);
-        command.args(arguments);
+        command.args(arguments).kill_on_drop(true);
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         #[cfg(unix)]
-        std::os::unix::process::CommandExt::process_group(&mut command, 0);
-        let mut child = command.spawn()?;
-
-        let (requests, outgoing) = mpsc::channel();
-        if let Some(stdin) = child.stdin.take() {
-            thread::spawn(move || write_requests(stdin, &outgoing));
-        }
-        let (incoming, lines) = mpsc::sync_channel(QUEUE);
-        if let Some(stdout) = child.stdout.take() {
-            thread::spawn(move || read_lines(stdout, &incoming));
-        }
+        command.process_group(0);
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+        let mut child = {
+            let _inside = runtime.enter();
+            command.spawn()?
+        };
         let log = Arc::new(Mutex::new(Vec::new()));
-        if let Some(stderr) = child.stderr.take() {
-            let log = Arc::clone(&log);
-            thread::spawn(move || keep_log(stderr, &log));
-        }
-        Ok(Self { child, requests, lines, log })
+        let logging =
+            child.stderr.take().map(|stderr| runtime.spawn(keep_log(stderr, Arc::clone(&log))));
+        let pipes = Pipes {
+            stdin: child.stdin.take(),
+            stdout: child.stdout.take().map(BufReader::new),
+            outgoing: Vec::new(),
+            incoming: Vec::new(),
+        };
+        let trace = settings.trace.clone().map(|trace| (trace, settings.number));
+        #[cfg(unix)]
+        let group = child
+            .id()
+            .and_then(|id| i32::try_from(id).ok())
+            .and_then(rustix::process::Pid::from_raw);
+        Ok(Self {
+            runtime,
+            child,
+            #[cfg(unix)]
+            group,
+            pipes,
+            logging,
+            log,
+            trace,
+        })
     }
 
-    /// Sends one line. An adapter that does not read it is found out by its silence.
-    pub(super) fn send(&self, mut line: Vec<u8>) {
-        line.push(b'\n');
-        // The writer is gone only if the adapter is, and then `receive` says so.
-        let _ = self.requests.send(line);
+    /// Takes one line for the adapter, which goes out while the next line is waited for. An
+    /// adapter that does not read it is found out by its silence.
+    pub(crate) fn send(&mut self, line: &[u8]) {
+        self.note('>', line);
+        self.pipes.outgoing.extend(line);
+        self.pipes.outgoing.push(b'\n');
     }
 
     /// Waits for the next line; `None` when the time is up.
-    pub(super) fn receive(&self, limit: Duration) -> Option<Line> {
-        match self.lines.recv_timeout(limit) {
-            Ok(line) => Some(line),
-            Err(RecvTimeoutError::Timeout) => None,
-            Err(RecvTimeoutError::Disconnected) => Some(Line::End),
+    pub(crate) fn receive(&mut self, limit: Duration) -> Option<Line> {
+        let pipes = &mut self.pipes;
+        let line = self.runtime.block_on(async { timeout(limit, pipes.exchange()).await.ok() });
+        match &line {
+            Some(Line::Text(text)) => self.note('<', text),
+            Some(Line::TooLong) => self.note('!', b"a line that is too long"),
+            Some(Line::End) => self.note('!', b"closed its output"),
+            None => self.note('!', b"did not answer in time"),
         }
+        line
     }
 
     /// The end of what it wrote to its standard error.
-    pub(super) fn log(&self) -> String {
+    pub(crate) fn log(&self) -> String {
         let log = self.log.lock().unwrap_or_else(PoisonError::into_inner);
         String::from_utf8_lossy(&log).trim_end().to_owned()
     }
 
     /// How it ended, if it ends now or within a moment.
-    pub(super) fn exit_status(&mut self) -> Option<ExitStatus> {
-        const STEP: Duration = Duration::from_millis(5);
-        let mut waited = Duration::ZERO;
-        loop {
-            match self.child.try_wait() {
-                Ok(Some(status)) => return Some(status),
-                Ok(None) if waited < GRACE => thread::sleep(STEP),
-                _ => return None,
+    pub(crate) fn exit_status(&mut self) -> Option<ExitStatus> {
+        let (child, logging) = (&mut self.child, self.logging.take());
+        self.runtime.block_on(async {
+            let status = timeout(GRACE, child.wait()).await.ok()?.ok();
+            // What it said at its end is still in the pipe, which its children may hold open.
+            if let Some(logging) = logging {
+                let _ = timeout(GRACE, logging).await;
             }
-            waited += STEP;
+            status
+        })
+    }
+
+    /// Sends a last line and gives the adapter a moment to end itself.
+    pub(super) fn farewell(&mut self, line: &[u8]) {
+        self.send(line);
+        let (child, pipes) = (&mut self.child, &mut self.pipes);
+        // One that does not listen is killed in any case.
+        let _ = self.runtime.block_on(async {
+            timeout(GRACE, async {
+                pipes.write().await;
+                pipes.stdin = None;
+                child.wait().await
+            })
+            .await
+        });
+    }
+
+    fn note(&self, mark: char, line: &[u8]) {
+        if let Some((trace, number)) = &self.trace {
+            trace.note(*number, mark, line);
         }
     }
 }
@@ -106,49 +168,68 @@ impl Drop for Running {
     fn drop(&mut self) {
         // Its children are in its group, also when it has ended itself.
         #[cfg(unix)]
-        if let Ok(id) = i32::try_from(self.child.id())
-            && let Some(group) = rustix::process::Pid::from_raw(id)
-        {
+        if let Some(group) = self.group {
             // Fails only if none is left.
             let _ = rustix::process::kill_process_group(group, rustix::process::Signal::KILL);
         }
-        let _ = self.child.kill();
-        let _ = self.child.wait();
+        // Fails only if it has ended.
+        let _ = self.runtime.block_on(self.child.kill());
     }
 }
 
-fn write_requests(mut stdin: ChildStdin, requests: &Receiver<Vec<u8>>) {
-    for line in requests {
-        if stdin.write_all(&line).and_then(|()| stdin.flush()).is_err() {
-            return;
+impl Pipes {
+    /// Writes what is to be written while it waits for a line.
+    async fn exchange(&mut self) -> Line {
+        let Some(stdout) = &mut self.stdout else { return Line::End };
+        let (stdin, outgoing) = (&mut self.stdin, &mut self.outgoing);
+        tokio::select! {
+            biased;
+            () = write(stdin, outgoing), if !outgoing.is_empty() => {}
+            line = read_line(stdout, &mut self.incoming) => return line,
+        }
+        read_line(stdout, &mut self.incoming).await
+    }
+
+    async fn write(&mut self) {
+        write(&mut self.stdin, &mut self.outgoing).await;
+    }
+}
+
+/// Writes as much as it takes. Cut short, it leaves what is still to be written.
+async fn write(stdin: &mut Option<ChildStdin>, outgoing: &mut Vec<u8>) {
+    while let (Some(pipe), false) = (stdin.as_mut(), outgoing.is_empty()) {
+        match pipe.write(outgoing).await {
+            Ok(count @ 1..) => drop(outgoing.drain(..count)),
+            // An adapter that reads no more says so by its silence or its end.
+            _ => *stdin = None,
         }
     }
 }
 
-fn read_lines(stdout: ChildStdout, lines: &SyncSender<Line>) {
-    let mut stdout = BufReader::new(stdout);
+/// Reads a line. Cut short, it leaves the part that was read.
+async fn read_line(stdout: &mut BufReader<ChildStdout>, line: &mut Vec<u8>) -> Line {
     loop {
-        let mut line = Vec::new();
-        let read = stdout.by_ref().take(MAX_LINE + 1).read_until(b'\n', &mut line);
-        let complete = line.last() == Some(&b'\n');
-        let line = match read {
-            Ok(_) if complete => {
-                line.pop();
-                Line::Text(line)
-            }
-            Ok(count) if count as u64 > MAX_LINE => Line::TooLong,
-            _ => Line::End,
-        };
-        let last = !matches!(line, Line::Text(_));
-        if lines.send(line).is_err() || last {
-            return;
+        let Ok(bytes) = stdout.fill_buf().await else { return Line::End };
+        let end = bytes.iter().position(|byte| *byte == b'\n');
+        let part = end.and_then(|end| bytes.get(..end)).unwrap_or(bytes);
+        if bytes.is_empty() {
+            return Line::End;
+        }
+        if line.len() + part.len() > MAX_LINE {
+            return Line::TooLong;
+        }
+        line.extend(part);
+        let used = part.len() + usize::from(end.is_some());
+        stdout.consume(used);
+        if end.is_some() {
+            return Line::Text(std::mem::take(line));
         }
     }
 }
 
-fn keep_log(mut stderr: ChildStderr, log: &Mutex<Vec<u8>>) {
+async fn keep_log(mut stderr: ChildStderr, log: Arc<Mutex<Vec<u8>>>) {
     let mut chunk = [0; 4096];
-    while let Ok(count @ 1..) = stderr.read(&mut chunk) {
+    while let Ok(count @ 1..) = stderr.read(&mut chunk).await {
         let mut log = log.lock().unwrap_or_else(PoisonError::into_inner);
         log.extend(chunk.iter().take(count));
         let surplus = log.len().saturating_sub(MAX_LOG);

@@ -2,6 +2,8 @@
 //! ends within its time limit, and an adapter that fails is started again.
 
 mod child;
+mod together;
+mod trace;
 
 use std::fmt::Write as _;
 use std::io;
@@ -9,12 +11,13 @@ use std::time::{Duration, Instant};
 
 use thiserror::Error;
 
-use self::child::{Line, Running};
+pub(crate) use self::child::{Line, Running};
+pub use self::trace::Trace;
 use super::{Answer, Testee};
 use crate::protocol::{Hello, Op, Output, Reply, Request, VERSION};
 
-/// How often an adapter is started again before the rest is given up.
-const MAX_RESTARTS: u32 = 10;
+/// The most questions that are outstanding, whatever the adapter offers.
+const MAX_IN_FLIGHT: usize = 256;
 
 /// How long an adapter may take.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,6 +31,25 @@ pub struct Timeouts {
 impl Default for Timeouts {
     fn default() -> Self {
         Self { start: Duration::from_secs(10), request: Duration::from_secs(1) }
+    }
+}
+
+/// How an adapter is run.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// How long it may take.
+    pub timeouts: Timeouts,
+    /// How often it is started again before the rest is given up.
+    pub restarts: u32,
+    /// Where the lines exchanged are noted.
+    pub trace: Option<Trace>,
+    /// The number of this process in the trace.
+    pub number: u32,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { timeouts: Timeouts::default(), restarts: 10, trace: None, number: 1 }
     }
 }
 
@@ -58,8 +80,10 @@ pub enum StartError {
 #[derive(Debug)]
 pub struct Process {
     command: Vec<String>,
-    timeouts: Timeouts,
+    settings: Settings,
     hello: Hello,
+    /// How many questions may be outstanding.
+    at_once: usize,
     running: Option<Running>,
     restarts: u32,
     next_id: u64,
@@ -72,11 +96,12 @@ impl Process {
     ///
     /// # Errors
     /// If it can't be run, or does not answer `hello` in time and in form.
-    pub fn start(command: &[String], timeouts: Timeouts) -> Result<Self, StartError> {
-        let (running, hello) = start(command, timeouts)?;
+    pub fn start(command: &[String], settings: Settings) -> Result<Self, StartError> {
+        let (running, hello) = start(command, &settings)?;
         Ok(Self {
             command: command.to_vec(),
-            timeouts,
+            settings,
+            at_once: hello.max_in_flight.clamp(1, MAX_IN_FLIGHT),
             hello,
             running: Some(running),
             restarts: 0,
@@ -88,14 +113,15 @@ impl Process {
     /// The running adapter, started again if need be and allowed.
     fn running(&mut self) -> Result<&mut Running, String> {
         if self.running.is_none() {
-            if self.restarts >= MAX_RESTARTS {
-                return Err(format!("the adapter failed {} times", MAX_RESTARTS + 1));
+            let most = self.settings.restarts;
+            if self.restarts >= most {
+                return Err(format!("the adapter failed {} times", most.saturating_add(1)));
             }
             self.restarts += 1;
-            match start(&self.command, self.timeouts) {
+            match start(&self.command, &self.settings) {
                 Ok((running, _)) => self.running = Some(running),
                 Err(error) => {
-                    self.restarts = MAX_RESTARTS;
+                    self.restarts = most;
                     return Err(format!("the adapter could not be started again: {error}"));
                 }
             }
@@ -118,19 +144,33 @@ impl Testee for Process {
     fn ask(&mut self, op: &Op) -> Answer {
         let id = self.next_id;
         self.next_id += 1;
-        let limit = self.timeouts.request;
+        let limit = self.settings.timeouts.request;
         let running = match self.running() {
             Ok(running) => running,
             Err(reason) => return Answer::NotAsked(reason),
         };
-        match exchange(running, id, op, limit) {
+        let answer = match exchange(running, id, op, limit) {
             Ok(reply) => answer(op, reply),
-            Err(failure) => {
-                self.end();
-                failure
-            }
+            Err(failure) => failure,
+        };
+        // After such an answer, nothing that follows can be trusted.
+        if matches!(answer, Answer::TimedOut(_) | Answer::Crashed(_) | Answer::Faulty(_)) {
+            self.end();
         }
-        .unless_faulty(|| self.end())
+        answer
+    }
+
+    fn ask_all(
+        &mut self,
+        questions: &mut dyn Iterator<Item = (usize, &Op)>,
+        answered: &mut dyn FnMut(usize, Answer),
+    ) {
+        if self.at_once > 1 {
+            self.ask_together(questions, answered);
+        }
+        for (number, op) in questions {
+            answered(number, self.ask(op));
+        }
     }
 
     fn log(&self) -> String {
@@ -140,27 +180,17 @@ impl Testee for Process {
 
 impl Drop for Process {
     fn drop(&mut self) {
-        if let Some(running) = &self.running {
-            send(running, self.next_id, &Op::Bye);
+        if let Some(running) = &mut self.running {
+            running.farewell(&request(self.next_id, &Op::Bye));
         }
     }
 }
 
-impl Answer {
-    /// After an answer that is none of the protocol, nothing that follows can be trusted.
-    fn unless_faulty(self, end: impl FnOnce()) -> Self {
-        if matches!(self, Self::Faulty(_)) {
-            end();
-        }
-        self
-    }
-}
-
-fn start(command: &[String], timeouts: Timeouts) -> Result<(Running, Hello), StartError> {
+fn start(command: &[String], settings: &Settings) -> Result<(Running, Hello), StartError> {
     let name = command.join(" ");
-    let mut running = Running::start(command)
+    let mut running = Running::start(command, settings)
         .map_err(|error| StartError::Spawn { command: name.clone(), error })?;
-    match greet(&mut running, timeouts.start) {
+    match greet(&mut running, settings.timeouts.start) {
         Ok(hello) => Ok((running, hello)),
         Err(problem) => {
             let mut log = String::new();
@@ -200,7 +230,18 @@ fn greet(running: &mut Running, limit: Duration) -> Result<Hello, String> {
 /// Sends a request and waits for its reply.
 fn exchange(running: &mut Running, id: u64, op: &Op, limit: Duration) -> Result<Reply, Answer> {
     let deadline = Instant::now() + limit;
-    send(running, id, op);
+    running.send(&request(id, op));
+    let reply = read_reply(running, deadline, limit)?;
+    match reply.id {
+        Some(other) if other != id => {
+            Err(Answer::Faulty(format!("a reply to request {other}, not {id}")))
+        }
+        _ => Ok(reply),
+    }
+}
+
+/// Waits for a reply, to whichever request.
+fn read_reply(running: &mut Running, deadline: Instant, limit: Duration) -> Result<Reply, Answer> {
     let left = deadline.saturating_duration_since(Instant::now());
     let line = match running.receive(left) {
         Some(Line::Text(line)) => line,
@@ -221,16 +262,16 @@ fn exchange(running: &mut Running, id: u64, op: &Op, limit: Duration) -> Result<
     };
     let reply: Reply = serde_json::from_slice(&line)
         .map_err(|error| Answer::Faulty(format!("{error}: {}", shown(&line))))?;
-    match reply.id {
-        Some(reply_id) if reply_id == id => Ok(reply),
-        Some(other) => Err(Answer::Faulty(format!("a reply to request {other}, not {id}"))),
-        None => Err(Answer::Faulty(format!("a reply without an id: {}", shown(&line)))),
+    if reply.id.is_none() {
+        return Err(Answer::Faulty(format!("a reply without an id: {}", shown(&line))));
     }
+    Ok(reply)
 }
 
-fn send(running: &Running, id: u64, op: &Op) {
+/// A request as a line.
+fn request(id: u64, op: &Op) -> Vec<u8> {
     // Every request can be written as JSON: it has string keys only.
-    running.send(serde_json::to_vec(&Request { id, op }).unwrap_or_default());
+    serde_json::to_vec(&Request { id, op }).unwrap_or_default()
 }
 
 fn answer(op: &Op, reply: Reply) -> Answer {

@@ -1,89 +1,71 @@
-//! Implementations that are wrong in one way each, and the check that finds each of them. Several
-//! are bugs of published libraries; most pass every packet that the documents print.
+//! Implementations of DYNAMIXEL Protocol 2.0 that are wrong in one way each.
 
-#![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
-
-use std::collections::BTreeMap;
-
-use actucheck::cases;
-use actucheck::check::Check;
-use actucheck::protocol::{Hello, Op, Output, Wire};
+use actucheck::protocol::{Op, Output};
 use actucheck::reference::{self, HEADER};
-use actucheck::run::run;
-use actucheck::testee::{Answer, Builtin, Testee};
-use actucheck::verdict::Verdict;
-use actucheck_spec::Spec;
-use actucheck_spec::model::{HexBytes, Packet};
+use actucheck_spec::model::Packet;
 
-/// An implementation that is wrong in one way.
-struct Mutant {
-    name: &'static str,
-    /// What it answers instead; `None` where it is right.
-    answer: fn(&Op) -> Option<Output>,
-    /// A check that finds it.
-    found_by: &'static str,
-    /// Whether the packets that the documents print find it too.
-    found_by_documents: bool,
-}
+use super::{Mutant, Wrong, bytes};
 
-const MUTANTS: [Mutant; 14] = [
+pub(super) static MUTANTS: [Mutant; 14] = [
     Mutant {
         name: "sends without byte stuffing",
-        answer: |op| body_of(op).map(|(id, body)| bytes(reference::frame(id, &body))),
+        wrong: Wrong::Answers(|op| {
+            body_of(op).map(|(id, body)| bytes(reference::frame(id, &body)))
+        }),
         found_by: "dynamixel2.stuffing.in-write.fffffd/encode",
         found_by_documents: false,
     },
     Mutant {
         name: "looks for the pattern in the parameters only",
-        answer: |op| {
+        wrong: Wrong::Answers(|op| {
             let (id, body) = body_of(op)?;
             let (code, params) = body.split_first()?;
             let stuffed = [&[*code], reference::stuff(params).as_slice()].concat();
             // Only an instruction FF makes a difference.
             (*code == 0xFF).then(|| bytes(reference::frame(id, &stuffed)))
-        },
+        }),
         found_by: "dynamixel2.stuffing.from-instruction/encode",
         found_by_documents: false,
     },
     Mutant {
         name: "stuffs the first pattern only",
-        answer: |op| match op {
+        wrong: Wrong::Answers(|op| match op {
             Op::Stuff { bytes: body, .. } => {
                 let at = body.windows(3).position(|window| window == [0xFF, 0xFF, 0xFD])? + 3;
                 Some(bytes([&body[..at], &[0xFD], &body[at..]].concat()))
             }
             _ => None,
-        },
+        }),
         found_by: "dynamixel2.stuffing.body.fffffdfffffd/stuff",
         found_by_documents: false,
     },
     Mutant {
         name: "counts the length before stuffing",
-        answer: |op| {
+        wrong: Wrong::Answers(|op| {
             let (id, body) = body_of(op)?;
             let mut frame = reference::frame(id, &reference::stuff(&body));
             frame[5..7].copy_from_slice(&u16::try_from(body.len() + 2).ok()?.to_le_bytes());
             Some(bytes(with_crc(frame)))
-        },
+        }),
         found_by: "dynamixel2.length.3.tricky.write/encode",
         found_by_documents: false,
     },
     Mutant {
         name: "computes the CRC before stuffing",
-        answer: |op| {
+        wrong: Wrong::Answers(|op| {
             let (id, body) = body_of(op)?;
             let mut frame = reference::frame(id, &reference::stuff(&body));
             let plain = reference::frame(id, &body);
             let (end, plain_end) = (frame.len() - 2, plain.len() - 2);
             frame[end..].copy_from_slice(&plain[plain_end..]);
             Some(bytes(frame))
-        },
+        }),
         found_by: "dynamixel2.stuffing.in-status.fffffd/encode",
         found_by_documents: false,
     },
     Mutant {
         name: "takes every FD behind FF FD for stuffing",
-        answer: |op| match op {
+        wrong: Wrong::Answers(|op| match op {
             Op::Unstuff { bytes: body, .. } => {
                 let mut out: Vec<u8> = Vec::new();
                 for byte in body.iter() {
@@ -94,13 +76,13 @@ const MUTANTS: [Mutant; 14] = [
                 Some(bytes(out))
             }
             _ => None,
-        },
+        }),
         found_by: "dynamixel2.stuffing.body.fffdfd/unstuff",
         found_by_documents: false,
     },
     Mutant {
         name: "leaves stuffing in what it reads",
-        answer: |op| match op {
+        wrong: Wrong::Answers(|op| match op {
             Op::Decode { bytes, fast: None, .. } => match reference::decode(bytes).ok()? {
                 Packet::Status { id, error, .. } => {
                     let params = bytes[9..bytes.len() - 2].to_vec().into();
@@ -109,34 +91,34 @@ const MUTANTS: [Mutant; 14] = [
                 _ => None,
             },
             _ => None,
-        },
+        }),
         found_by: "dynamixel2.stuffing.status/decode",
         found_by_documents: false,
     },
     Mutant {
         name: "starts the CRC with FFFF",
-        answer: |op| match op {
+        wrong: Wrong::Answers(|op| match op {
             Op::Crc { bytes, .. } => {
                 let whole = [&[0xFF, 0xFF], bytes.0.as_slice()].concat();
                 Some(Output::Crc(reference::crc(&whole).into()))
             }
             _ => None,
-        },
+        }),
         found_by: "ja40.ping.instruction/crc",
         found_by_documents: true,
     },
     Mutant {
         name: "does not look at the CRC",
-        answer: |op| match op {
+        wrong: Wrong::Answers(|op| match op {
             Op::Decode { bytes, fast: None, .. } => read_leniently(&with_crc(bytes.0.clone())),
             _ => None,
-        },
+        }),
         found_by: "dynamixel2.negative.status.flip-13-0/decode",
         found_by_documents: true, // by the bytes that they print wrongly
     },
     Mutant {
         name: "does not look at the reserved byte",
-        answer: |op| match op {
+        wrong: Wrong::Answers(|op| match op {
             Op::Decode { bytes, fast: None, .. } if bytes.len() > 7 => {
                 let mut frame = bytes.0.clone();
                 let right = reference::crc(&frame[..frame.len() - 2]).to_le_bytes();
@@ -144,26 +126,26 @@ const MUTANTS: [Mutant; 14] = [
                 frame.ends_with(&right).then(|| read_leniently(&with_crc(frame)))?
             }
             _ => None,
-        },
+        }),
         found_by: "dynamixel2.negative.status.reserved-01/decode",
         found_by_documents: false,
     },
     Mutant {
         name: "reads the length's low byte only",
-        answer: |op| match op {
+        wrong: Wrong::Answers(|op| match op {
             Op::Encode { packet, .. } => {
                 let mut frame = reference::encode(&packet.packet)?;
                 frame[6] = 0;
                 Some(bytes(with_crc(frame)))
             }
             _ => None,
-        },
+        }),
         found_by: "dynamixel2.length.257.plain.write/encode",
         found_by_documents: false,
     },
     Mutant {
         name: "drops the alert bit",
-        answer: |op| match op {
+        wrong: Wrong::Answers(|op| match op {
             Op::Decode { bytes, fast: None, .. } => match reference::decode(bytes).ok()? {
                 Packet::Status { id, error, params } => {
                     Some(Output::Packet(Packet::Status { id, error: error & 0x7F, params }))
@@ -171,24 +153,24 @@ const MUTANTS: [Mutant; 14] = [
                 _ => None,
             },
             _ => None,
-        },
+        }),
         found_by: "dynamixel2.error.80/decode",
         found_by_documents: false,
     },
     Mutant {
         name: "forgets what it has of a packet when a chunk ends",
-        answer: |op| match op {
+        wrong: Wrong::Answers(|op| match op {
             Op::Stream { chunks, .. } => Some(Output::Packets(
                 chunks.iter().flat_map(|chunk| reference::packets(chunk)).collect(),
             )),
             _ => None,
-        },
+        }),
         found_by: "dynamixel2.stream.good-good/bytewise",
         found_by_documents: true, // cut byte by byte
     },
     Mutant {
         name: "gives up the stream at a wrong CRC",
-        answer: |op| match op {
+        wrong: Wrong::Answers(|op| match op {
             Op::Stream { chunks, .. } => {
                 let stream: Vec<u8> = chunks.iter().flat_map(|chunk| chunk.0.clone()).collect();
                 let at = stream.windows(4).position(|window| window == HEADER)?;
@@ -198,15 +180,11 @@ const MUTANTS: [Mutant; 14] = [
                 (!right).then(|| Output::Packets(Vec::new()))
             }
             _ => None,
-        },
+        }),
         found_by: "dynamixel2.stream.bad-crc-good/stream",
         found_by_documents: false,
     },
 ];
-
-fn bytes(bytes: Vec<u8>) -> Output {
-    Output::Bytes(HexBytes(bytes))
-}
 
 /// ID and body of a packet that is to be encoded.
 fn body_of(op: &Op) -> Option<(u8, Vec<u8>)> {
@@ -231,51 +209,4 @@ fn with_crc(mut frame: Vec<u8>) -> Vec<u8> {
 
 fn read_leniently(frame: &[u8]) -> Option<Output> {
     reference::decode(frame).ok().map(Output::Packet)
-}
-
-/// The built-in codec with a mutant's answers where it has any.
-struct Mutated<'a> {
-    codec: Builtin,
-    mutant: &'a Mutant,
-}
-
-impl Testee for Mutated<'_> {
-    fn hello(&self) -> &Hello {
-        self.codec.hello()
-    }
-
-    fn ask(&mut self, op: &Op) -> Answer {
-        (self.mutant.answer)(op).map_or_else(|| self.codec.ask(op), Answer::Ok)
-    }
-}
-
-fn checks() -> Vec<Check> {
-    let options = cases::Options { cases: 50, ..cases::Options::new(Wire::Dynamixel2) };
-    cases::all(&Spec::embedded().unwrap(), &options)
-}
-
-#[test]
-fn every_mutant_is_found_by_its_check() {
-    let checks = checks();
-    for mutant in &MUTANTS {
-        let mut testee = Mutated { codec: Builtin::default(), mutant };
-        let outcomes = run(&mut testee, &checks, |_| {});
-        let failed: BTreeMap<_, _> = outcomes
-            .iter()
-            .filter(|outcome| outcome.verdict == Verdict::Fail)
-            .map(|outcome| (outcome.id.as_str(), outcome))
-            .collect();
-        assert!(failed.contains_key(mutant.found_by), "{}: {:?}", mutant.name, failed.keys());
-        // Golden packets beside those of byte stuffing and of damage are printed in a document.
-        let printed = |id: &&str| {
-            let own = ["stuffing", "receive", "negative", "stream", "length", "error", "seed"];
-            let derived = own.iter().any(|name| id.starts_with(&format!("dynamixel2.{name}")));
-            let bytewise = ["id.", "instruction."]
-                .iter()
-                .any(|name| id.starts_with(&format!("dynamixel2.{name}")));
-            !derived && !bytewise
-        };
-        let found = failed.keys().any(printed);
-        assert_eq!(found, mutant.found_by_documents, "{}: {:?}", mutant.name, failed.keys());
-    }
 }

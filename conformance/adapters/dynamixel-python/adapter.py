@@ -1,0 +1,136 @@
+"""Conformance adapter for `dynamixel-python`, whose module is `dxl2`.
+
+The library is used as published, through its public classes, over a port in memory. Every byte sent
+and every packet reported is the library's work, its mistakes included; what it cannot do is skipped.
+"""
+
+from importlib.metadata import version
+
+from dxl2.v2 import (
+    BROADCAST_ID,
+    InstructionPacket,
+    MotorBus,
+    HardwareError,
+    Params,
+    StatusPacket,
+    add_stuffing,
+    calc_crc_16,
+)
+
+from adapter_kit import Rejected, Skipped, is_instruction, serve, unhex
+from calls import CALLS, sync_read_params
+from memory_serial import MemorySerial
+
+# What stands before and behind the parameters of a status packet.
+BEFORE_PARAMS, CRC = [0] * 9, [0] * 2
+
+
+def bus_over(serial):
+    bus = MotorBus("memory")  # opens nothing before connect(), which is never called
+    bus.conn.serial = serial
+    return bus
+
+
+def crc(request):
+    return {"crc": calc_crc_16(list(unhex(request["bytes"])))}
+
+
+def stuff(request):
+    return {"bytes": add_stuffing(Params(list(unhex(request["bytes"])))).raw.hex()}
+
+
+def unstuff(request):
+    packet = StatusPacket([*BEFORE_PARAMS, *unhex(request["bytes"]), *CRC])
+    packet.remove_stuffing()
+    return {"bytes": packet.params.raw.hex()}
+
+
+def encode(request):
+    packet = request["packet"]
+    if packet["kind"] != "instruction":
+        raise Skipped("a host's library: it sends no status packets")
+    call = packet.get("call")
+    serial = MemorySerial()
+    bus = bus_over(serial)
+    if call and call["name"] in CALLS:
+        CALLS[call["name"]](bus, packet["id"], call)
+    else:
+        # No call, or Fast Sync Write, which has no method: the packet's class is public.
+        params = Params(list(unhex(packet["params"])))
+        bus.conn.write_packet(InstructionPacket(packet["id"], packet["instruction"], params))
+    return {"bytes": serial.written.hex()}
+
+
+def decode(request):
+    frame = unhex(request["bytes"])
+    bus = bus_over(MemorySerial(frame))
+    if "fast" in request:
+        return {"packet": fast_status(bus, request["fast"])}
+    try:
+        return {"packet": status(bus.conn.read_packet())}
+    except Rejected:
+        if is_instruction(frame):
+            raise Skipped("a host's library: it reads no instruction packets") from None
+        raise
+
+
+def status(packet):
+    """What the methods of MotorBus do with each packet that has been read."""
+    if packet is None:
+        raise Rejected("truncated", "no packet")
+    if not packet.valid:
+        raise Rejected("crc", "not valid")
+    packet.remove_stuffing()
+    return {
+        "kind": "status",
+        "id": packet.packet_id,
+        "error": packet.error,
+        "params": packet.params.raw.hex(),
+    }
+
+
+def fast_status(bus, fast):
+    ids, length = fast["ids"], fast["length"]
+    if length == 0:
+        raise Skipped("the library has no Fast Sync Write")
+    call = {"address": 0, "length": length, "ids": ids}
+    response = bus.fast_sync_read(sync_read_params(BROADCAST_ID, call))
+    if response.timeout:
+        raise Rejected("truncated", "no packet")
+    if not response.valid:
+        raise Rejected("crc", "not valid")
+    if response.error:
+        raise Skipped("an error number comes alone, without ID and data")
+    # The devices' error numbers and IDs are thrown away: its caller is left to believe that there
+    # was no error and that they answered in the order asked for.
+    return {
+        "kind": "fast_status",
+        "blocks": [
+            {"error": 0, "id": i, "data": value.to_bytes(length, "little").hex()}
+            for i, value in zip(ids, response.data)
+        ],
+    }
+
+
+def stream(request):
+    serial = MemorySerial(b"".join(unhex(chunk) for chunk in request["chunks"]))
+    conn = bus_over(serial).conn
+    packets = []
+    while not serial.exhausted:
+        try:
+            packets.append(status(conn.read_packet()))
+        except (Rejected, HardwareError):
+            pass  # its caller reads on
+    return {"packets": packets}
+
+
+if __name__ == "__main__":
+    serve(
+        {
+            "name": "dynamixel-python",
+            "version": version("dynamixel-python"),
+            "url": "https://github.com/seagullcjung/dynamixel-python",
+        },
+        "dynamixel2",
+        {op.__name__: op for op in (crc, stuff, unstuff, encode, decode, stream)},
+    )

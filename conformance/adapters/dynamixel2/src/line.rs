@@ -1,0 +1,96 @@
+//! A line with the library at one end and the adapter, as a device, at the other.
+//!
+//! The library's end is a terminal's master. Once the other end is closed, it reads what is still
+//! there and then fails at once, so that no request waits for bytes that never come.
+
+use std::io;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use actucheck_adapter::Refusal;
+use dynamixel2::{Bus, ReadError, StatusPacket};
+use serial2::SerialPort;
+
+/// Bytes of the library's buffers, one of which holds a whole packet.
+pub(crate) const BUFFER: usize = 4096;
+
+/// How long the library waits for what has arrived already.
+const ARRIVED: Duration = Duration::from_millis(1);
+/// How long the library may wait for the line's end.
+const PATIENCE: Duration = Duration::from_millis(500);
+/// How long a line is quiet when a packet has been sent.
+const QUIET: Duration = Duration::from_millis(1);
+
+/// The library's bus.
+pub(crate) type Buffered = Bus<Vec<u8>, Vec<u8>>;
+
+/// A line on which bytes arrive.
+pub(crate) struct Line {
+    bus: Buffered,
+    /// `None` when no more bytes will come.
+    device: Option<SerialPort>,
+}
+
+impl Line {
+    pub(crate) fn new() -> Result<Self, Refusal> {
+        let (bus, device) = pair()?;
+        Ok(Self { bus, device: Some(device) })
+    }
+
+    /// Lets bytes arrive, the last ones or not.
+    pub(crate) fn arrive(&mut self, bytes: &[u8], last: bool) -> Result<(), Refusal> {
+        if let Some(device) = &self.device {
+            device.write_all(bytes).map_err(broken)?;
+        }
+        if last {
+            self.device = None;
+        }
+        Ok(())
+    }
+
+    /// Lets the library read one packet out of what has arrived.
+    pub(crate) fn read<T>(
+        &mut self,
+        use_it: impl Fn(StatusPacket<'_>) -> T,
+    ) -> Result<T, ReadError> {
+        let limit = if self.device.is_some() { ARRIVED } else { PATIENCE };
+        self.bus.read_status_response_deadline(Instant::now() + limit).map(use_it)
+    }
+}
+
+/// What the library sends in a call. The answer that the call may wait for does not come.
+pub(crate) fn sent(
+    call: impl FnOnce(&mut Buffered) -> Result<(), Refusal>,
+) -> Result<Vec<u8>, Refusal> {
+    let (mut bus, device) = pair()?;
+    let listener = thread::spawn(move || listen(device));
+    call(&mut bus)?;
+    let heard = listener.join().map_err(|_| broken("the listener panicked"))?;
+    heard.map_err(broken)
+}
+
+/// Hears one packet, then hangs up.
+fn listen(mut device: SerialPort) -> io::Result<Vec<u8>> {
+    let mut heard = Vec::new();
+    let mut chunk = [0; BUFFER];
+    device.set_read_timeout(PATIENCE)?;
+    loop {
+        match device.read(&mut chunk) {
+            Ok(count) => heard.extend(chunk.iter().take(count)),
+            Err(error) if error.kind() == io::ErrorKind::TimedOut => return Ok(heard),
+            Err(error) => return Err(error),
+        }
+        device.set_read_timeout(QUIET)?;
+    }
+}
+
+fn pair() -> Result<(Buffered, SerialPort), Refusal> {
+    let (port, device) = SerialPort::pair().map_err(broken)?;
+    let bus = Bus::with_buffers(port, vec![0; BUFFER], vec![0; BUFFER]).map_err(broken)?;
+    Ok((bus, device))
+}
+
+/// The line failed, not the library.
+pub(crate) fn broken(error: impl std::fmt::Display) -> Refusal {
+    Refusal::rejected("internal", format!("no pseudo-terminal: {error}"))
+}

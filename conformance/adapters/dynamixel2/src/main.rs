@@ -1,0 +1,113 @@
+//! Adapter for the crate `dynamixel2`, used as published. Every byte sent and every packet reported
+//! is its work, its mistakes included.
+
+#![forbid(unsafe_code)]
+
+mod calls;
+mod line;
+
+use std::process::ExitCode;
+
+use actucheck_adapter::{Fast, Hex, Identity, Library, Packet, Refusal, locked_version, serve};
+use dynamixel2::{InvalidMessage, ReadError, StatusPacket, checksum};
+use line::Line;
+
+struct Dynamixel2;
+
+impl Library for Dynamixel2 {
+    fn identity() -> Identity {
+        Identity {
+            name: "dynamixel2",
+            version: locked_version(include_str!("../Cargo.lock"), "dynamixel2"),
+            url: "https://github.com/robohouse-delft/dynamixel2-rs",
+            ops: &["crc", "encode", "decode", "stream"],
+            max_packet: Some(line::BUFFER),
+        }
+    }
+
+    fn crc(bytes: &[u8]) -> Result<u16, Refusal> {
+        Ok(checksum::calculate_checksum(0, bytes))
+    }
+
+    fn encode(packet: &Packet) -> Result<Vec<u8>, Refusal> {
+        let Packet::Instruction { id, instruction, params, call } = packet else {
+            return Err(Refusal::skipped("a host's library: it sends no status packets"));
+        };
+        line::sent(|bus| {
+            if let Some(call) = call
+                && let Some(sent) = calls::send(bus, *id, call)
+            {
+                return sent;
+            }
+            // Public, and stuffs: it does for an instruction that has no function of its own.
+            calls::send_raw(bus, *id, *instruction, params)
+        })
+    }
+
+    fn decode(frame: &[u8], fast: Option<&Fast>) -> Result<Packet, Refusal> {
+        if fast.is_some() {
+            return Err(Refusal::skipped("the library has no Fast Sync Read and Fast Sync Write"));
+        }
+        let mut line = Line::new()?;
+        line.arrive(frame, true)?;
+        line.read(|packet| status(&packet)).map_err(refusal)
+    }
+
+    fn stream(chunks: &[Hex]) -> Result<Vec<Packet>, Refusal> {
+        let mut line = Line::new()?;
+        let mut packets = Vec::new();
+        for (index, chunk) in chunks.iter().enumerate() {
+            line.arrive(chunk, index + 1 == chunks.len())?;
+            loop {
+                match line.read(|packet| status(&packet)) {
+                    Ok(packet) => packets.push(packet),
+                    // All read that has arrived; or stuck, as only the next instruction that is
+                    // sent empties the buffer.
+                    Err(ReadError::Io(_) | ReadError::BufferFull(_)) => break,
+                    Err(error) => {
+                        if let refusal @ Refusal::Skipped(_) = refusal(error) {
+                            return Err(refusal);
+                        }
+                    }
+                }
+            }
+        }
+        Ok(packets)
+    }
+}
+
+fn status(packet: &StatusPacket<'_>) -> Packet {
+    Packet::Status {
+        id: packet.packet_id(),
+        error: packet.error(),
+        params: Hex(packet.parameters().to_vec()),
+    }
+}
+
+fn refusal(error: ReadError) -> Refusal {
+    let class = match &error {
+        ReadError::MotorError(_) => {
+            return Refusal::skipped("an error number comes alone, without ID and parameters");
+        }
+        ReadError::InvalidMessage(InvalidMessage::InvalidInstruction(_)) => {
+            return Refusal::skipped("a host's library: it reads no instruction packets");
+        }
+        ReadError::BufferFull(_) => "oversize",
+        ReadError::Io(_) => "truncated",
+        ReadError::InvalidMessage(InvalidMessage::InvalidHeaderPrefix(_)) => "header",
+        ReadError::InvalidMessage(InvalidMessage::InvalidChecksum(_)) => "crc",
+        ReadError::InvalidMessage(InvalidMessage::InvalidPacketId(_)) => "id",
+        ReadError::InvalidMessage(InvalidMessage::InvalidParameterCount(_)) => "parameter",
+    };
+    Refusal::rejected(class, error)
+}
+
+fn main() -> ExitCode {
+    match serve::<Dynamixel2>() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("adapter: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}

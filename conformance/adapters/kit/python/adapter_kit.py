@@ -1,0 +1,94 @@
+"""What the adapters in Python share: the loop over requests and the ways in which one can end.
+
+An adapter hands `serve` what it says of its library and a function for each op, which takes the
+request and returns the object that `ok` holds.
+"""
+
+import json
+import sys
+
+
+class Rejected(Exception):
+    """The library says no: one of the adapter protocol's error classes, and its own words."""
+
+    def __init__(self, error_class, detail=""):
+        super().__init__(detail)
+        self.error_class = error_class
+
+
+class Skipped(Exception):
+    """The library has nothing for this."""
+
+
+class BadRequest(Exception):
+    """The request breaks the adapter protocol."""
+
+
+class Fields(dict):
+    """A JSON object that takes a missing field for a bad request, not for an error in the library."""
+
+    def __missing__(self, name):
+        raise BadRequest(f"no field {name!r}")
+
+
+def unhex(text):
+    try:
+        return bytes.fromhex(text)
+    except (TypeError, ValueError) as error:
+        raise BadRequest(f"{text!r} is not hex: {error}") from None
+
+
+def is_instruction(frame):
+    """Whether bytes begin as a DYNAMIXEL packet that carries another instruction than Status."""
+    return frame.startswith(b"\xff\xff\xfd\x00") and frame[7:8] not in (b"", b"\x55")
+
+
+def serve(implementation, wire, ops, limits=None):
+    """Answers requests until `bye` or the end of standard input."""
+    hello = {
+        "protocol": 1,
+        "implementation": {"language": "Python", **implementation},
+        "wires": [wire],
+        "ops": list(ops),
+        "limits": limits or {},
+    }
+    try:
+        _loop(hello, wire, ops)
+    except (BrokenPipeError, KeyboardInterrupt):
+        sys.exit(1)
+
+
+def _loop(hello, wire, ops):
+    replies = sys.stdout
+    sys.stdout = sys.stderr  # should the library print, it must not print into the protocol
+    for line in sys.stdin.buffer:
+        try:
+            request = json.loads(line, object_hook=Fields)
+        except (ValueError, RecursionError) as error:
+            sys.exit(f"adapter: not a line of JSON: {error}")
+        if not isinstance(request, dict) or type(request.get("id")) is not int:
+            sys.exit("adapter: a request is an object with an integer id")
+        if request.get("op") == "bye":
+            break
+        reply = {"id": request["id"], **_answer(request, hello, wire, ops)}
+        print(json.dumps(reply), file=replies, flush=True)
+
+
+def _answer(request, hello, wire, ops):
+    try:
+        op = request["op"]
+        if op == "hello":
+            return {"ok": hello}
+        if op not in ops:
+            return {"skip": {"reason": f"no op {op!r}"}}
+        if request["wire"] != wire:
+            return {"skip": {"reason": f"the library does not speak {request['wire']!r}"}}
+        return {"ok": ops[op](request)}
+    except Skipped as skipped:
+        return {"skip": {"reason": str(skipped)}}
+    except Rejected as error:
+        return {"err": {"class": error.error_class, "detail": str(error)}}
+    except BadRequest as error:
+        return {"err": {"class": "parameter", "detail": f"bad request: {error}"}}
+    except Exception as error:  # whatever the library lets through is a finding
+        return {"err": {"class": "internal", "detail": f"{type(error).__name__}: {error}"}}

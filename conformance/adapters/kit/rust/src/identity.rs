@@ -1,0 +1,49 @@
+//! What an adapter says of the library that it wraps.
+
+use serde_json::{Value, json};
+
+/// What an adapter says of the library that it wraps.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Identity {
+    /// Its name where it is published.
+    pub name: &'static str,
+    /// Its version: see [`locked_version`].
+    pub version: String,
+    /// Where its source is.
+    pub url: &'static str,
+    /// The ops that the adapter implements, as the adapter protocol names them.
+    pub ops: &'static [&'static str],
+    /// Bytes of the longest frame that it builds or reads; `None` if it sets no limit.
+    pub max_packet: Option<usize>,
+}
+
+impl Identity {
+    /// The `ok` object that answers `hello`.
+    pub(crate) fn hello(self) -> Value {
+        let limits = self.max_packet.map_or(json!({}), |size| json!({ "max_packet": size }));
+        json!({
+            "protocol": 1,
+            "implementation": {
+                "name": self.name,
+                "version": self.version,
+                "language": "Rust",
+                "url": self.url,
+            },
+            "wires": ["dynamixel2"],
+            "ops": self.ops,
+            "limits": limits,
+        })
+    }
+}
+
+/// The version of a package in a lock file, which is the one that was built; empty if it is not
+/// there.
+#[must_use]
+pub fn locked_version(lock: &str, package: &str) -> String {
+    let name = format!("name = \"{package}\"");
+    let version = lock
+        .lines()
+        .skip_while(|line| *line != name)
+        .find_map(|line| line.strip_prefix("version = "));
+    version.unwrap_or_default().trim_matches('"').to_owned()
+}

@@ -1,0 +1,96 @@
+//! The adapter protocol's objects.
+
+use serde::{Deserialize, Serialize};
+
+use crate::Hex;
+
+/// A packet by its fields.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum Packet {
+    /// What a host sends.
+    Instruction {
+        /// Whom it is for.
+        id: u8,
+        /// The instruction's code.
+        instruction: u8,
+        /// Everything between the instruction and the CRC, before stuffing.
+        params: Hex,
+        /// The same request in words; `None` if no instruction has such parameters.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        call: Option<Call>,
+    },
+    /// What a device answers.
+    Status {
+        /// Who answers.
+        id: u8,
+        /// The whole error byte, alert bit included.
+        error: u8,
+        /// Everything between the error and the CRC, before stuffing.
+        params: Hex,
+    },
+    /// What several devices answer together.
+    FastStatus {
+        /// One block a device, in the order asked for.
+        blocks: Vec<Block>,
+    },
+}
+
+/// One device's part of a fast status packet.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize)]
+pub struct Block {
+    /// The whole error byte.
+    pub error: u8,
+    /// Who answers.
+    pub id: u8,
+    /// What was read.
+    pub data: Hex,
+}
+
+/// An instruction in words. The names of its fields are those of the documents.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(tag = "name", rename_all = "snake_case")]
+#[allow(missing_docs)] // the variants are the instructions, the fields their parameters
+pub enum Call {
+    Ping,
+    Read { address: u16, length: u16 },
+    Write { address: u16, data: Hex },
+    RegWrite { address: u16, data: Hex },
+    Action,
+    FactoryReset { option: Option<u8> },
+    Reboot,
+    Clear { params: Hex },
+    ControlTableBackup { params: Hex },
+    SyncRead { address: u16, length: u16, ids: Vec<u8> },
+    FastSyncRead { address: u16, length: u16, ids: Vec<u8> },
+    SyncWrite { address: u16, length: u16, devices: Vec<Device> },
+    FastSyncWrite { address: u16, length: u16, devices: Vec<Device> },
+    BulkRead { devices: Vec<Device> },
+    BulkWrite { devices: Vec<Device> },
+}
+
+/// One device of a call for several. Which fields there are depends on the instruction; the others
+/// are 0 or empty.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize)]
+pub struct Device {
+    /// Which device.
+    pub id: u8,
+    /// Where to read or write.
+    #[serde(default)]
+    pub address: u16,
+    /// How many bytes to read.
+    #[serde(default)]
+    pub length: u16,
+    /// What to write.
+    #[serde(default)]
+    pub data: Hex,
+}
+
+/// What a fast status packet answers.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+pub struct Fast {
+    /// Bytes of data a block; 0 for Fast Sync Write.
+    pub length: u16,
+    /// The devices in the order asked for.
+    pub ids: Vec<u8>,
+}

@@ -1,0 +1,112 @@
+//! Adapter for the crate `rustypot`, used as published, over a port in memory. Every byte sent and
+//! every packet reported is its work, its mistakes included.
+
+#![forbid(unsafe_code)]
+
+mod calls;
+mod memory_port;
+
+use std::error::Error;
+use std::io;
+use std::process::ExitCode;
+
+use actucheck_adapter::{
+    Block, Fast, Hex, Identity, Library, Packet, Refusal, locked_version, serve,
+};
+use memory_port::MemoryPort;
+use rustypot::{CommunicationErrorKind, DynamixelProtocolHandler, SyncReadError};
+
+/// Where a frame's ID and instruction stand, the instruction of a status packet, and the header.
+const ID: usize = 4;
+const INSTRUCTION: usize = 7;
+const STATUS: u8 = 0x55;
+const HEADER: [u8; 4] = [0xFF, 0xFF, 0xFD, 0x00];
+
+struct Rustypot;
+
+impl Library for Rustypot {
+    fn identity() -> Identity {
+        Identity {
+            name: "rustypot",
+            version: locked_version(include_str!("../Cargo.lock"), "rustypot"),
+            url: "https://github.com/pollen-robotics/rustypot",
+            ops: &["encode", "decode"],
+            max_packet: None,
+        }
+    }
+
+    fn encode(packet: &Packet) -> Result<Vec<u8>, Refusal> {
+        let Packet::Instruction { id, call, .. } = packet else {
+            return Err(Refusal::skipped("a host's library: it sends no status packets"));
+        };
+        let Some(call) = call else {
+            return Err(Refusal::skipped("the library sends no packet but by a function for it"));
+        };
+        calls::sent(*id, call)
+    }
+
+    fn decode(frame: &[u8], fast: Option<&Fast>) -> Result<Packet, Refusal> {
+        fast.map_or_else(|| status(frame), |fast| fast_status(frame, fast))
+    }
+}
+
+/// What a Read yields. The library takes the answer of the device that it asked and no other, and
+/// does not say whose it was: the one is asked that the frame names.
+fn status(frame: &[u8]) -> Result<Packet, Refusal> {
+    let id = frame.get(ID).copied().unwrap_or_default();
+    let handler = DynamixelProtocolHandler::v2();
+    match handler.read_with_error(&mut MemoryPort::holding(frame), id, 0, 0) {
+        Ok((params, error)) => Ok(Packet::Status { id, error: error.byte(), params: Hex(params) }),
+        Err(error) => Err(match frame.get(INSTRUCTION) {
+            Some(&instruction) if frame.starts_with(&HEADER) && instruction != STATUS => {
+                Refusal::skipped("a host's library: it reads no instruction packets")
+            }
+            _ => refusal(error.as_ref()),
+        }),
+    }
+}
+
+fn fast_status(frame: &[u8], fast: &Fast) -> Result<Packet, Refusal> {
+    if fast.length == 0 {
+        return Err(Refusal::skipped("the library has no Fast Sync Write"));
+    }
+    let length = calls::length_of(fast.length)?;
+    let handler = DynamixelProtocolHandler::v2().with_fast_sync_read();
+    let mut port = MemoryPort::holding(frame);
+    let read = handler.sync_read_with_error(&mut port, &fast.ids, 0, length);
+    let blocks = read.map_err(|error| refusal(error.as_ref()))?;
+    let block = |(id, (data, error)): (&u8, (Vec<u8>, rustypot::StatusError))| Block {
+        error: error.byte(),
+        id: *id,
+        data: Hex(data),
+    };
+    Ok(Packet::FastStatus { blocks: fast.ids.iter().zip(blocks).map(block).collect() })
+}
+
+fn refusal(error: &(dyn Error + 'static)) -> Refusal {
+    let cause = match error.downcast_ref::<SyncReadError>() {
+        Some(SyncReadError { cause, .. }) => cause.as_ref(),
+        None => error,
+    };
+    let class = match cause.downcast_ref::<CommunicationErrorKind>() {
+        Some(CommunicationErrorKind::ChecksumError) => "crc",
+        Some(CommunicationErrorKind::IncorrectId(..)) => "id",
+        Some(CommunicationErrorKind::TimeoutError) => "truncated",
+        // Its one word for a wrong header, length or instruction.
+        Some(CommunicationErrorKind::ParsingError) => "header",
+        Some(CommunicationErrorKind::Unsupported) => "instruction",
+        None if cause.is::<io::Error>() => "truncated",
+        None => "internal",
+    };
+    Refusal::rejected(class, error)
+}
+
+fn main() -> ExitCode {
+    match serve::<Rustypot>() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("adapter: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}

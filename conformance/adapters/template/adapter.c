@@ -1,0 +1,285 @@
+/* An adapter that skips everything. Fill in the ops that your library offers.
+ *
+ *     cc -std=c99 -Wall -Wextra -o adapter adapter.c
+ *
+ * First comes what you write, then what you can use for it, then the rest. */
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Answers: each op gives one of them, once. */
+void ok(const char *format, ...);                        /* the object that `ok` holds */
+void rejected(const char *fault, const char *detail);    /* one of the error classes */
+void skipped(const char *reason);
+
+/* Fields of a request or of an object in it; all of these point into the request's text. */
+const char *field(const char *object, const char *name); /* NULL if it is not there */
+const char *element(const char *array, size_t index);    /* NULL if there are no more */
+int is(const char *value, const char *text);             /* whether a value is this text */
+long number(const char *value);                          /* -1 if it is none */
+unsigned char *bytes(const char *value, size_t *count);  /* NULL if it is no hex; to be freed */
+
+/* Bytes as hex digits; to be freed. */
+char *hex(const unsigned char *data, size_t count);
+
+/* An op takes the request, for example:
+ *
+ *     static void crc(const char *request)
+ *     {
+ *         size_t count;
+ *         unsigned char *data = bytes(field(request, "bytes"), &count);
+ *         if (data == NULL) {
+ *             rejected("parameter", "bad request: bytes");
+ *             return;
+ *         }
+ *         ok("{\"crc\":%u}", (unsigned)my_library_crc(data, count));
+ *         free(data);
+ *     }
+ *
+ * and {"crc", crc} at the head of OPS. */
+
+static const struct op {
+    const char *name;
+    void (*answer)(const char *request);
+} OPS[] = {
+    {NULL, NULL},
+};
+
+static const char WIRE[] = "dynamixel2";
+static const char IMPLEMENTATION[] =
+    "{\"name\":\"my_library\",\"version\":\"0\",\"language\":\"C\"}";
+
+/* The id of the request in hand. */
+static long id;
+
+void ok(const char *format, ...)
+{
+    va_list values;
+    va_start(values, format);
+    printf("{\"id\":%ld,\"ok\":", id);
+    vprintf(format, values);
+    printf("}\n");
+    va_end(values);
+}
+
+/* Prints a text as JSON has it. */
+static void print_text(const char *text)
+{
+    putchar('"');
+    for (; *text != '\0'; text++) {
+        if (*text == '"' || *text == '\\')
+            printf("\\%c", *text);
+        else if ((unsigned char)*text < ' ')
+            printf("\\u%04x", (unsigned)(unsigned char)*text);
+        else
+            putchar(*text);
+    }
+    putchar('"');
+}
+
+void rejected(const char *fault, const char *detail)
+{
+    printf("{\"id\":%ld,\"err\":{\"class\":", id);
+    print_text(fault);
+    printf(",\"detail\":");
+    print_text(detail);
+    printf("}}\n");
+}
+
+void skipped(const char *reason)
+{
+    printf("{\"id\":%ld,\"skip\":{\"reason\":", id);
+    print_text(reason);
+    printf("}}\n");
+}
+
+/* What stands behind white space. */
+static const char *skip_space(const char *at)
+{
+    return at + strspn(at, " \t\r\n");
+}
+
+/* What stands behind a value. */
+static const char *skip_value(const char *at)
+{
+    int depth = 0;
+    do {
+        if (*at == '"') {
+            for (at++; *at != '\0' && *at != '"'; at++)
+                if (*at == '\\' && at[1] != '\0')
+                    at++;
+        } else if (*at == '{' || *at == '[') {
+            depth++;
+        } else if (*at == '}' || *at == ']') {
+            depth--;
+        } else if (depth == 0) {
+            return at + strcspn(at, ",:}] \t\r\n");
+        }
+        if (*at != '\0')
+            at++;
+    } while (depth > 0 && *at != '\0');
+    return at;
+}
+
+const char *field(const char *object, const char *name)
+{
+    size_t length = strlen(name);
+    if (object == NULL || *object != '{')
+        return NULL;
+    object = skip_space(object + 1);
+    while (*object == '"') {
+        const char *key = object + 1, *end = skip_value(object);
+        const char *value = skip_space(end);
+        if (*value != ':')
+            return NULL;
+        value = skip_space(value + 1);
+        if ((size_t)(end - key) == length + 1 && strncmp(key, name, length) == 0)
+            return value;
+        object = skip_space(skip_value(value));
+        if (*object == ',')
+            object = skip_space(object + 1);
+    }
+    return NULL;
+}
+
+const char *element(const char *array, size_t index)
+{
+    if (array == NULL || *array != '[')
+        return NULL;
+    array = skip_space(array + 1);
+    while (*array != ']' && *array != '\0') {
+        if (index-- == 0)
+            return array;
+        array = skip_space(skip_value(array));
+        if (*array != ',')
+            return NULL;
+        array = skip_space(array + 1);
+    }
+    return NULL;
+}
+
+int is(const char *value, const char *text)
+{
+    size_t length = strlen(text);
+    return value != NULL && *value == '"' && strncmp(value + 1, text, length) == 0 &&
+           value[length + 1] == '"';
+}
+
+long number(const char *value)
+{
+    char *end;
+    long result = value == NULL ? -1 : strtol(value, &end, 10);
+    return value == NULL || end == value ? -1 : result;
+}
+
+/* Memory, or the end. */
+static void *allocated(void *old, size_t size)
+{
+    void *memory = realloc(old, size);
+    if (memory == NULL) {
+        fprintf(stderr, "adapter: out of memory\n");
+        exit(EXIT_FAILURE);
+    }
+    return memory;
+}
+
+/* The value of a hex digit; -1 if it is none. */
+static int digit(char c)
+{
+    static const char DIGITS[] = "0123456789abcdef";
+    const char *found = c == '\0' ? NULL : strchr(DIGITS, c);
+    return found == NULL ? -1 : (int)(found - DIGITS);
+}
+
+unsigned char *bytes(const char *value, size_t *count)
+{
+    size_t length, i;
+    unsigned char *data;
+    if (value == NULL || *value != '"')
+        return NULL;
+    length = strcspn(++value, "\"");
+    if (length % 2 != 0)
+        return NULL;
+    data = allocated(NULL, length / 2 + 1);
+    for (i = 0; i < length / 2; i++) {
+        int high = digit(value[2 * i]), low = digit(value[2 * i + 1]);
+        if (high < 0 || low < 0) {
+            free(data);
+            return NULL;
+        }
+        data[i] = (unsigned char)(high << 4 | low);
+    }
+    *count = length / 2;
+    return data;
+}
+
+char *hex(const unsigned char *data, size_t count)
+{
+    char *text = allocated(NULL, 2 * count + 1);
+    size_t i;
+    text[0] = '\0';
+    for (i = 0; i < count; i++)
+        snprintf(text + 2 * i, 3, "%02x", data[i]);
+    return text;
+}
+
+/* One line of standard input, however long, without its end; NULL at the end. */
+static char *read_line(void)
+{
+    static char *line = NULL;
+    static size_t size = 0;
+    size_t length = 0;
+    int c;
+    while ((c = getchar()) != EOF && c != '\n') {
+        if (length + 1 >= size)
+            line = allocated(line, size = 2 * size + 256);
+        line[length++] = (char)c;
+    }
+    if (c == EOF && length == 0)
+        return NULL;
+    if (line == NULL)
+        line = allocated(line, size = 256);
+    line[length] = '\0';
+    return line;
+}
+
+static void say_hello(void)
+{
+    const struct op *op;
+    printf("{\"id\":%ld,\"ok\":{\"protocol\":1,\"implementation\":%s", id, IMPLEMENTATION);
+    printf(",\"wires\":[\"%s\"],\"ops\":[", WIRE);
+    for (op = OPS; op->name != NULL; op++)
+        printf("%s\"%s\"", op == OPS ? "" : ",", op->name);
+    printf("]}}\n");
+}
+
+static void answer(const char *request)
+{
+    const struct op *op = OPS;
+    const char *name = field(request, "op");
+    if (is(name, "hello")) {
+        say_hello();
+        return;
+    }
+    while (op->name != NULL && !is(name, op->name))
+        op++;
+    if (op->name == NULL)
+        skipped("the adapter has no such op");
+    else if (!is(field(request, "wire"), WIRE))
+        skipped("the library does not speak this wire");
+    else
+        op->answer(request);
+}
+
+int main(void)
+{
+    const char *request;
+    while ((request = read_line()) != NULL && !is(field(request, "op"), "bye")) {
+        id = number(field(request, "id"));
+        answer(request);
+        fflush(stdout);
+    }
+    return EXIT_SUCCESS;
+}

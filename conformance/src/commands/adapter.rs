@@ -1,0 +1,101 @@
+//! `actucheck adapter`.
+
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use actucheck::adapter::{self, Point, Report, Said};
+use actucheck::cases::{self, Options};
+use actucheck::protocol::Wire;
+use anstyle::AnsiColor;
+
+use super::Failure;
+use crate::cli::adapter::{Check, Command, Language, Template};
+
+/// How many lines of a conversation are shown, the last ones.
+const SHOWN: usize = 4;
+/// How many characters of a line are shown.
+const WIDTH: usize = 400;
+
+pub(crate) fn run(command: &Command) -> Result<ExitCode, Failure> {
+    match command {
+        Command::Template(options) => Ok(template(options)),
+        Command::Check(options) => check(options),
+    }
+}
+
+/// Prints a template.
+fn template(options: &Template) -> ExitCode {
+    let text = match options.language {
+        Language::Python => include_str!("../../adapters/template/adapter.py"),
+        Language::C => include_str!("../../adapters/template/adapter.c"),
+    };
+    // A reader that has seen enough is no failure.
+    let _ = io::stdout().write_all(text.as_bytes());
+    ExitCode::SUCCESS
+}
+
+/// Looks at an adapter and prints what came out.
+fn check(options: &Check) -> Result<ExitCode, Failure> {
+    let spec = super::spec()?;
+    // The questions are the documents'; none is generated.
+    let of = |wire| cases::all(&spec, &Options { cases: 0, ..Options::new(wire) });
+    let checks: Vec<_> = Wire::ALL.into_iter().flat_map(of).collect();
+    let settings = super::settings(&options.exchange)?;
+    let command = options.command.join(" ");
+    let report = adapter::check(&options.command, &settings, &checks).map_err(|error| {
+        let message = format!("cannot run `{command}`: {error}; give the command after `--`");
+        Failure::new(Failure::NOT_STARTED, message)
+    })?;
+    if let Some(trace) = settings.trace {
+        trace.finish().map_err(|error| {
+            Failure::new(Failure::INCOMPLETE, format!("cannot write the trace: {error}"))
+        })?;
+    }
+    write(&report, &command, &mut anstream::stdout())
+        .map_err(|error| Failure::new(Failure::INCOMPLETE, error))?;
+    Ok(ExitCode::from(match &report.hello {
+        Some(_) if report.is_good() => 0,
+        Some(_) => Failure::FAILED,
+        None => Failure::NOT_STARTED,
+    }))
+}
+
+fn write(report: &Report, command: &str, out: &mut impl Write) -> io::Result<()> {
+    report.points.iter().try_for_each(|point| line(point, out))?;
+    let wrong = report.points.iter().filter(|point| point.result.is_err()).count();
+    if wrong == 0 {
+        let style = AnsiColor::Green.on_default().bold();
+        let offers = report.hello.as_ref().is_some_and(|hello| !hello.ops.is_empty());
+        let next = if offers { "its library is next" } else { "it offers no op yet" };
+        return writeln!(out, "\n{style}well{style:#}  {next}: actucheck codec -- {command}");
+    }
+    if !report.log.is_empty() {
+        writeln!(out, "\nIts standard error ends with:")?;
+        report.log.lines().try_for_each(|line| writeln!(out, "  {line}"))?;
+    }
+    let style = AnsiColor::Red.on_default().bold();
+    let rest = if report.ended_early() { ", and the rest could not be looked at" } else { "" };
+    writeln!(out, "\n{style}WRONG{style:#}  {wrong} of {} points{rest}", report.points.len())
+}
+
+/// A point on a line, with what to do about it on further ones.
+fn line(point: &Point, out: &mut impl Write) -> io::Result<()> {
+    let name = &point.name;
+    let problem = match &point.result {
+        Ok(remark) => {
+            let style = AnsiColor::Green.on_default();
+            let remark = if remark.is_empty() { String::new() } else { format!(" ({remark})") };
+            return writeln!(out, "  {style}ok{style:#}     {name}{remark}");
+        }
+        Err(problem) => problem,
+    };
+    let style = AnsiColor::Red.on_default().bold();
+    writeln!(out, "  {style}WRONG{style:#}  {name}: {}", problem.what)?;
+    for Said { by_adapter, line } in point.said.iter().skip(point.said.len().saturating_sub(SHOWN))
+    {
+        let dots = if line.chars().count() > WIDTH { "…" } else { "" };
+        let line: String = line.chars().take(WIDTH).collect();
+        writeln!(out, "         {}  {line}{dots}", if *by_adapter { "got " } else { "sent" })?;
+    }
+    writeln!(out, "         mend  {}", problem.mend)
+}

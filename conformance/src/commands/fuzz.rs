@@ -1,0 +1,134 @@
+//! `actucheck fuzz`.
+
+use std::hash::{BuildHasher, RandomState};
+use std::io::{self, Write};
+use std::ops::ControlFlow;
+use std::process::ExitCode;
+use std::sync::atomic::Ordering;
+use std::time::{Duration, Instant};
+
+use actucheck::cases::Options;
+use actucheck::fuzz::{Finding, Fuzzed, fuzz};
+use actucheck::record;
+use actucheck::report::{Report, Run, text};
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::Failure;
+use crate::cli::Fuzz;
+
+/// How long it takes where the user does not say it.
+const MINUTE: Duration = Duration::from_mins(1);
+
+/// How often an adapter that fails is started again: each crash costs one, the hundredth as well.
+const RESTARTS: u32 = 1000;
+
+/// Fuzzes, and shows and keeps what was found.
+pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
+    let spec = super::spec()?;
+    let mut testees = super::testees_with(&options.adapter, 1, RESTARTS)?;
+    let hello = testees.hello.clone();
+    let seed = options.seed.unwrap_or_else(|| RandomState::new().hash_one(()));
+    let cases = options.cases.unwrap_or(u64::MAX);
+    let time = options.time.or_else(|| options.cases.is_none().then_some(MINUTE));
+
+    let started = Instant::now();
+    let interrupted = super::interrupted()?;
+    let progress = progress(options.cases);
+    let Some(testee) = testees.all.first_mut() else { return Ok(ExitCode::SUCCESS) };
+    let fuzzed = fuzz(&spec, options.wire, seed, cases, testee.as_mut(), |asked, found| {
+        progress.set_position(asked);
+        progress.set_message(format!("{found} kinds of failure"));
+        let over = time.is_some_and(|time| started.elapsed() >= time);
+        if over || interrupted.load(Ordering::Relaxed) {
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    });
+    progress.finish_and_clear();
+    let log = testees.end()?;
+
+    keep(options, &fuzzed.findings)?;
+    let outcomes: Vec<_> = fuzzed.findings.iter().map(|finding| finding.outcome.clone()).collect();
+    let took = started.elapsed();
+    let report = Report::from(Run {
+        spec: &spec,
+        implementation: &hello.implementation,
+        options: Options { seed, ..Options::new(options.wire) },
+        command: &options.adapter.command,
+        record: Some(&options.out),
+        outcomes,
+        stopped: None,
+        left: 0,
+        seconds: took.as_secs_f64(),
+        log: String::new(),
+    });
+    let mut out = anstream::stdout();
+    show(&report, &fuzzed.findings, &mut out)
+        .and_then(|()| summary(options, seed, &fuzzed, took, &mut out))
+        .map_err(|error| Failure::new(Failure::INCOMPLETE, error))?;
+    if let Some(reason) = &fuzzed.given_up {
+        let last = log.lines().last().map(|line| format!("; it said `{line}`")).unwrap_or_default();
+        return Err(Failure::new(Failure::INCOMPLETE, format!("{reason}{last}")));
+    }
+    Ok(ExitCode::from(u8::from(!fuzzed.findings.is_empty())))
+}
+
+/// Writes the smallest case of each kind of failure to a file that `replay` and `codec` take.
+fn keep(options: &Fuzz, findings: &[Finding]) -> Result<(), Failure> {
+    if findings.is_empty() {
+        return Ok(());
+    }
+    let checks: Vec<_> = findings.iter().map(|finding| finding.check.clone()).collect();
+    let cannot_write = |error: &dyn std::fmt::Display| {
+        let path = options.out.display();
+        Failure::new(Failure::INCOMPLETE, format!("cannot write {path}: {error}"))
+    };
+    let text = record::write(&checks).map_err(|error| cannot_write(&error))?;
+    std::fs::write(&options.out, text).map_err(|error| cannot_write(&error))
+}
+
+/// The report on the smallest case of each kind of failure, and the kinds in a line each.
+fn show(report: &Report, findings: &[Finding], out: &mut impl Write) -> io::Result<()> {
+    if findings.is_empty() {
+        return Ok(());
+    }
+    text::write(report, out)?;
+    writeln!(out)?;
+    for Finding { kind, check, times, .. } in findings {
+        writeln!(out, "{} {}: {}", kind.op, kind.requirement, kind.symptom)?;
+        writeln!(out, "  {times} times; the smallest is {}", check.id)?;
+    }
+    Ok(())
+}
+
+fn summary(
+    options: &Fuzz,
+    seed: u64,
+    fuzzed: &Fuzzed,
+    took: Duration,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    let found = match fuzzed.findings.len() {
+        0 => "nothing found".to_owned(),
+        1 => format!("1 kind of failure, kept in {}", options.out.display()),
+        count => format!("{count} kinds of failure, kept in {}", options.out.display()),
+    };
+    let seconds = took.as_secs_f64();
+    writeln!(out, "{} probes in {seconds:.1} s, seed {seed}: {found}", fuzzed.asked)
+}
+
+/// Shows on a terminal, and there only.
+fn progress(cases: Option<u64>) -> ProgressBar {
+    let (bar, template) = match cases {
+        Some(cases) => {
+            (ProgressBar::new(cases), "{bar:30} {pos}/{len} probes  {per_sec}  {eta} left  {msg}")
+        }
+        None => (ProgressBar::no_length(), "{spinner} {pos} probes  {per_sec}  {elapsed}  {msg}"),
+    };
+    // The template is a constant; one that indicatif does not like shows its default.
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style);
+    }
+    bar.enable_steady_tick(Duration::from_secs(1));
+    bar
+}

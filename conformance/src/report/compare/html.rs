@@ -1,0 +1,23 @@
+//! The comparison as one page.
+
+use std::io::{self, Write};
+
+use askama::Template;
+
+use super::{Cell, Comparison, Standing};
+use crate::explain::diff::Segment;
+use crate::report::view::Evidence;
+use crate::report::words;
+
+/// Writes the page.
+pub(super) fn write(comparison: &Comparison, out: &mut dyn Write) -> io::Result<()> {
+    let mut out = io::BufWriter::new(out);
+    Page { comparison }.write_into(&mut out)?;
+    out.flush()
+}
+
+#[derive(Template)]
+#[template(path = "compare.html")]
+struct Page<'a> {
+    comparison: &'a Comparison,
+}

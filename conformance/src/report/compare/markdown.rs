@@ -1,0 +1,70 @@
+//! The comparison for a CI job's page.
+
+use std::io::{self, Write};
+
+use super::{Comparison, Standing};
+use crate::report::markdown::prose;
+use crate::report::words::{self, count, mark};
+
+/// Writes it.
+pub(super) fn write(comparison: &Comparison, out: &mut dyn Write) -> io::Result<()> {
+    let many = comparison.implementations.len();
+    writeln!(out, "## {many} implementations on wire {}", comparison.wire.id())?;
+    if !comparison.asked_alike() {
+        writeln!(out, "\n{}", words::ASKED_DIFFERENTLY)?;
+    }
+    matrix("Somebody gets it wrong", comparison, Standing::Wrong, out)?;
+    matrix("Nobody gets it wrong, but they differ", comparison, Standing::Different, out)?;
+    let alike = comparison.rows(Standing::Alike).count();
+    writeln!(out, "\nAll alike: {}.", count(alike, "requirement"))?;
+    profile(comparison, out)
+}
+
+fn matrix(
+    title: &str,
+    comparison: &Comparison,
+    standing: Standing,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    if comparison.rows(standing).next().is_none() {
+        return Ok(());
+    }
+    writeln!(out, "\n### {title}\n")?;
+    head("requirement", comparison, out)?;
+    for row in comparison.rows(standing) {
+        let place = row.statement.as_ref().map(|statement| prose(&statement.place()));
+        write!(out, "| `{}`<br>{} |", row.id, place.unwrap_or_default())?;
+        for cell in &row.cells {
+            let mark = cell.as_ref().map(|cell| mark(cell.verdict)).unwrap_or_default();
+            write!(out, " {mark} {} |", words::cell(cell.as_ref()))?;
+        }
+        writeln!(out)?;
+    }
+    Ok(())
+}
+
+fn head(first: &str, comparison: &Comparison, out: &mut dyn Write) -> io::Result<()> {
+    write!(out, "| {first} |")?;
+    for one in &comparison.implementations {
+        write!(out, " {} {} |", prose(&one.who.name), prose(&one.who.version))?;
+    }
+    writeln!(out, "\n|---|{}", "---|".repeat(comparison.implementations.len()))
+}
+
+/// Only the questions that are not answered alike.
+fn profile(comparison: &Comparison, out: &mut dyn Write) -> io::Result<()> {
+    let mut different = comparison.profile.iter().filter(|answers| !answers.alike()).peekable();
+    if different.peek().is_none() {
+        return Ok(());
+    }
+    writeln!(out, "\n### Left open by the documents, and answered differently\n")?;
+    head("question", comparison, out)?;
+    for answers in different {
+        write!(out, "| {} `{}` |", prose(&answers.question), answers.requirement)?;
+        for tallies in &answers.behaviours {
+            write!(out, " {} |", prose(&words::tallies(tallies)))?;
+        }
+        writeln!(out)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,40 @@
+//! Several implementations beside each other: who gets what wrong, and who does what where the
+//! documents leave it open.
+
+mod html;
+mod markdown;
+mod model;
+mod text;
+
+use std::io::{self, Write};
+
+use anstream::adapter::strip_bytes;
+
+pub use model::{Answers, Cell, Comparison, Implementation, MixedWires, Row, Standing};
+pub use text::write as write_text;
+
+use super::{Format, json};
+
+/// What a comparison can't be written as, in a sentence.
+pub const NO_JUNIT: &str =
+    "junit tells of one run; a comparison is written as text, json, markdown or html";
+
+impl Format {
+    /// Writes a comparison in this format, without colours.
+    ///
+    /// # Errors
+    /// If it can't be written, or not in this format.
+    pub fn write_comparison(self, comparison: &Comparison, out: &mut dyn Write) -> io::Result<()> {
+        match self {
+            Self::Text => {
+                let mut text = Vec::new();
+                text::write(comparison, &mut text)?;
+                out.write_all(&strip_bytes(&text).into_vec())
+            }
+            Self::Json => json::write(comparison, out),
+            Self::Junit => Err(io::Error::new(io::ErrorKind::Unsupported, NO_JUNIT)),
+            Self::Markdown => markdown::write(comparison, out),
+            Self::Html => html::write(comparison, out),
+        }
+    }
+}

@@ -1,0 +1,264 @@
+//! The matrix, and how it is made of reports.
+
+use std::hash::Hash;
+
+use actucheck_spec::model::Level;
+use indexmap::IndexMap;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::protocol::{self, Wire};
+use crate::report::model::{
+    CheckResult, Question, Report, RequirementResult, Statement, Stopped, Tally,
+};
+use crate::verdict::{Totals, Verdict};
+
+/// Version of the comparison's form. It changes when a field goes or takes another meaning.
+const VERSION: u32 = 1;
+
+/// The matrix of implementations and requirements.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Comparison {
+    /// Version of the comparison's form.
+    pub version: u32,
+    /// Version of the program that wrote it.
+    pub actucheck: String,
+    /// The wire.
+    pub wire: Wire,
+    /// The columns.
+    pub implementations: Vec<Implementation>,
+    /// The rows, in the order of the documents.
+    pub requirements: Vec<Row>,
+    /// The questions that the documents leave open.
+    pub profile: Vec<Answers>,
+}
+
+/// An implementation and its run.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Implementation {
+    /// What was checked.
+    #[serde(flatten)]
+    pub who: protocol::Implementation,
+    /// What the generated checks grew from.
+    pub seed: u64,
+    /// How many packets were generated.
+    pub cases: u32,
+    /// Why the run ended early, if it did.
+    pub stopped: Option<Stopped>,
+    /// How often each verdict came out.
+    pub totals: Totals,
+}
+
+/// How a requirement is met.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Row {
+    /// The requirement's id.
+    pub id: String,
+    /// How binding it is.
+    pub level: Level,
+    /// What it says; `null` for a rule of the adapter protocol, which no document has.
+    pub statement: Option<Statement>,
+    /// By each implementation; `null` if no check was about it.
+    pub cells: Vec<Option<Cell>>,
+}
+
+/// How an implementation meets a requirement.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Cell {
+    /// The worst verdict of its checks.
+    pub verdict: Verdict,
+    /// How often each verdict came out.
+    pub totals: Totals,
+    /// The smallest check with the worst verdict; `null` unless that tells of something wrong.
+    pub smallest: Option<CheckResult>,
+}
+
+/// What each implementation does where the documents leave a question open.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Answers {
+    /// The id of the requirement that the question is about.
+    pub requirement: String,
+    /// The question, in words.
+    pub question: String,
+    /// What each implementation does; empty for one that was not asked.
+    pub behaviours: Vec<Vec<Tally>>,
+}
+
+/// What a reader looks for in a row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// An implementation gets it wrong.
+    Wrong,
+    /// Nobody gets it wrong, but not all come out alike.
+    Different,
+    /// All come out alike, and none is wrong.
+    Alike,
+}
+
+/// Reports of two wires, which have no requirement in common.
+#[derive(Debug, Error)]
+#[error(
+    "{} was checked on wire {}, {} on wire {}; compare reports of one wire",
+    .first.0, .first.1.id(), .other.0, .other.1.id()
+)]
+pub struct MixedWires {
+    first: (String, Wire),
+    other: (String, Wire),
+}
+
+impl Comparison {
+    /// Holds reports against each other.
+    ///
+    /// # Errors
+    /// If they are of different wires.
+    pub fn of(first: Report, others: Vec<Report>) -> Result<Self, MixedWires> {
+        let wire = first.wire;
+        if let Some(other) = others.iter().find(|other| other.wire != wire) {
+            let name = |report: &Report| (report.implementation.name.clone(), report.wire);
+            return Err(MixedWires { first: name(&first), other: name(other) });
+        }
+        let reports: Vec<_> = [first].into_iter().chain(others).collect();
+        Ok(Self {
+            version: VERSION,
+            actucheck: env!("CARGO_PKG_VERSION").to_owned(),
+            wire,
+            implementations: reports.iter().map(implementation).collect(),
+            requirements: requirements(&reports),
+            profile: profile(&reports),
+        })
+    }
+
+    /// Whether all implementations were asked about the same requirements, with checks that grew
+    /// from the same seed, and to the end.
+    #[must_use]
+    pub fn asked_alike(&self) -> bool {
+        let mut growths = self.implementations.iter().map(|one| (one.seed, one.cases));
+        let first = growths.next();
+        growths.all(|other| Some(other) == first)
+            && self.implementations.iter().all(|one| one.stopped.is_none())
+            && self.requirements.iter().flat_map(|row| &row.cells).all(Option::is_some)
+    }
+
+    /// The rows of this standing, in the order of the documents.
+    pub fn rows(&self, standing: Standing) -> impl Iterator<Item = &Row> {
+        self.requirements.iter().filter(move |row| row.standing() == standing)
+    }
+}
+
+impl Row {
+    /// What a reader looks for in it.
+    #[must_use]
+    pub fn standing(&self) -> Standing {
+        let mut verdicts = self.cells.iter().map(|cell| cell.as_ref().map(|cell| cell.verdict));
+        if verdicts.clone().flatten().any(Verdict::is_wrong) {
+            return Standing::Wrong;
+        }
+        let first = verdicts.next();
+        if verdicts.all(|other| Some(other) == first) {
+            Standing::Alike
+        } else {
+            Standing::Different
+        }
+    }
+}
+
+impl Answers {
+    /// Whether all implementations that were asked do the same.
+    #[must_use]
+    pub fn alike(&self) -> bool {
+        let texts = |tallies: &Vec<Tally>| {
+            let mut texts: Vec<_> = tallies.iter().map(|tally| tally.text.clone()).collect();
+            texts.sort_unstable();
+            texts
+        };
+        let mut asked = self.behaviours.iter().filter(|tallies| !tallies.is_empty()).map(texts);
+        let first = asked.next();
+        asked.all(|other| Some(other) == first)
+    }
+}
+
+fn implementation(report: &Report) -> Implementation {
+    Implementation {
+        who: report.implementation.clone(),
+        seed: report.seed,
+        cases: report.cases,
+        stopped: report.stopped,
+        totals: report.totals.clone(),
+    }
+}
+
+fn requirements(reports: &[Report]) -> Vec<Row> {
+    let lists = reports.iter().map(|report| report.requirements.as_slice());
+    let row = |results: Vec<Option<&RequirementResult>>| {
+        let RequirementResult { id, level, statement, .. } = results.iter().flatten().next()?;
+        let cells = reports.iter().zip(&results);
+        let cells = cells.map(|(report, result)| result.map(|result| cell(report, result)));
+        let (id, level, statement) = (id.clone(), *level, statement.clone());
+        Some(Row { id, level, statement, cells: cells.collect() })
+    };
+    united(lists, |result| result.id.as_str()).into_iter().filter_map(row).collect()
+}
+
+fn cell(report: &Report, result: &RequirementResult) -> Cell {
+    let groups = result.verdict.is_wrong().then(|| report.groups(result.verdict));
+    let own = groups.into_iter().flatten().find(|group| group.requirement.id == result.id);
+    let smallest = own.and_then(|group| group.results.first().copied().cloned());
+    Cell { verdict: result.verdict, totals: result.totals.clone(), smallest }
+}
+
+fn profile(reports: &[Report]) -> Vec<Answers> {
+    let lists = reports.iter().map(|report| report.profile.as_slice());
+    let answers = |columns: Vec<Option<&Question>>| {
+        let Question { requirement, question, .. } = columns.iter().flatten().next()?;
+        let behaviours = columns.iter().map(|asked| asked.map(|asked| asked.behaviours.clone()));
+        Some(Answers {
+            requirement: requirement.clone(),
+            question: question.clone(),
+            behaviours: behaviours.map(Option::unwrap_or_default).collect(),
+        })
+    };
+    let key = |question: &Question| (question.requirement.clone(), question.question.clone());
+    united(lists, key).into_iter().filter_map(answers).collect()
+}
+
+/// What is in any of some lists of one order: a row for each key, in that order as far as the
+/// lists tell it, and in it a place for each list.
+fn united<'a, T, K: Hash + Eq>(
+    lists: impl ExactSizeIterator<Item = &'a [T]>,
+    key: impl Fn(&'a T) -> K,
+) -> Vec<Vec<Option<&'a T>>> {
+    let columns = lists.len();
+    let mut rows: IndexMap<K, Vec<Option<&T>>> = IndexMap::new();
+    for (column, list) in lists.enumerate() {
+        let mut at = 0;
+        for item in list {
+            let key = key(item);
+            let place = rows.get_index_of(&key).unwrap_or_else(|| {
+                rows.shift_insert(at, key, vec![None; columns]);
+                at
+            });
+            if let Some(slot) = rows.get_index_mut(place).and_then(|(_, row)| row.get_mut(column)) {
+                *slot = Some(item);
+            }
+            at = place + 1;
+        }
+    }
+    rows.into_values().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_one_list_lacks_stands_where_another_has_it() {
+        let lists = ["ace", "abc", "cd"].map(str::as_bytes);
+        let united = united(lists.into_iter(), |letter| *letter);
+        let row = |row: &Vec<Option<&u8>>| -> String {
+            row.iter().map(|slot| slot.map_or('-', |letter| char::from(*letter))).collect()
+        };
+        let rows: Vec<_> = united.iter().map(row).collect();
+        assert_eq!(rows, ["aa-", "-b-", "ccc", "--d", "e--"]);
+    }
+}

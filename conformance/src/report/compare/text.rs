@@ -1,0 +1,115 @@
+//! The comparison for a person at a terminal.
+
+use std::io::{self, Write};
+
+use anstyle::Style;
+
+use super::{Answers, Comparison, Row, Standing};
+use crate::report::model::Statement;
+use crate::report::text::{BOLD, DIM, counts, style};
+use crate::report::words;
+
+/// Writes the comparison with ANSI colours, which the writer may take out.
+///
+/// # Errors
+/// If it can't be written.
+pub fn write(comparison: &Comparison, out: &mut dyn Write) -> io::Result<()> {
+    implementations(comparison, out)?;
+    matrix("Somebody gets it wrong", comparison, Standing::Wrong, out)?;
+    matrix("Nobody gets it wrong, but they differ", comparison, Standing::Different, out)?;
+    let alike = comparison.rows(Standing::Alike).count();
+    writeln!(out, "\n{BOLD}All alike{BOLD:#}: {}", words::count(alike, "requirement"))?;
+    profile(comparison, out)
+}
+
+/// The numbers by which the columns go, and whose they are.
+fn implementations(comparison: &Comparison, out: &mut dyn Write) -> io::Result<()> {
+    writeln!(out, "wire {}", comparison.wire.id())?;
+    for (index, one) in comparison.implementations.iter().enumerate() {
+        let name = format!("{} {} ({})", one.who.name, one.who.version, one.who.language);
+        let cut = if one.stopped.is_some() { "  cut short" } else { "" };
+        writeln!(out, "  {BOLD}{}  {name}{BOLD:#}  {}{cut}", index + 1, counts(&one.totals))?;
+    }
+    if !comparison.asked_alike() {
+        writeln!(out, "  {}", words::ASKED_DIFFERENTLY)?;
+    }
+    Ok(())
+}
+
+/// The rows of one standing by section, a column an implementation.
+fn matrix(
+    title: &str,
+    comparison: &Comparison,
+    standing: Standing,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let rows: Vec<_> = comparison.rows(standing).collect();
+    if rows.is_empty() {
+        return Ok(());
+    }
+    let width = rows.iter().map(|row| row.id.len()).max().unwrap_or(0).max(title.len());
+    let widths = widths(comparison, &rows);
+    let heads = (1..=widths.len()).map(|number| (BOLD, number.to_string()));
+    write!(out, "\n{BOLD}{title:width$}{BOLD:#}    ")?;
+    columns(heads, &widths, out)?;
+    let mut place = None;
+    for row in rows {
+        let own = row.statement.as_ref().map(Statement::place);
+        if own != place {
+            writeln!(out, "  {DIM}{}{DIM:#}", own.as_deref().unwrap_or("The adapter protocol"))?;
+            place = own;
+        }
+        write!(out, "    {:width$}", row.id)?;
+        let cells = row.cells.iter().map(|cell| {
+            let style = cell.as_ref().map(|cell| style(cell.verdict)).unwrap_or_default();
+            (style, words::cell(cell.as_ref()))
+        });
+        columns(cells, &widths, out)?;
+    }
+    Ok(())
+}
+
+/// The rest of a line: texts as wide as their columns, without blanks behind the last.
+fn columns(
+    texts: impl Iterator<Item = (Style, String)>,
+    widths: &[usize],
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let mut gap = 0;
+    for ((style, text), width) in texts.zip(widths) {
+        write!(out, "  {:gap$}{style}{text}{style:#}", "")?;
+        gap = width.saturating_sub(text.len());
+    }
+    writeln!(out)
+}
+
+/// How wide each column is.
+fn widths(comparison: &Comparison, rows: &[&Row]) -> Vec<usize> {
+    let width = |column: usize| {
+        let cells = rows.iter().filter_map(|row| row.cells.get(column));
+        cells.map(|cell| words::cell(cell.as_ref()).len()).max().unwrap_or(0)
+    };
+    (0..comparison.implementations.len()).map(width).collect()
+}
+
+/// Only the questions that are not answered alike.
+fn profile(comparison: &Comparison, out: &mut dyn Write) -> io::Result<()> {
+    let (alike, different): (Vec<_>, Vec<_>) =
+        comparison.profile.iter().partition(|answers| answers.alike());
+    if different.is_empty() && alike.is_empty() {
+        return Ok(());
+    }
+    let open = "which the documents leave open";
+    writeln!(
+        out,
+        "\n{BOLD}Different answers{BOLD:#} to {}, {open}",
+        words::count(different.len(), "question")
+    )?;
+    for Answers { requirement, question, behaviours } in different {
+        writeln!(out, "  {question}  {DIM}{requirement}{DIM:#}")?;
+        for (index, tallies) in behaviours.iter().enumerate() {
+            writeln!(out, "    {BOLD}{}{BOLD:#}  {}", index + 1, words::tallies(tallies))?;
+        }
+    }
+    writeln!(out, "\n{BOLD}The same answers{BOLD:#} to {}", words::count(alike.len(), "question"))
+}

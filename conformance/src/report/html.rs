@@ -1,0 +1,57 @@
+//! The report as one page that needs neither network nor script, on a phone as on a desk.
+
+use std::io::{self, Write};
+
+use askama::Template;
+
+use super::model::Report;
+use super::view::{Evidence, Group, Section};
+use super::words;
+use crate::explain::diff::Segment;
+use crate::verdict::Verdict;
+
+/// How many checks of a group are shown with their evidence, and how many more by their ids.
+const WHOLE: usize = 5;
+const NAMED: usize = 50;
+
+/// Writes the page.
+///
+/// # Errors
+/// If it can't be written.
+pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+    let mut out = io::BufWriter::new(out);
+    Page { report }.write_into(&mut out)?;
+    out.flush()
+}
+
+#[derive(Template)]
+#[template(path = "report.html")]
+struct Page<'a> {
+    report: &'a Report,
+}
+
+/// The sections of one document.
+struct Document<'a> {
+    title: &'a str,
+    sections: Vec<Section<'a>>,
+}
+
+impl Page<'_> {
+    /// What a reader wants to see the evidence of, the most urgent first.
+    fn groups(&self) -> Vec<Group<'_>> {
+        Report::URGENT.into_iter().flat_map(|verdict| self.report.groups(verdict)).collect()
+    }
+
+    fn documents(&self) -> Vec<Document<'_>> {
+        let mut documents: Vec<Document<'_>> = Vec::new();
+        for section in self.report.sections() {
+            match documents.iter_mut().find(|document| document.title == section.document) {
+                Some(document) => document.sections.push(section),
+                None => {
+                    documents.push(Document { title: section.document, sections: vec![section] });
+                }
+            }
+        }
+        documents
+    }
+}

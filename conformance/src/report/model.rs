@@ -1,0 +1,191 @@
+//! What every report says, in whatever format.
+
+use actucheck_spec::Spec;
+use actucheck_spec::model::Level;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::words;
+use crate::explain::diff::Diff;
+use crate::protocol::{Implementation, Wire};
+use crate::verdict::{Outcome, Totals, Verdict};
+
+/// Version of the report's form. It changes when a field goes or takes another meaning.
+pub const VERSION: u32 = 2;
+
+/// What came out of a run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Report {
+    /// Version of the report's form.
+    pub version: u32,
+    /// Version of the program that wrote it.
+    pub actucheck: String,
+    /// What was checked.
+    pub implementation: Implementation,
+    /// The wire.
+    pub wire: Wire,
+    /// The adapter's command with its arguments; empty for the built-in codec.
+    pub command: Vec<String>,
+    /// What the generated checks grew from.
+    pub seed: u64,
+    /// How many packets were generated.
+    pub cases: u32,
+    /// How long the run took.
+    pub seconds: f64,
+    /// Why the run ended early, if it did.
+    pub stopped: Option<Stopped>,
+    /// How many checks were not asked for that.
+    pub left: usize,
+    /// How often each verdict came out.
+    pub totals: Totals,
+    /// Each requirement that checks were about, in the order of the documents.
+    pub requirements: Vec<RequirementResult>,
+    /// What the implementation does where the documents leave it open.
+    pub profile: Vec<Question>,
+    /// Why checks were skipped.
+    pub skips: Vec<Tally>,
+    /// What came out of each check, in the order in which they were asked.
+    pub results: Vec<CheckResult>,
+    /// The last lines that the adapter logged.
+    pub log: String,
+}
+
+/// Why a run ended early.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Stopped {
+    /// The user ended it.
+    Interrupted,
+    /// As much failed as was allowed to.
+    MaxFail,
+}
+
+/// How the checks of a requirement came out.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct RequirementResult {
+    /// The requirement's id.
+    pub id: String,
+    /// How binding it is.
+    pub level: Level,
+    /// What it says; `null` for a rule of the adapter protocol, which no document has.
+    pub statement: Option<Statement>,
+    /// The worst verdict of its checks.
+    pub verdict: Verdict,
+    /// How often each verdict came out.
+    pub totals: Totals,
+}
+
+/// What a document demands.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Statement {
+    /// In our own words.
+    pub text: String,
+    /// The document's title.
+    pub document: String,
+    /// The section.
+    pub section: String,
+}
+
+/// A question that the documents leave open, and what the implementation does.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Question {
+    /// The id of the requirement that the question is about.
+    pub requirement: String,
+    /// The question, in words.
+    pub question: String,
+    /// What is done, the most frequent first.
+    pub behaviours: Vec<Tally>,
+}
+
+/// How often something was said of checks.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Tally {
+    /// What was said.
+    pub text: String,
+    /// Of how many checks.
+    pub count: usize,
+    /// The id of the first of them.
+    pub example: String,
+}
+
+/// What came out of a check.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CheckResult {
+    /// Check, verdict and evidence.
+    #[serde(flatten)]
+    pub outcome: Outcome,
+    /// Where the bytes demanded and the bytes that came differ; of packets, where the parameters
+    /// of the first do that has others.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub diff: Option<Diff>,
+    /// The part of the frame in which the first byte that differs stands.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub differs_in: Option<String>,
+    /// The command that asks it again; only where it did not pass.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub replay: Option<String>,
+}
+
+impl Report {
+    /// The exit status: as [`Totals::exit_status`], and 3 for a run that ended early without a
+    /// failure.
+    #[must_use]
+    pub fn exit_status(&self) -> u8 {
+        match self.totals.exit_status() {
+            0 if self.stopped.is_some() => 3,
+            status => status,
+        }
+    }
+
+    /// Why the run ended early and what that cost, in a sentence; `None` if it did not.
+    #[must_use]
+    pub fn cut_short(&self) -> Option<String> {
+        let why = match self.stopped? {
+            Stopped::Interrupted => "interrupted",
+            Stopped::MaxFail => "as much failed as --max-fail allows",
+        };
+        let left = words::count(self.left, "check");
+        Some(format!("{why}: {left} not asked"))
+    }
+
+    /// The run in one word: `passed`, `FAILED`, or `incomplete`.
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        match self.exit_status() {
+            0 => "passed",
+            1 => "FAILED",
+            _ => "incomplete",
+        }
+    }
+
+    /// Whether something went wrong with the adapter itself, so that its log tells more.
+    #[must_use]
+    pub fn adapter_broke(&self) -> bool {
+        let broke = [Verdict::Timeout, Verdict::Crash, Verdict::AdapterFault, Verdict::NotRun];
+        broke.into_iter().any(|verdict| self.totals.count(verdict) > 0)
+    }
+}
+
+impl RequirementResult {
+    /// How many checks were about it.
+    #[must_use]
+    pub fn checks(&self) -> usize {
+        self.totals.sum()
+    }
+}
+
+impl Statement {
+    /// The statement of the requirement with this id; `None` if no document has it.
+    #[must_use]
+    pub fn of(spec: &Spec, requirement: &str) -> Option<Self> {
+        let row = spec.requirement(requirement)?;
+        let document = spec.document(&row.source.document)?.title.clone();
+        Some(Self { text: row.text.clone(), document, section: row.source.section.clone() })
+    }
+
+    /// The document and the section.
+    #[must_use]
+    pub fn place(&self) -> String {
+        format!("{}, {}", self.document, self.section)
+    }
+}

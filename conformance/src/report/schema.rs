@@ -1,0 +1,13 @@
+//! JSON Schemas of what is written as JSON, derived from the model. `ACCEPT=1 cargo test -p
+//! actucheck --test reports` writes what is kept in `conformance/schema` anew.
+
+use actucheck_spec::schema::of_written;
+
+use super::compare::Comparison;
+use super::model::Report;
+
+/// Each schema's name and text.
+#[must_use]
+pub fn all() -> [(&'static str, String); 2] {
+    [("report", of_written::<Report>()), ("comparison", of_written::<Comparison>())]
+}

@@ -1,0 +1,58 @@
+//! A record of every line that goes to an adapter and comes from it.
+
+use std::io::{self, Write};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// Where the lines go; the clones of one trace write to the same place.
+#[derive(Clone)]
+pub struct Trace {
+    out: Arc<Mutex<Output>>,
+}
+
+struct Output {
+    writer: Box<dyn Write + Send>,
+    /// The first error, after which nothing more is written.
+    error: Option<io::Error>,
+}
+
+impl Trace {
+    /// A trace that goes to `writer`.
+    #[must_use]
+    pub fn new(writer: Box<dyn Write + Send>) -> Self {
+        Self { out: Arc::new(Mutex::new(Output { writer, error: None })) }
+    }
+
+    /// Writes out what is held back.
+    ///
+    /// # Errors
+    /// The first error that a write met.
+    pub fn finish(&self) -> io::Result<()> {
+        let mut out = self.lock();
+        match out.error.take() {
+            Some(error) => Err(error),
+            None => out.writer.flush(),
+        }
+    }
+
+    /// Notes a line of the adapter process `process`; `>` goes to it, `<` comes from it, `!` is
+    /// what became of it.
+    pub(super) fn note(&self, process: u32, mark: char, line: &[u8]) {
+        let mut out = self.lock();
+        if out.error.is_none() {
+            let mut text = format!("{process}{mark} ").into_bytes();
+            text.extend(line);
+            text.push(b'\n');
+            out.error = out.writer.write_all(&text).err();
+        }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Output> {
+        self.out.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl std::fmt::Debug for Trace {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Trace")
+    }
+}

@@ -1,0 +1,235 @@
+//! `actucheck adapter check`: each way to be a bad adapter is found by the point that is for it.
+
+use std::process::Command;
+
+/// An adapter without a fault, whose library knows one CRC.
+const GOOD: &str = r#"
+while read -r line; do
+    id=$(printf '%s' "$line" | sed 's/^{"id":\([0-9]*\),.*/\1/')
+    case $line in
+        *'"op":"hello"'*) printf '{"id":%s,"ok":{"protocol":1,"implementation":{"name":"fake","version":"1","language":"sh"},"wires":["dynamixel2"],"ops":["crc"]}}\n' "$id" ;;
+        *'"op":"bye"'*) exit ;;
+        *'"op":"crc"'*'"wire":"dynamixel2"'*) printf '{"id":%s,"ok":{"crc":35274}}\n' "$id" ;;
+        *) printf '{"id":%s,"skip":{"reason":"unknown"}}\n' "$id" ;;
+    esac
+done
+"#;
+
+/// The exit status and what was printed.
+fn check(script: &str) -> (i32, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_actucheck"))
+        .args(["adapter", "check", "--timeout", "1.5", "--start-timeout", "2"])
+        .args(["--", "sh", "-c", script])
+        .output()
+        .unwrap();
+    (output.status.code().unwrap(), String::from_utf8(output.stdout).unwrap())
+}
+
+#[test]
+fn a_good_one_is_good() {
+    let (status, text) = check(GOOD);
+    assert_eq!(status, 0, "{text}");
+    insta::assert_snapshot!(text.replace(GOOD, "GOOD"), @r"
+      ok     starts and says who it is (fake 1 (sh), dynamixel2: crc)
+      ok     skips an op that it does not know
+      ok     skips a wire that it does not know
+      ok     skips what it does not offer
+      ok     answers crc on dynamixel2
+      ok     answers the same when asked again
+      ok     passes over a field that it does not know
+      ok     outlives requests that lack a field
+      ok     answers as many at once as it says (max_in_flight is 1)
+      ok     reads a long line
+      ok     runs beside another of its kind
+      ok     writes nothing but replies
+      ok     ends at bye
+
+    well  its library is next: actucheck codec -- sh -c GOOD
+    ");
+}
+
+#[test]
+fn what_is_wrong_is_told_with_the_lines_and_what_to_do() {
+    let (status, text) =
+        check(&GOOD.replace(ANSWER, r#"printf '{"id":%s,"ok":{"crc":"89ca"}}\n' "$id""#));
+    assert_eq!(status, 1, "{text}");
+    let told: Vec<_> = text.lines().skip(4).take(4).collect();
+    insta::assert_snapshot!(told.join("\n"), @r#"
+      WRONG  answers crc on dynamixel2: `ok` does not fit crc: invalid type: string "89ca", expected u64
+             sent  {"id":16,"op":"crc","wire":"dynamixel2","bytes":"fffffd0001090003740000020000"}
+             got   {"id":16,"ok":{"crc":"89ca"}}
+             mend  the guide has a table of what `ok` holds; here it is {"crc":35274}
+    "#);
+}
+
+#[test]
+fn a_wrong_answer_in_the_right_form_is_left_to_the_suite() {
+    let (status, text) = check(&GOOD.replace("35274", "1"));
+    assert_eq!(status, 0, "{text}");
+    assert!(text.contains("answers crc on dynamixel2 (another answer than the document has"));
+}
+
+/// How the good one says what it offers, answers a CRC, skips, and ends.
+const OPS: &str = r#""ops":["crc"]"#;
+const ANSWER: &str = r#"printf '{"id":%s,"ok":{"crc":35274}}\n' "$id""#;
+const SKIP: &str = r#"printf '{"id":%s,"skip":{"reason":"unknown"}}\n' "$id""#;
+const BYE: &str = "exit ;;";
+
+/// What is changed in the good one; the exit status, and the first point that is wrong.
+type Bad<'a> = (&'a [(&'a str, &'a str)], i32, &'static str);
+
+/// Checks that each bad one is found by the point that is for it. Most of that is waiting.
+fn found(bad: &[Bad<'_>]) {
+    std::thread::scope(|scope| {
+        for (changes, status, point) in bad {
+            scope.spawn(move || {
+                let (exit, text) = check(&changed(changes));
+                let wrong = text.lines().find(|line| line.contains("WRONG")).unwrap_or_default();
+                assert!(wrong.starts_with(&format!("  WRONG  {point}")), "{point}\n{text}");
+                assert_eq!(exit, *status, "{point}\n{text}");
+            });
+        }
+    });
+}
+
+fn changed(changes: &[(&str, &str)]) -> String {
+    changes.iter().fold(GOOD.to_owned(), |script, (from, to)| {
+        assert!(script.contains(from), "{from}");
+        script.replace(from, to)
+    })
+}
+
+#[test]
+fn a_bad_start_is_found() {
+    found(&[
+        (
+            &[("while", "echo oh no >&2; exit 3; while")],
+            4,
+            "starts and says who it is: it ended with exit status: 3",
+        ),
+        (&[("while", "sleep 60; while")], 4, "starts and says who it is: there was no reply"),
+        (
+            &[("while", "echo hello; while")],
+            4,
+            "starts and says who it is: the reply is no JSON object",
+        ),
+        (
+            &[(r#","language":"sh""#, "")],
+            4,
+            "starts and says who it is: `ok` is incomplete: missing field `language`",
+        ),
+        (
+            &[(r#""protocol":1"#, r#""protocol":2"#)],
+            4,
+            "starts and says who it is: it speaks version 2",
+        ),
+        (
+            &[(r#"["crc"]"#, r#"["crc","sing"]"#)],
+            4,
+            "starts and says who it is: `ops` names `sing`",
+        ),
+        (
+            &[(r#"["dynamixel2"]"#, r#"["can"]"#)],
+            4,
+            "starts and says who it is: `wires` names `can`",
+        ),
+        (
+            &[(r#""ok":{"protocol""#, r#""skip":{"protocol""#)],
+            4,
+            "starts and says who it is: `skip` has no `reason`",
+        ),
+    ]);
+}
+
+#[test]
+fn a_bad_reply_is_found() {
+    let bad = [
+        (r#"printf '{"id":%s}\n' "$id""#, "answers crc on dynamixel2: the reply has none"),
+        ("sleep 60", "answers crc on dynamixel2: there was no reply within 1.5 s"),
+        ("exit 1", "answers crc on dynamixel2: it ended with exit status: 1"),
+    ];
+    let changes = bad.map(|(reply, _)| [(ANSWER, reply)]);
+    let bad: Vec<Bad<'_>> = changes
+        .iter()
+        .zip(bad)
+        .map(|(changes, (_, point))| (changes.as_slice(), 1, point))
+        .collect();
+    found(&bad);
+}
+
+#[test]
+fn what_is_not_skipped_is_found() {
+    let stuff =
+        r#"*'"op":"stuff"'*) printf '{"id":%s,"ok":{"bytes":""}}\n' "$id" ;; *'"op":"crc"'"#;
+    found(&[
+        (&[(SKIP, ANSWER)], 1, "skips an op that it does not know: the reply is no `skip`"),
+        (
+            &[(r#"*'"wire":"dynamixel2"'"#, "")],
+            1,
+            "skips a wire that it does not know: the reply is no",
+        ),
+        (&[(r#"*'"op":"crc"'"#, stuff)], 1, "skips what it does not offer: the reply is no `skip`"),
+    ]);
+}
+
+#[test]
+fn bytes_in_capitals_are_found() {
+    let stuff =
+        r#"*'"op":"stuff"'*) printf '{"id":%s,"ok":{"bytes":"00FF"}}\n' "$id" ;; *'"op":"crc"'"#;
+    found(&[(
+        &[(OPS, r#""ops":["crc","stuff"]"#), (r#"*'"op":"crc"'"#, stuff)],
+        1,
+        "answers stuff on dynamixel2: `bytes` has a `F` in it",
+    )]);
+}
+
+#[test]
+fn one_that_tells_requests_apart_wrongly_is_found() {
+    let twice = format!("{ANSWER}; {ANSWER}");
+    let counting = r#"n=$((n + 1)); printf '{"id":%s,"ok":{"crc":%s}}\n' "$id" "$n""#;
+    // The first four come one at a time.
+    let losing = format!("n=$((n + 1)); [ $n = 5 ] || {ANSWER}");
+    found(&[
+        (
+            &[(ANSWER, &twice)],
+            1,
+            "answers the same when asked again: this is another reply to request",
+        ),
+        (
+            &[(ANSWER, counting)],
+            1,
+            "answers the same when asked again: crc on dynamixel2 is answered",
+        ),
+        (
+            &[(OPS, r#""ops":["crc"],"max_in_flight":3"#), (ANSWER, &losing)],
+            1,
+            "answers as many at once as it says: there was no reply",
+        ),
+    ]);
+}
+
+#[test]
+fn one_that_reads_requests_wrongly_is_found() {
+    let strict = format!("case $line in *no-such-field*) {SKIP} ;; *) {ANSWER} ;; esac");
+    let trusting = format!("case $line in *bytes*) {ANSWER} ;; *) exit 1 ;; esac");
+    let short = format!("[ ${{#line}} -gt 9000 ] || {SKIP}");
+    found(&[
+        (&[(ANSWER, &strict)], 1, "passes over a field that it does not know: crc on dynamixel2"),
+        (&[(ANSWER, &trusting)], 1, "outlives requests that lack a field: it ended with exit"),
+        (&[(SKIP, &short)], 1, "reads a long line: there was no reply within 1.5 s"),
+    ]);
+}
+
+#[test]
+fn one_that_is_alone_or_talks_or_stays_is_found() {
+    let folder = tempfile::tempdir().unwrap();
+    let alone = format!("mkdir {}/lock || exit 1; while", folder.path().display());
+    let talking = format!("{SKIP}; [ ${{#line}} -lt 9000 ] || echo 'what a long line'");
+    let replying = format!("{SKIP} ;;");
+    found(&[
+        (&[("while", &alone)], 1, "runs beside another of its kind: the other one: it ended"),
+        (&[(SKIP, &talking)], 1, "writes nothing but replies: it wrote a line that nobody"),
+        (&[(BYE, ";;")], 1, "ends at bye: it runs on"),
+        (&[(BYE, &replying)], 1, "ends at bye: it replied"),
+    ]);
+}

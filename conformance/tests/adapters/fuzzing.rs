@@ -1,0 +1,58 @@
+//! `actucheck fuzz` at the command line, and what becomes of what it finds.
+
+use std::path::Path;
+use std::process::{Command, Output};
+use std::time::{Duration, Instant};
+
+use super::WELL_BEHAVED;
+
+const WRONG: &str = r#"printf '{"id":%s,"ok":{"crc":1}}\n' "$id""#;
+
+fn actucheck(folder: &Path, arguments: &[&str], answer: &str) -> (Output, String) {
+    let script = WELL_BEHAVED.replace("ANSWER", answer).replace(r#","decode"]"#, "]");
+    let output = Command::new(env!("CARGO_BIN_EXE_actucheck"))
+        .current_dir(folder)
+        .args(arguments)
+        .args(["--", "sh", "-c", &script])
+        .output()
+        .unwrap();
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    (output, text)
+}
+
+#[test]
+fn a_finding_is_shown_kept_and_asked_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let fuzz = ["fuzz", "--seed", "3", "--cases", "200"];
+    let (output, text) = actucheck(folder.path(), &fuzz, WRONG);
+    assert_eq!(output.status.code(), Some(1), "{text}");
+    assert!(text.contains("crc dynamixel2.crc.value: wrong CRC"), "{text}");
+    assert!(text.contains("seed 3: 1 kind of failure, kept in findings.yaml"), "{text}");
+    let (output, text) = actucheck(folder.path(), &["replay", "findings.yaml"], WRONG);
+    assert_eq!(output.status.code(), Some(1), "{text}");
+    assert!(text.contains("actucheck replay findings.yaml -- sh -c"), "{text}");
+    let also = ["codec", "--also", "findings.yaml", "--select", "*.fuzz-3.*"];
+    let (output, text) = actucheck(folder.path(), &also, WRONG);
+    assert_eq!((output.status.code(), text.contains("1 fail")), (Some(1), true), "{text}");
+}
+
+#[test]
+fn an_adapter_that_hangs_does_not_outlast_the_time() {
+    let folder = tempfile::tempdir().unwrap();
+    let fuzz = ["fuzz", "--time", "2s", "--timeout", "0.2"];
+    let started = Instant::now();
+    let (output, text) = actucheck(folder.path(), &fuzz, "sleep 60");
+    assert_eq!(output.status.code(), Some(1), "{text}");
+    assert!(text.contains("does not answer in time"), "{text}");
+    assert!(started.elapsed() < Duration::from_secs(15), "{:?}", started.elapsed());
+}
+
+#[test]
+fn a_file_that_keeps_no_checks_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("findings.yaml"), "checks: 3\n").unwrap();
+    let (output, _) = actucheck(folder.path(), &["replay", "findings.yaml"], WRONG);
+    assert_eq!(output.status.code(), Some(2));
+    let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(stderr.contains("findings.yaml is no file with checks: "), "{stderr}");
+}

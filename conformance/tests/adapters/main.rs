@@ -1,0 +1,88 @@
+//! What an adapter does over its pipes, right and wrong, and what the run makes of it.
+
+#![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
+#![cfg(unix)]
+
+mod adapter_check;
+mod early_end;
+mod fuzzing;
+mod misbehaving;
+mod several;
+mod templates;
+
+use std::process::{Command, Output};
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+/// Answers `hello`, then runs `$1` for every request, in which `$id` is the request's id.
+const WELL_BEHAVED: &str = r#"
+while read -r line; do
+    id=$(printf '%s' "$line" | sed 's/^{"id":\([0-9]*\),.*/\1/')
+    case $line in
+        *'"op":"hello"'*)
+            printf '{"id":%s,"ok":{"protocol":1,"implementation":{"name":"fake","version":"1","language":"sh"},"wires":["dynamixel2"],"ops":["crc","decode"]}}\n' "$id" ;;
+        *'"op":"no-such-op"'*) printf '{"id":%s,"skip":{"reason":"unknown"}}\n' "$id" ;;
+        *'"op":"bye"'*) exit ;;
+        *) ANSWER ;;
+    esac
+done
+"#;
+
+struct Run {
+    output: Output,
+    report: Value,
+    took: Duration,
+}
+
+impl Run {
+    fn exit(&self) -> i32 {
+        self.output.status.code().unwrap()
+    }
+
+    fn stderr(&self) -> String {
+        String::from_utf8_lossy(&self.output.stderr).into_owned()
+    }
+
+    fn total(&self, verdict: &str) -> u64 {
+        self.report["totals"][verdict].as_u64().unwrap()
+    }
+
+    /// All checks.
+    fn sum(&self) -> u64 {
+        self.report["totals"].as_object().unwrap().values().filter_map(Value::as_u64).sum()
+    }
+
+    fn detail(&self, verdict: &str) -> String {
+        let results = self.report["results"].as_array().unwrap();
+        let result = results.iter().find(|result| result["verdict"] == verdict).unwrap();
+        result["detail"].as_str().unwrap().to_owned()
+    }
+}
+
+/// Runs the crc checks against a shell script.
+fn check(script: &str) -> Run {
+    check_with(&[], script)
+}
+
+/// The same with more options.
+fn check_with(options: &[&str], script: &str) -> Run {
+    let folder = tempfile::tempdir().unwrap();
+    let report = folder.path().join("report.json");
+    let started = Instant::now();
+    let output = Command::new(env!("CARGO_BIN_EXE_actucheck"))
+        .args(["codec", "--select", "ja40.*/crc", "--timeout", "0.3", "--start-timeout", "5"])
+        .args(options)
+        .arg("--report")
+        .arg(format!("json={}", report.display()))
+        .args(["--", "sh", "-c", script])
+        .output()
+        .unwrap();
+    let took = started.elapsed();
+    let report = std::fs::read_to_string(report).unwrap_or_default();
+    Run { output, report: serde_json::from_str(&report).unwrap_or(Value::Null), took }
+}
+
+fn answering(answer: &str) -> Run {
+    check(&WELL_BEHAVED.replace("ANSWER", answer))
+}

@@ -1,0 +1,102 @@
+//! Fuzzing finds the mutants too, without a list of checks, and makes them small.
+
+use std::ops::ControlFlow;
+
+use actucheck::fuzz::{Fuzzed, Symptom, fuzz};
+use actucheck::protocol::{Op, Wire};
+use actucheck::record;
+use actucheck::run::run;
+use actucheck::testee::{Answer, Builtin, Testee};
+use actucheck::verdict::Verdict;
+use actucheck_spec::Spec;
+
+use super::Mutated;
+use super::dynamixel2::MUTANTS;
+
+fn fuzzed(testee: &mut dyn Testee, seed: u64, cases: u64) -> Fuzzed {
+    let spec = Spec::embedded().unwrap();
+    fuzz(&spec, Wire::Dynamixel2, seed, cases, testee, |_, _| ControlFlow::Continue(()))
+}
+
+/// How large a question is.
+fn size(op: &Op) -> usize {
+    serde_json::to_string(op).unwrap().len()
+}
+
+#[test]
+fn nothing_is_found_in_the_builtin_codec() {
+    for wire in Wire::ALL {
+        let spec = Spec::embedded().unwrap();
+        let mut codec = Builtin::default();
+        let fuzzed = fuzz(&spec, wire, 1, 5_000, &mut codec, |_, _| ControlFlow::Continue(()));
+        assert!(fuzzed.asked > 4_000, "{}", fuzzed.asked);
+        assert_eq!(fuzzed.findings, []);
+    }
+}
+
+#[test]
+fn every_mutant_is_found_and_made_small() {
+    for mutant in &MUTANTS {
+        let fuzzed = fuzzed(&mut Mutated::new(mutant), 1, 5_000);
+        let sizes = fuzzed.findings.iter().map(|finding| size(&finding.check.op));
+        // A length of two bytes is 256 bytes, and twice as many digits.
+        let smallest = sizes.min().filter(|size| *size < 700);
+        let found: Vec<_> = fuzzed.findings.iter().map(|finding| &finding.check.op).collect();
+        assert!(smallest.is_some(), "{}: {found:?}", mutant.name);
+    }
+}
+
+#[test]
+fn a_seed_finds_the_same_again() {
+    let mutant = &MUTANTS[0];
+    let first = fuzzed(&mut Mutated::new(mutant), 7, 2_000);
+    assert!(!first.findings.is_empty());
+    assert_eq!(first, fuzzed(&mut Mutated::new(mutant), 7, 2_000));
+    assert_ne!(first, fuzzed(&mut Mutated::new(mutant), 8, 2_000));
+}
+
+#[test]
+fn what_was_found_is_kept_and_fails_again() {
+    let mutant = &MUTANTS[0];
+    let findings = fuzzed(&mut Mutated::new(mutant), 1, 2_000).findings;
+    let checks: Vec<_> = findings.iter().map(|finding| finding.check.clone()).collect();
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("findings.yaml");
+    std::fs::write(&file, record::write(&checks).unwrap()).unwrap();
+    let read: Vec<_> = record::read(&file).unwrap().into_iter().map(|(_, check)| check).collect();
+    assert_eq!(read, checks);
+    let verdicts = |testee: Box<dyn Testee + Send>| -> Vec<_> {
+        let outcomes = run(&mut [testee], &read, |_| ControlFlow::Continue(()));
+        outcomes.into_iter().map(|outcome| outcome.verdict).collect()
+    };
+    assert!(
+        verdicts(Box::new(Mutated::new(mutant))).iter().all(|verdict| *verdict == Verdict::Fail)
+    );
+    let sound = verdicts(Box::<Builtin>::default());
+    assert!(sound.iter().all(|verdict| *verdict == Verdict::Pass));
+}
+
+/// Ends at every packet with a certain byte.
+struct Ending(Builtin);
+
+impl Testee for Ending {
+    fn hello(&self) -> &actucheck::protocol::Hello {
+        self.0.hello()
+    }
+
+    fn ask(&mut self, op: &Op) -> Answer {
+        match op {
+            Op::Crc { bytes, .. } if bytes.contains(&0xFD) => Answer::Crashed(String::new()),
+            op => self.0.ask(op),
+        }
+    }
+}
+
+#[test]
+fn a_crash_is_a_finding_and_small() {
+    let findings = fuzzed(&mut Ending(Builtin::default()), 1, 2_000).findings;
+    let [finding] = findings.as_slice() else { panic!("{findings:?}") };
+    assert_eq!((finding.kind.op, &finding.kind.symptom), ("crc", &Symptom::Crashed));
+    assert!(size(&finding.check.op) < 70, "{:?}", finding.check.op);
+    assert!(finding.times > 10);
+}

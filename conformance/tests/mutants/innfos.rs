@@ -1,0 +1,100 @@
+//! Implementations of the INNFOS Ethernet protocol that are wrong in one way each.
+
+use actucheck::protocol::{Op, Output};
+use actucheck::reference::innfos as reference;
+use actucheck_spec::model::{FrameKind, Packet};
+
+use super::{Mutant, Wrong, bytes};
+
+pub(super) static MUTANTS: [Mutant; 7] = [
+    Mutant {
+        name: "sends the CRC's high byte first",
+        wrong: Wrong::Answers(|op| {
+            let mut frame = reference::encode(packet(op)?)?;
+            let crc = frame.len().checked_sub(3)?;
+            (frame.len() > 8).then(|| {
+                frame.swap(crc, crc + 1);
+                bytes(frame)
+            })
+        }),
+        found_by: "innfos.request.size.4/encode",
+        found_by_documents: true,
+    },
+    Mutant {
+        name: "sends the length's low byte first",
+        wrong: Wrong::Answers(|op| {
+            let mut frame = reference::encode(packet(op)?)?;
+            frame.swap(3, 4);
+            Some(bytes(frame))
+        }),
+        found_by: "innfos.request.size.1/encode",
+        found_by_documents: true,
+    },
+    Mutant {
+        name: "reads the length's low byte only",
+        wrong: Wrong::Rejects(
+            |op| matches!(op, Op::Decode { bytes, .. } if bytes.get(3).is_some_and(|high| *high > 0)),
+        ),
+        found_by: "innfos.reply.size.256/decode",
+        found_by_documents: false,
+    },
+    Mutant {
+        name: "does not look at the CRC",
+        wrong: Wrong::Answers(|op| {
+            let Op::Decode { bytes, kind, .. } = op else { return None };
+            let mut frame = bytes.0.clone();
+            let crc = reference::crc(frame.get(5..frame.len().checked_sub(3)?)?).to_le_bytes();
+            let at = frame.len() - 3;
+            frame[at..at + 2].copy_from_slice(&crc);
+            read(kind.unwrap_or(FrameKind::Reply), &frame)
+        }),
+        found_by: "innfos.negative.reply.flip-9-0/decode",
+        found_by_documents: true,
+    },
+    Mutant {
+        name: "does not look at the tail",
+        wrong: Wrong::Answers(|op| {
+            let Op::Decode { bytes, kind, .. } = op else { return None };
+            let mut frame = bytes.0.clone();
+            *frame.last_mut()? = 0xED;
+            read(kind.unwrap_or(FrameKind::Reply), &frame)
+        }),
+        found_by: "innfos.negative.request.flip-11-0/decode",
+        found_by_documents: false,
+    },
+    Mutant {
+        name: "takes the first ED for the tail",
+        wrong: Wrong::Rejects(|op| match op {
+            Op::Decode { bytes, .. } => {
+                bytes.iter().position(|byte| *byte == 0xED) != Some(bytes.len().saturating_sub(1))
+            }
+            _ => false,
+        }),
+        found_by: "innfos.request.data.ed/decode",
+        found_by_documents: false,
+    },
+    Mutant {
+        name: "reads the first frame of a datagram only",
+        wrong: Wrong::Answers(|op| {
+            let Op::Stream { chunks, kind, .. } = op else { return None };
+            let found = chunks.iter().filter_map(|chunk| {
+                reference::packets(kind.unwrap_or(FrameKind::Reply), chunk).into_iter().next()
+            });
+            Some(Output::Packets(found.collect()))
+        }),
+        found_by: "innfos.reply.size.4/stream-twice",
+        found_by_documents: false,
+    },
+];
+
+/// What is to be encoded.
+fn packet(op: &Op) -> Option<&Packet> {
+    match op {
+        Op::Encode { packet, .. } => Some(&packet.packet),
+        _ => None,
+    }
+}
+
+fn read(kind: FrameKind, frame: &[u8]) -> Option<Output> {
+    reference::decode(kind, frame).ok().map(Output::Packet)
+}

@@ -1,0 +1,70 @@
+//! Every mutant is found, and every check finds one.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use actucheck::protocol::Wire;
+use actucheck::testee::Builtin;
+use actucheck::verdict::{Outcome, Verdict};
+use actucheck_spec::Spec;
+use actucheck_spec::model::Level;
+
+use super::{Mutant, Mutated, checks, dynamixel2, innfos, outcomes, stubs};
+
+/// The mutants of a wire that a good check tells from a right implementation.
+fn mutants(wire: Wire) -> &'static [Mutant] {
+    match wire {
+        Wire::Dynamixel2 => &dynamixel2::MUTANTS,
+        Wire::Innfos => &innfos::MUTANTS,
+    }
+}
+
+/// Whether a check shows that something is wrong, or not as it should be.
+fn is_found(outcome: &Outcome) -> bool {
+    let warned = outcome.verdict == Verdict::Warn && outcome.level == Level::Should;
+    outcome.verdict.is_failure() || warned
+}
+
+#[test]
+fn every_mutant_is_found_by_its_check() {
+    // The packets of the documents, beside those that are made of their rules.
+    let spec = Spec::embedded().unwrap();
+    let printed: BTreeSet<_> = spec
+        .vectors()
+        .filter(|(_, vector)| vector.printed.is_some())
+        .map(|(_, vector)| vector.id.as_str())
+        .collect();
+    let is_printed = |id: &str| id.split_once('/').is_some_and(|(id, _)| printed.contains(id));
+    for wire in Wire::ALL {
+        let checks = checks(wire);
+        for mutant in mutants(wire) {
+            let outcomes = outcomes(Mutated::new(mutant), &checks);
+            let failed: BTreeSet<_> = outcomes
+                .iter()
+                .filter(|outcome| is_found(outcome))
+                .map(|outcome| outcome.id.as_str())
+                .collect();
+            assert!(failed.contains(mutant.found_by), "{}: {failed:?}", mutant.name);
+            let found = failed.iter().any(|id| is_printed(id));
+            assert_eq!(found, mutant.found_by_documents, "{}: {failed:?}", mutant.name);
+        }
+    }
+}
+
+#[test]
+fn every_check_finds_a_mutant() {
+    for wire in Wire::ALL {
+        let checks = checks(wire);
+        let sound = outcomes(Builtin::default(), &checks);
+        let judged = sound.iter().filter(|outcome| outcome.verdict == Verdict::Pass);
+        let mut idle: BTreeMap<_, _> =
+            judged.map(|outcome| (outcome.id.as_str(), &outcome.requirement)).collect();
+        for mutant in mutants(wire).iter().chain(&stubs::MUTANTS) {
+            for outcome in outcomes(Mutated::new(mutant), &checks) {
+                if is_found(&outcome) {
+                    idle.remove(outcome.id.as_str());
+                }
+            }
+        }
+        assert_eq!(idle, BTreeMap::new(), "checks that nothing fails");
+    }
+}

@@ -1,0 +1,84 @@
+//! Implementations that are wrong in one way each, and the check that finds each of them. Several
+//! are bugs of published libraries; most pass every packet that the documents print.
+
+#![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
+
+mod dynamixel2;
+mod fuzzed;
+mod innfos;
+mod killing;
+mod stubs;
+
+use std::ops::ControlFlow;
+
+use actucheck::cases;
+use actucheck::check::Check;
+use actucheck::protocol::{Hello, Op, Output, Rejection, Wire};
+use actucheck::run::run;
+use actucheck::testee::{Answer, Builtin, Testee};
+use actucheck::verdict::Outcome;
+use actucheck_spec::Spec;
+use actucheck_spec::model::{Fault, HexBytes};
+
+/// An implementation that is wrong in one way.
+struct Mutant {
+    name: &'static str,
+    wrong: Wrong,
+    /// A check that finds it.
+    found_by: &'static str,
+    /// Whether the packets that the documents print find it too.
+    found_by_documents: bool,
+}
+
+/// What it does wrong.
+enum Wrong {
+    /// It answers this instead, where it is something.
+    Answers(fn(&Op) -> Option<Output>),
+    /// It rejects what it should accept.
+    Rejects(fn(&Op) -> bool),
+    /// It rejects everything after such a request.
+    RejectsAfter(fn(&Op) -> bool),
+}
+
+fn bytes(bytes: Vec<u8>) -> Output {
+    Output::Bytes(HexBytes(bytes))
+}
+
+/// The built-in codec with a mutant's answers where it has any.
+struct Mutated {
+    codec: Builtin,
+    mutant: &'static Mutant,
+    last: Option<Op>,
+}
+
+impl Mutated {
+    fn new(mutant: &'static Mutant) -> Self {
+        Self { codec: Builtin::default(), mutant, last: None }
+    }
+}
+
+impl Testee for Mutated {
+    fn hello(&self) -> &Hello {
+        self.codec.hello()
+    }
+
+    fn ask(&mut self, op: &Op) -> Answer {
+        let last = self.last.replace(op.clone());
+        let rejection = || Answer::Rejected(Rejection { class: Fault::Crc, detail: String::new() });
+        match self.mutant.wrong {
+            Wrong::Answers(answer) => answer(op).map_or_else(|| self.codec.ask(op), Answer::Ok),
+            Wrong::Rejects(rejects) if rejects(op) => rejection(),
+            Wrong::RejectsAfter(after) if last.is_some_and(|last| after(&last)) => rejection(),
+            _ => self.codec.ask(op),
+        }
+    }
+}
+
+fn checks(wire: Wire) -> Vec<Check> {
+    let options = cases::Options { cases: 50, ..cases::Options::new(wire) };
+    cases::all(&Spec::embedded().unwrap(), &options)
+}
+
+fn outcomes(testee: impl Testee + Send + 'static, checks: &[Check]) -> Vec<Outcome> {
+    run(&mut [Box::new(testee)], checks, |_| ControlFlow::Continue(()))
+}

@@ -1,0 +1,102 @@
+use actucheck::protocol::Wire;
+use actucheck::report::Report;
+use actucheck::report::compare::{Cell, Comparison, Standing};
+use actucheck::verdict::Verdict;
+
+use super::sample;
+
+fn compared() -> Comparison {
+    Comparison::of(sample::right(), vec![sample::every_verdict()]).unwrap()
+}
+
+fn verdicts(
+    comparison: &Comparison,
+    standing: Standing,
+) -> impl Iterator<Item = Vec<Option<Verdict>>> {
+    let rows = comparison.rows(standing);
+    rows.map(|row| row.cells.iter().map(|cell| cell.as_ref().map(|cell| cell.verdict)).collect())
+}
+
+#[test]
+fn each_requirement_is_wrong_somewhere_or_different_or_alike() {
+    let comparison = compared();
+    let standings = [Standing::Wrong, Standing::Different, Standing::Alike];
+    let counts = standings.map(|standing| comparison.rows(standing).count());
+    assert!(counts.iter().all(|count| *count > 0), "{counts:?}");
+    assert_eq!(counts.iter().sum::<usize>(), comparison.requirements.len());
+
+    let wrong = |cells: &Vec<Option<Verdict>>| cells.iter().flatten().any(|it| it.is_wrong());
+    assert!(verdicts(&comparison, Standing::Wrong).all(|cells| wrong(&cells)));
+    for cells in verdicts(&comparison, Standing::Different) {
+        assert!(!wrong(&cells) && cells[0] != cells[1], "{cells:?}");
+    }
+    for cells in verdicts(&comparison, Standing::Alike) {
+        assert!(!wrong(&cells) && cells[0] == cells[1], "{cells:?}");
+    }
+}
+
+#[test]
+fn a_cell_has_the_smallest_check_that_is_wrong() {
+    let comparison = compared();
+    let row = comparison.requirements.iter().find(|row| row.id == "dynamixel2.stuffing.transmit");
+    let [Some(right), Some(odd)] = row.unwrap().cells.as_slice() else {
+        panic!("both were asked");
+    };
+    assert_eq!((right.verdict, &right.smallest), (Verdict::Pass, &None));
+    let Cell { verdict: Verdict::Fail, smallest: Some(smallest), .. } = odd else {
+        panic!("{odd:?}");
+    };
+    let size = |report: &Report| {
+        let failed = report.results.iter().filter(|result| {
+            result.outcome.requirement == "dynamixel2.stuffing.transmit"
+                && result.outcome.verdict == Verdict::Fail
+        });
+        failed.map(|result| result.outcome.request.as_ref().unwrap().to_string().len()).min()
+    };
+    let request = smallest.outcome.request.as_ref().unwrap().to_string();
+    assert_eq!(Some(request.len()), size(&sample::every_verdict()));
+}
+
+#[test]
+fn open_questions_are_answered_alike_or_not() {
+    let comparison = compared();
+    let alike = |question: &str| {
+        let mut all = comparison.profile.iter();
+        all.find(|answers| answers.question.starts_with(question)).unwrap().alike()
+    };
+    assert!(!alike("Is a packet with ID 255 accepted?"));
+    assert!(alike("Is a status packet with ID 254 read"));
+}
+
+#[test]
+fn a_comparison_says_whether_it_is_fair() {
+    assert!(compared().asked_alike());
+    let less = Comparison::of(sample::right(), vec![sample::small()]).unwrap();
+    assert!(!less.asked_alike());
+    let seed = Report { seed: 2, ..sample::small() };
+    assert!(!Comparison::of(sample::small(), vec![seed]).unwrap().asked_alike());
+    assert!(!Comparison::of(sample::small(), vec![sample::interrupted()]).unwrap().asked_alike());
+}
+
+#[test]
+fn what_only_one_was_asked_stands_there_for_both() {
+    let comparison = Comparison::of(sample::small(), vec![sample::right()]).unwrap();
+    let whole = Comparison::of(sample::right(), vec![sample::small()]).unwrap();
+    let ids = |comparison: &Comparison| {
+        comparison.requirements.iter().map(|row| row.id.clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(ids(&comparison), ids(&whole), "the order of the documents");
+    assert!(comparison.requirements.iter().any(|row| row.cells[0].is_none()));
+    assert!(comparison.requirements.iter().all(|row| row.cells[1].is_some()));
+}
+
+#[test]
+fn reports_of_two_wires_are_refused() {
+    let innfos = Report { wire: Wire::Innfos, ..sample::right() };
+    let error = Comparison::of(sample::small(), vec![innfos]).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "unstuffed was checked on wire dynamixel2, right on wire innfos; \
+         compare reports of one wire"
+    );
+}

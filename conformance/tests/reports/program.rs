@@ -1,0 +1,111 @@
+//! `--report` and `actucheck report`, as a user meets them.
+
+use std::fs;
+use std::path::Path;
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+use super::sample;
+
+fn actucheck(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
+    let mut command = Command::cargo_bin("actucheck").unwrap();
+    let output = command.current_dir(folder).args(arguments).output().unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+}
+
+/// A folder with the report of a short run, `report.json`.
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let select = ["codec", "--select", "*goal-position/*", "--report", "json=report.json"];
+    assert_eq!(actucheck(folder.path(), &select).0, 0);
+    folder
+}
+
+#[test]
+fn several_reports_are_written_at_once_and_again_from_json() {
+    let folder = tempfile::tempdir().unwrap();
+    let reports = |name: &str| {
+        let formats = ["text", "junit", "markdown", "html"];
+        formats.map(|format| format!("--report={format}={name}.{format}"))
+    };
+    let (first, again) = (reports("first"), reports("again"));
+    let run = ["codec", "--select", "*goal-position/*", "--report=json=report.json"];
+    let run: Vec<_> = run.into_iter().chain(first.iter().map(String::as_str)).collect();
+    let (status, stdout, stderr) = actucheck(folder.path(), &run);
+    assert_eq!((status, stderr.as_str()), (0, ""));
+    let render = ["report", "render", "report.json"];
+    let render: Vec<_> = render.into_iter().chain(again.iter().map(String::as_str)).collect();
+    assert_eq!(actucheck(folder.path(), &render), (0, stdout.clone(), String::new()));
+
+    let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
+    assert_eq!(read("first.text"), stdout);
+    for (format, start) in [
+        ("junit", "<?xml"),
+        ("markdown", "## passed: actucheck-codec"),
+        ("html", "<!doctype html>"),
+    ] {
+        let first = read(&format!("first.{format}"));
+        assert!(first.starts_with(start), "{format}: {first}");
+        assert_eq!(first, read(&format!("again.{format}")));
+    }
+}
+
+#[test]
+fn a_report_on_standard_output_stands_there_alone() {
+    let folder = folder();
+    let (status, stdout, stderr) =
+        actucheck(folder.path(), &["report", "render", "report.json", "--report", "json=-"]);
+    let report: Value = serde_json::from_str(&stdout).unwrap();
+    assert_eq!((status, &report["implementation"]["name"]), (0, &"actucheck-codec".into()));
+    assert!(stderr.contains("\npassed  "), "{stderr}");
+
+    let text = &["report", "render", "report.json", "--report", "text=-"];
+    let (_, stdout, stderr) = actucheck(folder.path(), text);
+    assert_eq!((stdout.matches("passed  ").count(), stderr.as_str()), (1, ""));
+}
+
+#[test]
+fn reports_are_compared() {
+    let folder = folder();
+    let mut other = Vec::new();
+    actucheck::report::Format::Json.write(&sample::small(), &mut other).unwrap();
+    fs::write(folder.path().join("other.json"), other).unwrap();
+    let compare = ["report", "compare", "report.json", "other.json", "--report", "html=page.html"];
+    let (status, stdout, stderr) = actucheck(folder.path(), &compare);
+    assert_eq!((status, stderr.as_str()), (0, ""));
+    assert!(stdout.contains("    dynamixel2.stuffing.transmit  pass  fail 1/2\n"), "{stdout}");
+    assert!(fs::read_to_string(folder.path().join("page.html")).unwrap().contains("unstuffed"));
+}
+
+#[test]
+fn what_can_not_be_is_refused_in_a_sentence() {
+    let folder = folder();
+    fs::write(folder.path().join("old.json"), "{\"version\": 1}").unwrap();
+    for (arguments, sentence) in [
+        (
+            &["codec", "--report", "pdf=x"][..],
+            "a report is written as FORMAT=PATH; formats are text, json, junit, markdown, html",
+        ),
+        (&["codec", "--report", "html="], "a report is written as FORMAT=PATH"),
+        (
+            &["codec", "--report", "json=-", "--report", "html=-"],
+            "two reports go to -; give each a path of its own",
+        ),
+        (&["report", "render", "none.json"], "cannot read none.json"),
+        (&["report", "render", "old.json"], "old.json is a report of version 1"),
+        (&["report", "compare", "report.json"], "<REPORT>..."),
+        (&["report", "compare", "report.json", "old.json"], "old.json is a report of version 1"),
+        (
+            &["report", "compare", "report.json", "report.json", "--report", "junit=x"],
+            "junit tells of one run",
+        ),
+    ] {
+        let (status, stdout, stderr) = actucheck(folder.path(), arguments);
+        assert_eq!((status, stdout.as_str()), (2, ""), "{arguments:?}: {stderr}");
+        assert!(stderr.starts_with("actucheck: ") && stderr.contains(sentence), "{stderr}");
+        assert_eq!(stderr.lines().count(), 1, "{stderr}");
+    }
+    assert!(!folder.path().join("x").exists());
+}

@@ -1,0 +1,151 @@
+//! Reports to look at.
+
+use std::ops::ControlFlow;
+use std::sync::LazyLock;
+
+use actucheck::cases::{self, Options};
+use actucheck::check::Check;
+use actucheck::expect::Expectations;
+use actucheck::protocol::{Hello, Implementation, Op, Output, Rejection, Wire};
+use actucheck::reference;
+use actucheck::report::{Report, Run, Stopped};
+use actucheck::run::run;
+use actucheck::select::select;
+use actucheck::testee::{Answer, Builtin, Testee};
+use actucheck_spec::Spec;
+use actucheck_spec::model::{Fault, Packet};
+
+/// A name that must stay one.
+pub(crate) const NAME: &str = "<script>alert('odd')</script> & |co|";
+
+/// The built-in codec under another name, with other answers.
+struct Odd {
+    codec: Builtin,
+    hello: Hello,
+    bend: fn(&Op, Answer) -> Answer,
+}
+
+impl Testee for Odd {
+    fn hello(&self) -> &Hello {
+        &self.hello
+    }
+
+    fn ask(&mut self, op: &Op) -> Answer {
+        (self.bend)(op, self.codec.ask(op))
+    }
+}
+
+/// Sends without byte stuffing, as several libraries do.
+fn unstuffed(op: &Op, answer: Answer) -> Answer {
+    match op {
+        Op::Encode { packet, .. } => match &packet.packet {
+            Packet::Instruction { id, instruction, params } => {
+                let body = [&[*instruction], params.0.as_slice()].concat();
+                Answer::Ok(Output::Bytes(reference::frame(*id, &body).into()))
+            }
+            _ => answer,
+        },
+        _ => answer,
+    }
+}
+
+/// Meets every verdict.
+fn odd(op: &Op, answer: Answer) -> Answer {
+    let said = || "<b>said</b> \u{1b}[31mthis\n```".to_owned();
+    match (op, answer) {
+        (Op::Crc { bytes, .. }, answer) => match bytes.len() {
+            8 => Answer::TimedOut(said()),
+            9 => Answer::Crashed(said()),
+            11 => Answer::Faulty(said()),
+            12 => Answer::NotAsked(said()),
+            _ => answer,
+        },
+        (Op::Unstuff { .. }, _) => Answer::Skipped(said()),
+        (_, Answer::Rejected(_)) => {
+            Answer::Rejected(Rejection { class: Fault::Parameter, detail: said() })
+        }
+        (_, answer) => unstuffed(op, answer),
+    }
+}
+
+/// What every sample is taken from; it takes a while to make.
+static SPEC: LazyLock<Spec> = LazyLock::new(|| Spec::embedded().unwrap());
+static CHECKS: LazyLock<Vec<Check>> = LazyLock::new(|| {
+    let checks = cases::all(&SPEC, &OPTIONS);
+    select(checks, &[], &["*.stuffing.body.*".to_owned()]).unwrap()
+});
+const OPTIONS: Options = Options { cases: 10, ..Options::new(Wire::Dynamixel2) };
+
+/// Reads without taking the byte stuffing out.
+fn left_in(op: &Op, answer: Answer) -> Answer {
+    match (op, answer) {
+        (Op::Decode { .. }, Answer::Ok(Output::Packet(Packet::Status { id, error, params }))) => {
+            let params = reference::stuff(&params).into();
+            Answer::Ok(Output::Packet(Packet::Status { id, error, params }))
+        }
+        (_, answer) => answer,
+    }
+}
+
+fn report(name: &str, only: &str, bend: fn(&Op, Answer) -> Answer, expect: &str) -> Report {
+    let checks = select(CHECKS.clone(), &[only.to_owned()], &[]).unwrap();
+    let codec = Builtin::default();
+    let mut hello = codec.hello().clone();
+    hello.implementation = Implementation {
+        name: name.to_owned(),
+        version: "1.0".to_owned(),
+        language: "C".to_owned(),
+        url: None,
+    };
+    let implementation = hello.implementation.clone();
+    let testee = Odd { codec, hello, bend };
+    let mut outcomes = run(&mut [Box::new(testee)], &checks, |_| ControlFlow::Continue(()));
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("expected-failures.yaml");
+    std::fs::write(&file, format!("expected_failures: {expect}\n")).unwrap();
+    Expectations::read(&file, &checks).unwrap().apply(&mut outcomes);
+    Report::from(Run {
+        spec: &SPEC,
+        implementation: &implementation,
+        options: OPTIONS,
+        command: &["./adapter".to_owned(), "two words".to_owned()],
+        record: None,
+        outcomes,
+        stopped: None,
+        left: 0,
+        seconds: 1.5,
+        log: String::new(),
+    })
+}
+
+/// Of an implementation with a hostile name that meets every verdict.
+pub(crate) fn every_verdict() -> Report {
+    let expect = "[{ids: [dynamixel2.stuffing.twice/encode], reason: '<i>known</i>'}, \
+                   {ids: [ja40.ping.instruction/encode], reason: none}]";
+    Report { log: "the last <em>words</em>".to_owned(), ..report(NAME, "*", odd, expect) }
+}
+
+/// Of one that does not stuff, and was asked little.
+pub(crate) fn small() -> Report {
+    report("unstuffed", "*stuffing.goal-position/{encode,stuff,unstuff}", unstuffed, "[]")
+}
+
+/// Of one that does nothing wrong.
+pub(crate) fn right() -> Report {
+    report("right", "*", |_, answer| answer, "[]")
+}
+
+/// Of one that was interrupted.
+pub(crate) fn interrupted() -> Report {
+    Report { stopped: Some(Stopped::Interrupted), left: 7, ..small() }
+}
+
+/// Of one that was asked little and does nothing wrong.
+pub(crate) fn small_right() -> Report {
+    report("right", "*stuffing.goal-position/{encode,stuff,unstuff}", |_, answer| answer, "[]")
+}
+
+/// Of one that reads the byte stuffing as data.
+pub(crate) fn leaves_stuffing_in() -> Report {
+    report("left in", "*stuffing.*/decode", left_in, "[]")
+}
