@@ -29,8 +29,11 @@
 
 #![cfg_attr(not(test), no_std)]
 
-#[cfg(feature = "std")]
+#[cfg(any(feature = "std", planted))]
 extern crate std;
+
+#[macro_use]
+mod planted;
 
 pub mod crc;
 mod error;

@@ -31,7 +31,7 @@ impl Matcher {
         self.matched = match self.matched {
             2 if byte == last => 3,
             // A third FF leaves the last two as the beginning of a pattern.
-            1 | 2 if byte == second => 2,
+            1 | 2 if byte == second => planted!("stuffing.third-ff", 2 * (2 - self.matched), 2),
             _ if byte == first => 1,
             _ => 0,
         };
@@ -152,7 +152,9 @@ impl Iterator for Unstuffed<'_> {
     fn next(&mut self) -> Option<Self::Item> {
         if self.after_pattern {
             self.after_pattern = false;
-            if self.stuffed.get(self.next) != Some(&STUFFING_BYTE) {
+            let next = self.stuffed.get(self.next);
+            let bare = next != Some(&STUFFING_BYTE);
+            if planted!("stuffing.bare-at-the-end", bare && next.is_some(), bare) {
                 let at = self.next;
                 self.next = self.stuffed.len();
                 return Some(Err(at));

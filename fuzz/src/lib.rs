@@ -1,45 +1,123 @@
 //! Fuzz targets as plain functions: libFuzzer calls them, and so does every test run.
 //!
-//! A target panics when its oracle finds the codec wrong; that is its whole interface.
+//! A target panics when its oracle finds the codec wrong; that is its whole interface. Expected
+//! results come from `actucheck::reference`, from the plain reading of the stream's rules
+//! ([`stream`]), or from the documents' YAML, never from the codec.
 
 #![allow(clippy::panic, clippy::indexing_slicing, clippy::unwrap_used)] // a panic is the finding
+
+mod draw;
+pub mod published;
+pub mod stream;
+pub mod targets;
 
 #[cfg(fuzzing)]
 pub use libfuzzer_sys;
 
-pub mod targets;
-
-/// A target by its name.
+/// A target, and what libFuzzer should know about it.
+#[derive(Clone, Copy, Debug)]
 pub struct Target {
-    /// Its name, which is that of its binary too.
+    /// Its name, which is that of its module, its binary and its folders too.
     pub name: &'static str,
-    /// What is called with each input.
-    pub body: fn(&[u8]),
+    /// Holds one input against the oracle.
+    ///
+    /// # Panics
+    /// If the code under test is wrong.
+    pub check: fn(&[u8]),
+    /// Mends lengths and CRCs in an input, so that mutations get past them. It changes nothing but
+    /// bytes, and inputs reach [`Target::check`] without it too.
+    pub repair: Option<fn(&mut [u8])>,
+    /// What its inputs look like: a folder of `seeds/`, and a dictionary of that name.
+    pub seeds: Seeds,
+    /// The longest input worth trying, in bytes.
+    pub max_len: usize,
 }
 
-/// Every target.
-pub const TARGETS: [Target; 2] = [
-    Target { name: "frame", body: targets::frame },
-    Target { name: "stuffing", body: targets::stuffing },
-];
+/// A family of inputs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Seeds {
+    /// Packets of DYNAMIXEL Protocol 2.0 and its JA dialect.
+    Dynamixel2,
+    /// Frames of the INNFOS Ethernet protocol.
+    Innfos,
+    /// Files of a spec folder.
+    Yaml,
+}
+
+impl Seeds {
+    /// Every family.
+    pub const ALL: [Self; 3] = [Self::Dynamixel2, Self::Innfos, Self::Yaml];
+
+    /// Its folder's name.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Dynamixel2 => "dynamixel2",
+            Self::Innfos => "innfos",
+            Self::Yaml => "yaml",
+        }
+    }
+}
+
+macro_rules! table {
+    ($($name:ident $(, $repair:ident)?: $seeds:ident, $max_len:literal;)*) => {
+        /// Every target.
+        pub const TARGETS: &[Target] = &[$(Target {
+            name: stringify!($name),
+            check: targets::$name::check,
+            repair: table!(@ $($repair targets::$name::repair)?),
+            seeds: Seeds::$seeds,
+            max_len: $max_len,
+        }),*];
+    };
+    (@) => { None };
+    (@ repair $path:path) => { Some($path) };
+}
+
+table! {
+    stuffing: Dynamixel2, 128;
+    crc: Dynamixel2, 128;
+    stream_raw, repair: Dynamixel2, 1500;
+    stream_scenario: Dynamixel2, 1000;
+    stream_cost: Dynamixel2, 2000;
+    packet, repair: Dynamixel2, 160;
+    register: Dynamixel2, 64;
+    fast_status, repair: Dynamixel2, 160;
+    innfos_frame, repair: Innfos, 300;
+    innfos_stream, repair: Innfos, 500;
+    spec_yaml: Yaml, 2000;
+}
 
 /// The `main` of a target's binary: libFuzzer's under cargo-fuzz, else a replay of the files that
-/// are named on the command line.
+/// are named on the command line. `repair` gives libFuzzer the target's own mutations.
 #[macro_export]
 macro_rules! shim {
-    ($name:ident) => {
+    ($name:ident $(, $repair:ident)?) => {
         #[cfg(fuzzing)]
         mod shim {
-            #![allow(unsafe_code, missing_docs)] // libFuzzer's entry point is a C symbol
-            $crate::libfuzzer_sys::fuzz_target!(|data: &[u8]| $crate::targets::$name(data));
+            #![allow(unsafe_code, missing_docs)] // libFuzzer's entry points are C symbols
+            $crate::libfuzzer_sys::fuzz_target!(|data: &[u8]| $crate::targets::$name::check(data));
+            $crate::shim!(@ $($repair $name)?);
         }
 
         #[cfg(not(fuzzing))]
         fn main() -> std::io::Result<()> {
             for path in std::env::args_os().skip(1) {
-                $crate::targets::$name(&std::fs::read(path)?);
+                $crate::targets::$name::check(&std::fs::read(path)?);
             }
             Ok(())
         }
+    };
+    (@) => {};
+    (@ repair $name:ident) => {
+        use $crate::libfuzzer_sys; // where the macro looks for it
+        libfuzzer_sys::fuzz_mutator!(|data: &mut [u8], size: usize, max_size: usize, seed: u32| {
+            let size = libfuzzer_sys::fuzzer_mutate(data, size, max_size);
+            // Broken lengths and CRCs are to be tried too.
+            if seed % 4 != 0 {
+                data.get_mut(..size).map($crate::targets::$name::repair);
+            }
+            size
+        });
     };
 }

@@ -1,18 +1,86 @@
-//! Every golden packet goes through every target, whole and cut at each byte.
+//! Every seed and every file of the corpora goes through its target.
 
-use actucheck_fuzz::TARGETS;
+#![allow(clippy::unwrap_used, clippy::panic)] // tests may stop at a surprise
+
+use std::fs;
+use std::panic::catch_unwind;
+use std::path::{Path, PathBuf};
+
+use actucheck_fuzz::targets::{innfos_stream, packet, stream_raw};
+use actucheck_fuzz::{TARGETS, Target};
 use actucheck_spec::Spec;
+use actucheck_spec::model::{Outcome, Vector, VectorsFile};
+
+/// How many files a corpus has: less and it was not made, more and nobody minimised it.
+const CORPUS: std::ops::RangeInclusive<usize> = 20..=500;
+
+/// The files of a folder, which has to be there.
+fn files(folder: &str) -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+    let entries = fs::read_dir(&folder).unwrap_or_else(|error| panic!("{folder:?}: {error}"));
+    entries.map(|entry| entry.unwrap().path()).collect()
+}
+
+fn replay(target: &Target, files: &[PathBuf]) {
+    for file in files {
+        let input = fs::read(file).unwrap();
+        let passed = catch_unwind(|| (target.check)(&input)).is_ok();
+        assert!(passed, "{} fails on {}", target.name, file.display());
+    }
+}
 
 #[test]
-fn golden_packets_pass_every_target() {
-    let spec = Spec::embedded().unwrap();
-    let frames: Vec<_> = spec.vectors().map(|(_, vector)| vector.frame()).collect();
-    assert!(frames.len() > 40, "{} seeds", frames.len());
-    for target in &TARGETS {
-        for frame in &frames {
-            for end in 0..=frame.len() {
-                (target.body)(&frame[..end]);
-            }
+fn every_seed_passes() {
+    for target in TARGETS {
+        let seeds = files(&format!("seeds/{}", target.seeds.name()));
+        assert!(seeds.len() >= 50, "{}: {} seeds", target.name, seeds.len());
+        replay(target, &seeds);
+    }
+}
+
+#[test]
+fn every_corpus_is_there_and_passes() {
+    for target in TARGETS {
+        let corpus = files(&format!("corpus/{}", target.name));
+        let count = corpus.len();
+        assert!(CORPUS.contains(&count), "{}: {count} files, not {CORPUS:?}", target.name);
+        replay(target, &corpus);
+    }
+}
+
+#[test]
+fn every_repaired_seed_passes() {
+    for target in TARGETS {
+        let Some(repair) = target.repair else { continue };
+        for seed in files(&format!("seeds/{}", target.seeds.name())) {
+            let mut input = fs::read(&seed).unwrap();
+            repair(&mut input);
+            (target.check)(&input);
         }
     }
+}
+
+/// A golden packet gets back what it had.
+#[test]
+fn repair_gives_the_right_crc() {
+    let spec = Spec::embedded().unwrap();
+    let valid = |(_, vector): &(&VectorsFile, &Vector)| vector.result == Outcome::Valid;
+    let mut repaired = 0;
+    for (file, vector) in spec.vectors().filter(valid) {
+        let (repairs, crc): (&[fn(&mut [u8])], _) = match file.wire.as_str() {
+            "dynamixel2" => (&[packet::repair, stream_raw::repair], 0..2),
+            // Behind the CRC stands the end byte. A shorter frame may have none.
+            _ if vector.frame().len() > 9 => (&[innfos_stream::repair], 1..3),
+            _ => continue,
+        };
+        for repair in repairs {
+            let mut input = vector.frame().to_vec();
+            input.iter_mut().rev().skip(crc.start).take(crc.len()).for_each(|byte| *byte ^= 0x5A);
+            assert_ne!(input, vector.frame());
+            repair(&mut input);
+            assert_eq!(input, vector.frame(), "{}", vector.id);
+            repaired += 1;
+        }
+    }
+    assert!(repaired > 100, "{repaired} packets");
 }

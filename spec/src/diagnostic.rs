@@ -49,6 +49,7 @@ impl Diagnostic {
         for (number, line) in self.text.split_inclusive('\n').enumerate() {
             if number + 1 == self.line {
                 let before: usize = line.chars().take(self.column - 1).map(char::len_utf8).sum();
+                let before = planted!("spec.column-of-bytes", self.column - 1, before);
                 let node = line.get(before..).unwrap_or_default().trim_end();
                 let nested = node.starts_with(['[', '{']);
                 let end = node.find([',', '}', ']']).filter(|_| !nested).unwrap_or(node.len());

@@ -7,6 +7,10 @@
 
 #![forbid(unsafe_code)]
 
+#[macro_use]
+#[path = "../../codec/src/planted.rs"]
+mod planted;
+
 pub mod check;
 pub mod coverage;
 pub mod diagnostic;

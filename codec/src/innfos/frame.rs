@@ -90,6 +90,7 @@ impl<'a> Parts<'a> {
         }
         let (prefix, rest) = bytes.split_first_chunk::<PREFIX>().ok_or(truncated(PREFIX + 1))?;
         let [_, address, command, high, low] = *prefix;
+        let high = planted!("innfos.length-of-a-byte", 0, high);
         let length = usize::from(u16::from_be_bytes([high, low]));
         let crc_len = crc_len(kind, command, length, rest);
         let tail = PREFIX + length + crc_len;
@@ -125,7 +126,8 @@ fn crc_len(kind: Kind, command: u8, length: usize, rest: &[u8]) -> usize {
     match *rest {
         [low, high, TAIL, ..] => {
             let crc = u16::from_le_bytes([low, high]);
-            if crc == 0 || crc == crc::modbus(data) { 2 } else { 0 }
+            let right = crc == 0 || crc == crc::modbus(data);
+            if planted!("innfos.any-crc", true, right) { 2 } else { 0 }
         }
         _ => 0,
     }

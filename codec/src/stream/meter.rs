@@ -1,13 +1,16 @@
-//! Counts the bytes that the parser looks at, for the tests of its cost; nothing otherwise.
+//! Counts the bytes that the parser looks at, for tests of its cost; without the feature `meter`
+//! nothing is counted.
 
-#[cfg(not(test))]
+#[cfg(not(any(test, feature = "meter")))]
 #[inline]
 pub(super) fn add(_bytes: usize) {}
 
-#[cfg(test)]
-pub(super) use counting::{add, total};
+#[cfg(any(test, feature = "meter"))]
+pub(super) use counting::add;
+#[cfg(any(test, feature = "meter"))]
+pub use counting::total;
 
-#[cfg(test)]
+#[cfg(any(test, feature = "meter"))]
 mod counting {
     use core::cell::Cell;
 
@@ -20,8 +23,10 @@ mod counting {
         TOTAL.set(TOTAL.get() + bytes);
     }
 
-    /// All that was added in this thread.
-    pub(in super::super) fn total() -> usize {
+    /// The bytes that the parsers of this thread have looked at so far; those looked at twice
+    /// count twice.
+    #[must_use]
+    pub fn total() -> usize {
         TOTAL.get()
     }
 }

@@ -85,6 +85,9 @@
 mod candidate;
 mod checkpoints;
 mod event;
+#[cfg(feature = "meter")]
+pub mod meter;
+#[cfg(not(feature = "meter"))]
 mod meter;
 mod parser;
 mod search;

@@ -118,7 +118,8 @@ fn patterns(places: Places, len: usize) -> Option<usize> {
     /// A pattern is in the body if its last byte is.
     const IN_BODY: u64 = u64::MAX >> (CRC + 2);
     let body = WINDOW - len + PREFIX;
-    let patterns = places.patterns & IN_BODY & u64::MAX << body;
+    let in_body = planted!("stream.pattern-at-the-end", IN_BODY >> 1, IN_BODY);
+    let patterns = places.patterns & in_body & u64::MAX << body;
     if patterns == 0 {
         return Some(0);
     }

@@ -3,91 +3,16 @@
 // Tests may stop at the first surprise, and so may their helpers.
 #![allow(clippy::indexing_slicing, clippy::unwrap_used)]
 
-use actucheck_codec::frame;
 use actucheck_codec::stream::{Event, Parser, Reason};
+use drive::{drain, expected, owned, parse};
 use proptest::collection::vec;
 use proptest::prelude::*;
-use reference::{Seen, packet, read, unstuffed_packet};
-use scenario::{Scenario, overlapping, scenario};
+use reference::{Seen, read};
+use scenario::{Scenario, overlapping, packet, scenario, unstuffed_packet};
 
+mod drive;
 mod reference;
 mod scenario;
-
-/// The event with bytes of its own; a frame's are those that encoding it gives.
-fn owned(event: Event<'_>) -> Seen {
-    match event {
-        Event::Frame(frame) => {
-            let params: Vec<u8> = frame.params().collect();
-            assert_eq!(params.len(), frame.params_len());
-            let mut buffer = [0; 2048];
-            let bytes = frame::encode(frame.id(), frame.instruction(), &[&params], &mut buffer);
-            Seen::Frame(bytes.unwrap().to_vec(), params)
-        }
-        Event::FastStatus(status) => Seen::FastStatus(status.bytes().to_vec()),
-        Event::Skipped { bytes, reason } => Seen::Skipped(bytes, reason),
-    }
-}
-
-/// Feeds `bytes` in pieces of the sizes that `sizes` goes through again and again, and takes at
-/// most `patience` events after each.
-fn feed<const BLOCKS: usize>(
-    parser: &mut Parser<BLOCKS>,
-    mut bytes: &[u8],
-    sizes: &mut impl Iterator<Item = usize>,
-    patience: usize,
-    events: &mut Vec<Seen>,
-) {
-    while !bytes.is_empty() {
-        let (piece, rest) = bytes.split_at(sizes.next().unwrap().min(bytes.len()));
-        let left = parser.push(piece).len();
-        bytes = &bytes[piece.len() - left..];
-        assert_eq!(bytes.len(), rest.len() + left);
-        for _ in 0..patience {
-            let Some(event) = parser.next_event() else {
-                break;
-            };
-            events.push(owned(event));
-        }
-    }
-}
-
-fn drain<const BLOCKS: usize>(parser: &mut Parser<BLOCKS>, events: &mut Vec<Seen>) {
-    while let Some(event) = parser.next_event() {
-        events.push(owned(event));
-    }
-}
-
-/// All events that a parser makes of the scenario.
-fn parse<const BLOCKS: usize>(
-    scenario: &Scenario,
-    max_packet: usize,
-    sizes: &[usize],
-    patience: usize,
-) -> Vec<Seen> {
-    let mut parser = Parser::<BLOCKS>::with_max_packet(max_packet);
-    let mut sizes = sizes.iter().copied().cycle();
-    let mut events = Vec::new();
-    let mut pushed = 0;
-    for (index, bytes) in scenario.0.iter().enumerate() {
-        if index > 0 {
-            parser.idle();
-            drain(&mut parser, &mut events);
-            assert_eq!(parser.pending(), 0, "nothing outlasts a quiet time");
-        }
-        feed(&mut parser, bytes, &mut sizes, patience, &mut events);
-        pushed += bytes.len() as u64;
-    }
-    drain(&mut parser, &mut events);
-    let accounted: u64 = events.iter().map(Seen::bytes).sum();
-    assert_eq!(accounted + parser.pending(), pushed);
-    events
-}
-
-fn expected(scenario: &Scenario, max_packet: usize) -> Vec<Seen> {
-    let last = scenario.0.len() - 1;
-    let busy = scenario.0.iter().enumerate();
-    busy.flat_map(|(index, bytes)| read(bytes, index < last, max_packet)).collect()
-}
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
@@ -98,11 +23,11 @@ proptest! {
         sizes in vec(1_usize..80, 1..6),
         patience in 1_usize..4,
     ) {
-        let expected = expected(&scenario, 1024);
-        prop_assert_eq!(&parse::<16>(&scenario, 1024, &[usize::MAX], usize::MAX), &expected);
-        prop_assert_eq!(&parse::<16>(&scenario, 1024, &[1], usize::MAX), &expected);
-        prop_assert_eq!(&parse::<16>(&scenario, 1024, &sizes, usize::MAX), &expected);
-        prop_assert_eq!(&parse::<16>(&scenario, 1024, &sizes, patience), &expected);
+        let expected = expected(&scenario.0, 1024);
+        prop_assert_eq!(&parse::<16>(&scenario.0, 1024, &[usize::MAX], usize::MAX), &expected);
+        prop_assert_eq!(&parse::<16>(&scenario.0, 1024, &[1], usize::MAX), &expected);
+        prop_assert_eq!(&parse::<16>(&scenario.0, 1024, &sizes, usize::MAX), &expected);
+        prop_assert_eq!(&parse::<16>(&scenario.0, 1024, &sizes, patience), &expected);
     }
 
     #[test]
@@ -111,10 +36,10 @@ proptest! {
         sizes in vec(1_usize..80, 1..6),
         max_packet in 0_usize..300,
     ) {
-        let expected = |room: usize| expected(&scenario, room.min(max_packet));
-        prop_assert_eq!(parse::<1>(&scenario, max_packet, &sizes, 1), expected(64));
-        prop_assert_eq!(parse::<3>(&scenario, max_packet, &[1], 2), expected(192));
-        prop_assert_eq!(parse::<3>(&scenario, max_packet, &[500], usize::MAX), expected(192));
+        let expected = |room: usize| expected(&scenario.0, room.min(max_packet));
+        prop_assert_eq!(parse::<1>(&scenario.0, max_packet, &sizes, 1), expected(64));
+        prop_assert_eq!(parse::<3>(&scenario.0, max_packet, &[1], 2), expected(192));
+        prop_assert_eq!(parse::<3>(&scenario.0, max_packet, &[500], usize::MAX), expected(192));
     }
 
     #[test]
@@ -134,9 +59,9 @@ proptest! {
         scenario in overlapping(),
         sizes in vec(1_usize..900, 1..6),
     ) {
-        let expected = expected(&scenario, 1024);
-        prop_assert_eq!(&parse::<16>(&scenario, 1024, &sizes, usize::MAX), &expected);
-        prop_assert_eq!(&parse::<16>(&scenario, 1024, &[1], usize::MAX), &expected);
+        let expected = expected(&scenario.0, 1024);
+        prop_assert_eq!(&parse::<16>(&scenario.0, 1024, &sizes, usize::MAX), &expected);
+        prop_assert_eq!(&parse::<16>(&scenario.0, 1024, &[1], usize::MAX), &expected);
     }
 
     /// Nothing but the bytes of headers: the most false headers to a byte.
@@ -146,17 +71,17 @@ proptest! {
         sizes in vec(1_usize..80, 1..6),
     ) {
         let scenario = Scenario(vec![noise, vec![]]);
-        let expected = expected(&scenario, 1024);
-        prop_assert_eq!(&parse::<16>(&scenario, 1024, &sizes, usize::MAX), &expected);
-        prop_assert_eq!(&parse::<16>(&scenario, 1024, &[1], usize::MAX), &expected);
+        let expected = expected(&scenario.0, 1024);
+        prop_assert_eq!(&parse::<16>(&scenario.0, 1024, &sizes, usize::MAX), &expected);
+        prop_assert_eq!(&parse::<16>(&scenario.0, 1024, &[1], usize::MAX), &expected);
     }
 }
 
 /// What a parser of up to 1 KiB makes of the pieces, with a quiet time at the end.
 fn events_of(pieces: &[&[u8]]) -> Vec<Seen> {
     let scenario = Scenario(vec![pieces.concat(), vec![]]);
-    let events = parse::<16>(&scenario, 1024, &[usize::MAX], usize::MAX);
-    assert_eq!(events, expected(&scenario, 1024));
+    let events = parse::<16>(&scenario.0, 1024, &[usize::MAX], usize::MAX);
+    assert_eq!(events, expected(&scenario.0, 1024));
     events
 }
 

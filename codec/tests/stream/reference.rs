@@ -129,27 +129,6 @@ fn unstuff(bytes: &[u8], body_end: usize) -> Option<Vec<u8>> {
     Some(body)
 }
 
-/// A packet with such a body.
-pub(crate) fn packet(id: u8, body: &[u8]) -> Vec<u8> {
-    let mut stuffed = Vec::new();
-    for byte in body {
-        stuffed.push(*byte);
-        if stuffed.ends_with(&[0xFF, 0xFF, 0xFD]) {
-            stuffed.push(0xFD);
-        }
-    }
-    unstuffed_packet(id, &stuffed)
-}
-
-/// A packet with such a body as it is.
-pub(crate) fn unstuffed_packet(id: u8, body: &[u8]) -> Vec<u8> {
-    let mut packet = vec![0xFF, 0xFF, 0xFD, 0x00, id];
-    packet.extend(u16::try_from(body.len() + 2).unwrap().to_le_bytes());
-    packet.extend(body);
-    packet.extend(crc(&packet).to_le_bytes());
-    packet
-}
-
 /// A bit at a time.
 pub(crate) fn crc(bytes: &[u8]) -> u16 {
     let mut crc = 0_u16;

@@ -4,7 +4,7 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
 
-use crate::reference::{packet, unstuffed_packet};
+use crate::reference::crc;
 
 /// Times between which the bus was busy: the bytes of each. The last one is not over yet.
 #[derive(Clone, Debug)]
@@ -102,4 +102,25 @@ fn damaged() -> impl Strategy<Value = Vec<u8>> {
         }
         bytes
     })
+}
+
+/// A packet with such a body.
+pub(crate) fn packet(id: u8, body: &[u8]) -> Vec<u8> {
+    let mut stuffed = Vec::new();
+    for byte in body {
+        stuffed.push(*byte);
+        if stuffed.ends_with(&[0xFF, 0xFF, 0xFD]) {
+            stuffed.push(0xFD);
+        }
+    }
+    unstuffed_packet(id, &stuffed)
+}
+
+/// A packet with such a body as it is.
+pub(crate) fn unstuffed_packet(id: u8, body: &[u8]) -> Vec<u8> {
+    let mut packet = vec![0xFF, 0xFF, 0xFD, 0x00, id];
+    packet.extend(u16::try_from(body.len() + 2).unwrap().to_le_bytes());
+    packet.extend(body);
+    packet.extend(crc(&packet).to_le_bytes());
+    packet
 }

@@ -18,11 +18,8 @@ pub fn crc(bytes: &[u8]) -> u16 {
     for byte in bytes {
         crc ^= u16::from(*byte);
         for _ in 0..8 {
-            let carry = crc & 1 == 1;
-            crc >>= 1;
-            if carry {
-                crc ^= 0xA001;
-            }
+            let carry = crc & 1;
+            crc = (crc >> 1) ^ (0xA001 * carry);
         }
     }
     crc
@@ -56,13 +53,28 @@ fn has_crc(kind: FrameKind, data: &[u8]) -> bool {
     }
 }
 
+/// Whether a reply may come without a CRC, with zeros in its place, or with it.
+fn is_open(kind: FrameKind, command: u8, data: &[u8]) -> bool {
+    kind == FrameKind::Reply && data.len() == 1 && OPEN.contains(&command)
+}
+
+/// Whether zeros or the CRC of the data, and the end, are what stands behind the data: all that
+/// tells a reply with a CRC from one without, as another frame may follow.
+fn looks_like_crc(data: &[u8], behind: &[u8]) -> bool {
+    let ends = |crc: [u8; 2]| behind.starts_with(&[&crc[..], &[TAIL]].concat());
+    ends([0, 0]) || ends(crc(data).to_le_bytes())
+}
+
 /// The packet that `bytes` are, one whole frame.
 ///
 /// # Errors
 /// The first rule that they break: header, length, tail, trailing bytes, CRC.
 pub fn decode(kind: FrameKind, bytes: &[u8]) -> Result<Packet, Fault> {
-    let (packet, size) = first(kind, bytes)?;
-    if size < bytes.len() { Err(Fault::Trailing) } else { Ok(packet) }
+    let first = first(kind, bytes)?;
+    if first.size < bytes.len() {
+        return Err(Fault::Trailing);
+    }
+    if first.crc_matches { Ok(first.packet) } else { Err(Fault::Crc) }
 }
 
 /// The packets of a datagram: frame behind frame, up to the first byte that begins none.
@@ -70,13 +82,48 @@ pub fn decode(kind: FrameKind, bytes: &[u8]) -> Result<Packet, Fault> {
 pub fn packets(kind: FrameKind, datagram: &[u8]) -> Vec<Packet> {
     let mut packets = Vec::new();
     let mut rest = datagram;
-    while let Ok((packet, size)) = first(kind, rest) {
+    while let Some((packet, size)) = whole(kind, rest) {
         packets.push(packet);
         rest = rest.get(size..).unwrap_or_default();
     }
     packets
 }
 
+/// The packets of a datagram wherever they begin: where none does, the search goes on one byte
+/// further.
+#[must_use]
+pub fn packets_anywhere(kind: FrameKind, datagram: &[u8]) -> Vec<Packet> {
+    let mut packets = Vec::new();
+    let mut rest = datagram;
+    while !rest.is_empty() {
+        let size = match whole(kind, rest) {
+            Some((packet, size)) => {
+                packets.push(packet);
+                size
+            }
+            None => 1,
+        };
+        rest = rest.get(size..).unwrap_or_default();
+    }
+    packets
+}
+
+/// The packet that begins here if everything is right with it, and its size.
+fn whole(kind: FrameKind, bytes: &[u8]) -> Option<(Packet, usize)> {
+    let first = first(kind, bytes).ok().filter(|first| first.crc_matches)?;
+    Some((first.packet, first.size))
+}
+
+/// The packet that begins somewhere, and its size.
+struct First {
+    packet: Packet,
+    size: usize,
+    /// Right, or there is none.
+    crc_matches: bool,
+}
+
+/// The packet that begins here.
+fn first(kind: FrameKind, bytes: &[u8]) -> Result<First, Fault> {
 /// The packets of a datagram wherever they begin: where none does, the search goes on one byte
 /// further.
 #[must_use]
@@ -113,10 +160,11 @@ fn first(kind: FrameKind, bytes: &[u8]) -> Result<(Packet, usize), Fault> {
         }
     };
     let without_crc = PREFIX + length + 1;
-    let open = kind == FrameKind::Reply && data.len() == 1 && OPEN.contains(&command);
-    if open && behind == [TAIL] || !open && !has_crc(kind, data) {
+    let open = is_open(kind, command, data);
+    let with_crc = if open { looks_like_crc(data, behind) } else { has_crc(kind, data) };
+    if !with_crc {
         return match behind.first() {
-            Some(&TAIL) => Ok((packet(), without_crc)),
+            Some(&TAIL) => Ok(First { packet: packet(), size: without_crc, crc_matches: true }),
             Some(_) => Err(Fault::Tail),
             None => Err(Fault::Truncated),
         };
@@ -126,8 +174,5 @@ fn first(kind: FrameKind, bytes: &[u8]) -> Result<(Packet, usize), Fault> {
     if tail != TAIL {
         return Err(Fault::Tail);
     }
-    if found != crc(data) && !(open && found == 0) {
-        return Err(Fault::Crc);
-    }
-    Ok((packet(), without_crc + 2))
+    Ok(First { packet: packet(), size: without_crc + 2, crc_matches: open || found == crc(data) })
 }

@@ -10,12 +10,10 @@ use crate::protocol::Fast;
 pub fn crc(bytes: &[u8]) -> u16 {
     let mut crc = 0_u16;
     for byte in bytes {
-        for bit in (0..8).rev() {
-            let carry = crc >= 0x8000;
-            crc <<= 1;
-            if carry != (byte >> bit & 1 == 1) {
-                crc ^= 0x8005;
-            }
+        crc ^= u16::from(*byte) << 8;
+        for _ in 0..8 {
+            let carry = crc >> 15;
+            crc = (crc << 1) ^ (0x8005 * carry);
         }
     }
     crc

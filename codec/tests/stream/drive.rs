@@ -1,0 +1,84 @@
+//! Feeds a parser, and keeps what comes out.
+
+use actucheck_codec::frame;
+use actucheck_codec::stream::{Event, Parser};
+
+use super::reference::{Seen, read};
+
+/// The event with bytes of its own; a frame's are those that encoding it gives.
+pub(crate) fn owned(event: Event<'_>) -> Seen {
+    match event {
+        Event::Frame(frame) => {
+            let params: Vec<u8> = frame.params().collect();
+            assert_eq!(params.len(), frame.params_len());
+            let mut buffer = [0; 2048];
+            let bytes = frame::encode(frame.id(), frame.instruction(), &[&params], &mut buffer);
+            Seen::Frame(bytes.unwrap().to_vec(), params)
+        }
+        Event::FastStatus(status) => Seen::FastStatus(status.bytes().to_vec()),
+        Event::Skipped { bytes, reason } => Seen::Skipped(bytes, reason),
+    }
+}
+
+/// Feeds `bytes` in pieces of the sizes that `sizes` goes through again and again, and takes at
+/// most `patience` events after each.
+fn feed<const BLOCKS: usize>(
+    parser: &mut Parser<BLOCKS>,
+    mut bytes: &[u8],
+    sizes: &mut impl Iterator<Item = usize>,
+    patience: usize,
+    events: &mut Vec<Seen>,
+) {
+    while !bytes.is_empty() {
+        let (piece, rest) = bytes.split_at(sizes.next().unwrap().min(bytes.len()));
+        let left = parser.push(piece).len();
+        bytes = &bytes[piece.len() - left..];
+        assert_eq!(bytes.len(), rest.len() + left);
+        for _ in 0..patience {
+            let Some(event) = parser.next_event() else {
+                break;
+            };
+            events.push(owned(event));
+        }
+    }
+}
+
+/// Takes all events that there are.
+pub(crate) fn drain<const BLOCKS: usize>(parser: &mut Parser<BLOCKS>, events: &mut Vec<Seen>) {
+    while let Some(event) = parser.next_event() {
+        events.push(owned(event));
+    }
+}
+
+/// All events that a parser makes of the bytes, with a quiet time between each two of `busy`.
+pub(crate) fn parse<const BLOCKS: usize>(
+    busy: &[Vec<u8>],
+    max_packet: usize,
+    sizes: &[usize],
+    patience: usize,
+) -> Vec<Seen> {
+    let mut parser = Parser::<BLOCKS>::with_max_packet(max_packet);
+    let mut sizes = sizes.iter().copied().cycle();
+    let mut events = Vec::new();
+    let mut pushed = 0;
+    for (index, bytes) in busy.iter().enumerate() {
+        if index > 0 {
+            parser.idle();
+            drain(&mut parser, &mut events);
+            assert_eq!(parser.pending(), 0, "nothing outlasts a quiet time");
+        }
+        feed(&mut parser, bytes, &mut sizes, patience, &mut events);
+        pushed += bytes.len() as u64;
+    }
+    drain(&mut parser, &mut events);
+    let accounted: u64 = events.iter().map(Seen::bytes).sum();
+    assert_eq!(accounted + parser.pending(), pushed);
+    events
+}
+
+/// What the rules make of them.
+pub(crate) fn expected(busy: &[Vec<u8>], max_packet: usize) -> Vec<Seen> {
+    let last = busy.len() - 1;
+    let busy = busy.iter().enumerate();
+    busy.flat_map(|(index, bytes)| read(bytes, index < last, max_packet)).collect()
+}

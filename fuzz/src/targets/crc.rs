@@ -1,0 +1,63 @@
+//! Both CRCs: the fast ways against the bitwise ones, wherever the bytes stand and are cut.
+
+use actucheck::reference;
+use actucheck_codec::crc::{self, Engine, MODBUS_INIT, UMTS_INIT};
+
+use crate::draw::Draw;
+
+/// The longest message, some of the time: long enough for every way of the engines.
+const LONG: usize = 1200;
+
+/// The input is a message, or what a long one repeats.
+///
+/// # Panics
+/// If the codec is wrong.
+pub fn check(input: &[u8]) {
+    let mut draw = Draw::of(input);
+    let times = if draw.below(32) == 0 { LONG / input.len().max(1) } else { 1 };
+    let message = input.repeat(times);
+    let place = draw.below(64);
+    let cut = draw.below(message.len() + 1);
+    check_at(&message, place, cut);
+    a_flipped_bit_is_found(message, draw.below(8 * LONG));
+}
+
+/// Holds a message that stands `place` bytes behind a multiple of 64 against the reference, whole
+/// and cut in two.
+///
+/// # Panics
+/// If the codec is wrong.
+pub fn check_at(message: &[u8], place: usize, cut: usize) {
+    let mut room = vec![0; 64 + place + message.len()];
+    let start = room.as_ptr().align_offset(64) + place;
+    let bytes = &mut room[start..start + message.len()];
+    bytes.copy_from_slice(message);
+
+    let (umts, modbus) = (reference::crc(bytes), reference::innfos::crc(bytes));
+    assert_eq!((crc::umts(bytes), crc::modbus(bytes)), (umts, modbus));
+    let (head, tail) = bytes.split_at(cut);
+    for engine in Engine::all() {
+        assert_eq!(engine.umts(bytes), umts, "{engine:?}");
+        assert_eq!(engine.modbus(bytes), modbus, "{engine:?}");
+        assert_eq!(engine.umts_update(engine.umts(head), tail), umts, "{engine:?}, cut at {cut}");
+        let behind_head = engine.modbus_update(engine.modbus(head), tail);
+        assert_eq!(behind_head, modbus, "{engine:?}, cut at {cut}");
+    }
+    // From the parts' own CRCs.
+    let count = tail.len() as u64;
+    let joined = crc::umts_shift(crc::umts(head) ^ UMTS_INIT, count) ^ crc::umts(tail);
+    assert_eq!(joined, umts, "shifted by {count}");
+    let joined = crc::modbus_shift(crc::modbus(head) ^ MODBUS_INIT, count) ^ crc::modbus(tail);
+    assert_eq!(joined, modbus, "shifted by {count}");
+}
+
+fn a_flipped_bit_is_found(mut message: Vec<u8>, bit: usize) {
+    if message.is_empty() {
+        return;
+    }
+    let before = (crc::umts(&message), crc::modbus(&message));
+    let bit = bit % (8 * message.len());
+    message[bit / 8] ^= 1 << (bit % 8);
+    assert_ne!(crc::umts(&message), before.0, "bit {bit}");
+    assert_ne!(crc::modbus(&message), before.1, "bit {bit}");
+}

@@ -1,0 +1,157 @@
+//! INNFOS frames and messages: there and back, against the reference and the YAML.
+
+use std::sync::LazyLock;
+
+use actucheck::reference::innfos as reference;
+use actucheck_codec::innfos::{self, Command, Format, Frame, FrameError, Kind, Message, Value};
+use actucheck_codec::{BufferTooSmall, EncodeError};
+use actucheck_spec::Spec;
+use actucheck_spec::model::{Direction, Fault, FrameKind, Packet};
+use arbitrary::{Result, Unstructured};
+
+static SPEC: LazyLock<Spec> = LazyLock::new(|| Spec::embedded().unwrap());
+
+/// Both ways that a frame can go.
+pub(super) const WAYS: [(Kind, FrameKind); 2] =
+    [(Kind::Request, FrameKind::Request), (Kind::Reply, FrameKind::Reply)];
+
+/// The input is a frame, and then what a frame is made of.
+///
+/// # Panics
+/// If the codec is wrong.
+pub fn check(input: &[u8]) {
+    for (kind, said) in WAYS {
+        read(kind, said, input);
+    }
+    // Choices may end early: then there is no frame.
+    let _ = build(&mut Unstructured::new(input));
+}
+
+/// Bytes are the frame, or have the fault, that the reference finds.
+fn read(kind: Kind, said: FrameKind, bytes: &[u8]) {
+    let expected = reference::decode(said, bytes);
+    let frame = match Frame::parse(kind, bytes) {
+        Ok(frame) => frame,
+        Err(error) => {
+            assert!(error.offset() <= bytes.len(), "{error}");
+            return assert_eq!(Err(fault(error)), expected, "{kind:?}");
+        }
+    };
+    assert_eq!(Ok(packet(&frame)), expected);
+    understood(&frame);
+    built(kind, frame.address(), frame.command(), frame.data());
+}
+
+/// What the frame says, in the YAML's words.
+pub(super) fn packet(frame: &Frame<'_>) -> Packet {
+    let (address, command) = (frame.address(), frame.command().code());
+    let data = frame.data().to_vec().into();
+    match frame.kind() {
+        Kind::Request => Packet::Request { address, command, data },
+        Kind::Reply => Packet::Reply { address, command, data },
+    }
+}
+
+/// The fault that the reference would name.
+const fn fault(error: FrameError) -> Fault {
+    match error {
+        FrameError::Header { .. } => Fault::Header,
+        FrameError::Truncated { .. } => Fault::Truncated,
+        FrameError::Tail { .. } => Fault::Tail,
+        FrameError::Trailing { .. } => Fault::Trailing,
+        FrameError::Crc { .. } => Fault::Crc,
+    }
+}
+
+/// A message is what a row of the YAML allows, and says again what it was read from.
+fn understood(frame: &Frame<'_>) {
+    let message = Message::parse(frame);
+    let sizes = sizes(frame.kind(), frame.command().code());
+    let allowed = sizes
+        .is_some_and(|sizes| sizes.iter().any(|size| usize::from(*size) == frame.data().len()));
+    assert_eq!(message.is_ok(), allowed, "{frame:?}");
+    let Ok(message) = message else { return };
+    let mut buffers = [[0; 14]; 2];
+    let [one, two] = &mut buffers;
+    let again = innfos::encode(frame.kind(), frame.address(), frame.command(), frame.data(), one);
+    assert_eq!(message.encode(two).unwrap(), again.unwrap(), "{message:?}");
+}
+
+/// The sizes that the data of a command may have this way; `None` if it does not go this way.
+fn sizes(kind: Kind, code: u8) -> Option<Vec<u16>> {
+    let innfos = &SPEC.innfos.content;
+    let command = innfos.command(code)?;
+    let value =
+        || command.format.map_or(vec![0], |format| innfos.format(format).unwrap().sizes.clone());
+    match (kind, command.direction) {
+        (Kind::Reply, _) if command.reply.is_empty() => None,
+        (Kind::Request, Direction::Read) => Some(vec![0]),
+        (Kind::Request, Direction::Write) | (Kind::Reply, Direction::Read) => Some(value()),
+        (Kind::Reply, Direction::Write) => Some(vec![1]),
+    }
+}
+
+fn build(choices: &mut Unstructured<'_>) -> Result<()> {
+    let (kind, _) = *choices.choose(&WAYS)?;
+    let (address, code) = choices.arbitrary()?;
+    let command = Command::from_code(code);
+    assert_eq!(command.code(), code);
+    let size = choices.int_in_range(0..=280)?;
+    built(kind, address, command, choices.bytes(size.min(choices.len()))?);
+
+    let command = *choices.choose(&Command::ALL)?;
+    let format = command.row().and_then(|row| row.format);
+    let value = format.map(|format| value(choices, format)).transpose()?;
+    let message = Message { kind, address, command, value };
+    let mut buffer = [0; 14];
+    if let Ok(frame) = message.encode(&mut buffer) {
+        assert_eq!(Message::parse(&Frame::parse(kind, frame).unwrap()), Ok(message));
+    }
+    Ok(())
+}
+
+fn value(choices: &mut Unstructured<'_>, format: Format) -> Result<Value> {
+    let size = usize::from(*choices.choose(format.sizes())?);
+    let bytes: [u8; 6] = choices.arbitrary()?;
+    let value = Value::decode(format, &bytes[..size]).unwrap();
+    assert!(value.is(format), "{value:?}");
+    assert_eq!(value.encode().as_bytes(), &bytes[..size]);
+    Ok(value)
+}
+
+/// What is built is what the reference builds, of the very size that is said to be needed, and is
+/// read again as the same.
+fn built(kind: Kind, address: u8, command: Command, data: &[u8]) {
+    let code = command.code();
+    let data_again = data.to_vec().into();
+    let packet_again = match kind {
+        Kind::Request => Packet::Request { address, command: code, data: data_again },
+        Kind::Reply => Packet::Reply { address, command: code, data: data_again },
+    };
+    let expected = reference::encode(&packet_again).unwrap();
+    let mut buffer = vec![0; expected.len()];
+    assert_eq!(innfos::encode(kind, address, command, data, &mut buffer), Ok(&expected[..]));
+    let too_small = BufferTooSmall { needed: expected.len(), available: expected.len() - 1 };
+    let built = innfos::encode(kind, address, command, data, &mut buffer[1..]);
+    assert_eq!(built, Err(EncodeError::Buffer(too_small)));
+    assert_eq!(Frame::parse(kind, &expected).map(|frame| packet(&frame)), Ok(packet_again));
+}
+
+/// Makes a frame of it: a request, or a reply if its address is odd.
+pub fn repair(input: &mut [u8]) {
+    let kind = if input.get(1).is_some_and(|address| address % 2 == 1) { 2 } else { 1 };
+    let Some(room) = input.len().checked_sub(6) else { return };
+    // A CRC from so many bytes of data on.
+    let length = if room >= kind + 2 { room - 2 } else { room.min(kind - 1) };
+    let [high, low] = u16::try_from(length).unwrap_or(u16::MAX).to_be_bytes();
+    input[0] = 0xEE;
+    input[3..5].copy_from_slice(&[high, low]);
+    let end = 5 + length;
+    if length >= kind {
+        let crc = reference::crc(&input[5..end]);
+        input[end..end + 2].copy_from_slice(&crc.to_le_bytes());
+    }
+    if let Some(tail) = input.last_mut() {
+        *tail = 0xED;
+    }
+}

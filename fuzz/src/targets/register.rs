@@ -1,0 +1,140 @@
+//! Values for registers, judged by the YAML as it stands there and not as it was generated.
+
+use std::sync::LazyLock;
+
+use actucheck_codec::register::{Device, Row};
+use actucheck_codec::{ja_variant, ja40, xm430_w210};
+use actucheck_spec::Spec;
+use actucheck_spec::model::{self, Access, Bound, Range, Register, Type};
+use arbitrary::{Result, Unstructured};
+
+static SPEC: LazyLock<Spec> = LazyLock::new(|| Spec::embedded().unwrap());
+const DEVICES: [Device; 3] = [ja40::DEVICE, ja_variant::DEVICE, xm430_w210::DEVICE];
+
+/// The input is a device, a register, what the registers hold that limit it, and a value.
+///
+/// # Panics
+/// If the codec is wrong.
+pub fn check(input: &[u8]) {
+    // Choices may end early: then there is no value.
+    let _ = choose(&mut Unstructured::new(input));
+}
+
+fn choose(choices: &mut Unstructured<'_>) -> Result<()> {
+    let device = &DEVICES[choices.choose_index(DEVICES.len())?];
+    let said = SPEC.device(device.id).unwrap();
+    let register = &said.registers[choices.choose_index(said.registers.len())?];
+    let row = device.register(register.address).unwrap();
+    assert_eq!((row.name, row.kind.size()), (&register.name[..], register.kind.size()));
+
+    // What the registers hold that limit others; without, only the size limits.
+    let held: Option<[i32; 2]> = choices.arbitrary()?;
+    let limits = Limits { device: said, held };
+    let value = value(choices, register, &limits)?;
+    write(row, register, &limits, value);
+    read(row, register, choices.arbitrary()?);
+    Ok(())
+}
+
+/// What other registers hold: one number where the address is a multiple of 8, another elsewhere.
+struct Limits<'a> {
+    device: &'a model::Device,
+    held: Option<[i32; 2]>,
+}
+
+impl Limits<'_> {
+    fn at(&self, address: u16) -> Option<i64> {
+        self.held.map(|[even, odd]| if address.is_multiple_of(8) { even } else { odd }.into())
+    }
+
+    /// The number that a bound stands for; `None` if there is no limit.
+    fn of(&self, bound: &Bound) -> Option<i64> {
+        match bound {
+            Bound::Value(value) => Some(*value),
+            Bound::Register(name) => {
+                let (plain, sign) =
+                    name.strip_prefix('-').map_or((&name[..], 1), |name| (name, -1));
+                self.at(self.device.register(plain).unwrap().address).map(|held| sign * held)
+            }
+        }
+    }
+}
+
+/// One in, at, just outside or far outside what the register takes, or any.
+fn value(choices: &mut Unstructured<'_>, register: &Register, limits: &Limits<'_>) -> Result<i64> {
+    let (smallest, largest) = width(register.kind);
+    let mut ends = vec![smallest, largest, 0, i64::MIN, i64::MAX];
+    if let Some(range) = &register.range {
+        ends.extend(
+            [&range.min, &range.max].into_iter().flatten().filter_map(|end| limits.of(end)),
+        );
+        ends.extend(range.one_of.iter().flatten());
+    }
+    ends.extend(register.values.iter().map(|row| row.value));
+    Ok(match choices.int_in_range(0..=4)? {
+        0 => choices.arbitrary()?,
+        1 => choices.int_in_range(smallest..=largest)?,
+        step => ends[choices.choose_index(ends.len())?].saturating_add(i64::from(step) - 3),
+    })
+}
+
+/// What so many bytes hold, from their number and sign alone.
+fn width(kind: Type) -> (i64, i64) {
+    let bits = 8 * kind.size();
+    match kind {
+        Type::U8 | Type::U16 | Type::U32 => (0, (1 << bits) - 1),
+        Type::I8 | Type::I16 | Type::I32 => (-(1 << (bits - 1)), (1 << (bits - 1)) - 1),
+    }
+}
+
+/// Whether hosts may write it, and the register may have it.
+fn allowed(register: &Register, limits: &Limits<'_>, value: i64) -> bool {
+    let (smallest, largest) = width(register.kind);
+    let in_range = |range: &Range| {
+        let min = range.min.as_ref().and_then(|min| limits.of(min));
+        let max = range.max.as_ref().and_then(|max| limits.of(max));
+        min.is_none_or(|min| value >= min)
+            && max.is_none_or(|max| value <= max)
+            && range.one_of.as_ref().is_none_or(|listed| listed.contains(&value))
+    };
+    register.access == Access::Rw
+        && (smallest..=largest).contains(&value)
+        && register.range.as_ref().is_none_or(in_range)
+}
+
+fn write(row: &Row, register: &Register, limits: &Limits<'_>, value: i64) {
+    let size = usize::from(register.kind.size());
+    let written = row.encode(value, |address| limits.at(address));
+    let held = limits.held;
+    assert_eq!(
+        written.is_ok(),
+        allowed(register, limits, value),
+        "{} = {value}, {held:?}",
+        row.name
+    );
+    let Ok(data) = written else { return };
+    assert_eq!(data.as_bytes(), &value.to_le_bytes()[..size], "{} = {value}", row.name);
+    assert_eq!(row.decode(data.as_bytes()), Some(value), "{}", row.name);
+
+    let name = register.values.iter().find(|named| named.value == value);
+    assert_eq!(row.value_name(value), name.map(|named| &named.name[..]));
+    // A unit gives the count back.
+    let physical = row.physical(value);
+    assert_eq!(physical.is_some(), register.unit.is_some());
+    assert_eq!(
+        physical.and_then(|physical| row.from_physical(physical)),
+        physical.and(Some(value))
+    );
+}
+
+/// Any bytes are a value of their width, and any other number of bytes is none.
+fn read(row: &Row, register: &Register, bytes: [u8; 5]) {
+    let size = usize::from(register.kind.size());
+    for wrong in (0..=bytes.len()).filter(|len| *len != size) {
+        assert_eq!(row.decode(&bytes[..wrong]), None, "{}", row.name);
+    }
+    let unsigned = bytes[..size].iter().rev().fold(0, |high, byte| high << 8 | i64::from(*byte));
+    let (_, largest) = width(register.kind);
+    let value = if unsigned > largest { unsigned - (1 << (8 * size)) } else { unsigned };
+    assert_eq!(row.decode(&bytes[..size]), Some(value), "{}", row.name);
+}

@@ -1,0 +1,50 @@
+//! Byte stuffing: there and back, against the reference, within its bound, at every split.
+
+use actucheck::reference;
+use actucheck_codec::dynamixel2::Instruction;
+use actucheck_codec::stuffing::{stuff, stuffed_len, unstuff};
+use actucheck_codec::{BufferTooSmall, frame};
+
+use crate::draw::Draw;
+
+/// The input is a body.
+///
+/// # Panics
+/// If the codec is wrong.
+pub fn check(body: &[u8]) {
+    let expected = reference::stuff(body);
+    assert!(!expected.windows(4).any(|window| window == reference::HEADER), "a header is left");
+    assert!(expected.len() <= body.len() + body.len() / 3, "{} bytes", expected.len());
+    assert_eq!(stuffed_len(body), expected.len());
+
+    let mut buffer = vec![0; expected.len()];
+    assert_eq!(stuff(body, &mut buffer), Ok(&expected[..]));
+    if let Some(available) = expected.len().checked_sub(1) {
+        let too_small = BufferTooSmall { needed: expected.len(), available };
+        assert_eq!(stuff(body, &mut buffer[..available]), Err(too_small));
+    }
+    assert_eq!(unstuff(&expected, &mut buffer), Ok(body));
+
+    // And as if it were stuffed already.
+    let unstuffed = reference::unstuff(body).ok();
+    assert_eq!(unstuff(body, &mut vec![0; body.len()]).ok().map(<[u8]>::to_vec), unstuffed);
+
+    at_every_split(body, &expected);
+}
+
+/// A packet's parameters may come in parts, and a pattern across them.
+fn at_every_split(body: &[u8], stuffed: &[u8]) {
+    let Some((code, params)) = body.split_first() else { return };
+    let packet = reference::frame(1, stuffed);
+    let instruction = Instruction::from_code(*code);
+    let mut buffer = vec![0; packet.len()];
+    // Of a long body a few, drawn from its bytes.
+    let mut draw = Draw::of(body);
+    let every = params.len() < 16;
+    for split in 0..if every { params.len() + 1 } else { 4 } {
+        let split = if every { split } else { draw.below(params.len() + 1) };
+        let (head, tail) = params.split_at(split);
+        let built = frame::encode(1, instruction, &[head, tail], &mut buffer);
+        assert_eq!(built, Ok(&packet[..]), "split at {split}");
+    }
+}
