@@ -42,14 +42,11 @@ pub(super) const ASKED_DIFFERENTLY: &str =
 
 /// A cell of a matrix: `pass`, `fail 65/23963`, or `-` if nothing was asked.
 pub(super) fn cell(cell: Option<&Cell>) -> String {
-    cell.map_or_else(
-        || "-".to_owned(),
-        |Cell { verdict, totals, .. }| match (totals.count(*verdict), totals.sum()) {
-            (count, sum) if count == sum => verdict.to_string(),
-            _ if *verdict == Verdict::Pass => verdict.to_string(),
-            (count, sum) => format!("{verdict} {count}/{sum}"),
-        },
-    )
+    match cell.map(|cell| (cell.verdict, cell.share())) {
+        None => "-".to_owned(),
+        Some((verdict, None)) => verdict.to_string(),
+        Some((verdict, Some((count, judged)))) => format!("{verdict} {count}/{judged}"),
+    }
 }
 
 /// What was said, with numbers where it is not all the same.

@@ -58,6 +58,18 @@ fn a_cell_has_the_smallest_check_that_is_wrong() {
 }
 
 #[test]
+fn a_cell_counts_what_could_have_come_out_otherwise() {
+    let comparison = compared();
+    let shares = |id: &str| {
+        let row = comparison.requirements.iter().find(|row| row.id == id).unwrap();
+        row.cells.iter().flatten().map(|cell| cell.share().is_some()).collect::<Vec<_>>()
+    };
+    assert_eq!(shares("dynamixel2.stuffing.transmit"), [false, true], "some failed");
+    assert_eq!(shares("dynamixel2.sync-write.parameters"), [false, false], "one is recorded");
+    assert_eq!(shares("dynamixel2.receive.id"), [false, false], "all are recorded");
+}
+
+#[test]
 fn open_questions_are_answered_alike_or_not() {
     let comparison = compared();
     let alike = |question: &str| {

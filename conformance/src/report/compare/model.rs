@@ -163,6 +163,17 @@ impl Row {
     }
 }
 
+impl Cell {
+    /// How many checks came out so, and of how many that could; `None` if all did. What is only
+    /// recorded can't come out otherwise.
+    #[must_use]
+    pub fn share(&self) -> Option<(usize, usize)> {
+        let judged = self.totals.sum() - self.totals.count(Verdict::Recorded);
+        let count = self.totals.count(self.verdict);
+        (count < judged).then_some((count, judged))
+    }
+}
+
 impl Answers {
     /// Whether all implementations that were asked do the same.
     #[must_use]
