@@ -61,7 +61,7 @@ fn cases() -> Vec<(String, Vec<u8>)> {
     fs::read_dir(folder).unwrap().map(case).collect()
 }
 
-/// What ClusterFuzz reads beside a target's binary, and `run` here.
+/// What `ClusterFuzz` reads beside a target's binary, and `run` here.
 fn options(target: &Target) -> String {
     let Target { max_len, seeds, .. } = target;
     format!("[libfuzzer]\nmax_len = {max_len}\ndict = {}.dict\n", seeds.name())

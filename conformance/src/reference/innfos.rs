@@ -124,27 +124,6 @@ struct First {
 
 /// The packet that begins here.
 fn first(kind: FrameKind, bytes: &[u8]) -> Result<First, Fault> {
-/// The packets of a datagram wherever they begin: where none does, the search goes on one byte
-/// further.
-#[must_use]
-pub fn packets_anywhere(kind: FrameKind, datagram: &[u8]) -> Vec<Packet> {
-    let mut packets = Vec::new();
-    let mut rest = datagram;
-    while !rest.is_empty() {
-        let size = match first(kind, rest) {
-            Ok((packet, size)) => {
-                packets.push(packet);
-                size
-            }
-            Err(_) => 1,
-        };
-        rest = rest.get(size..).unwrap_or_default();
-    }
-    packets
-}
-
-/// The packet that begins here, and its size.
-fn first(kind: FrameKind, bytes: &[u8]) -> Result<(Packet, usize), Fault> {
     if bytes.first().is_some_and(|byte| *byte != HEADER) {
         return Err(Fault::Header);
     }
