@@ -216,9 +216,7 @@ fn sync(choices: &mut Unstructured<'_>) -> Result<()> {
     );
 
     let mut params = head(address, length).to_vec();
-    for device in &devices {
-        params.extend([&[device.id], device.data].concat());
-    }
+    params.extend(devices.iter().flat_map(|device| [&[device.id], device.data].concat()));
     let write = SyncWrite { address, length, devices: &devices };
     broadcast(
         0x83,
