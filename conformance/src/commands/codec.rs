@@ -1,5 +1,6 @@
 //! `actucheck codec`.
 
+use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::process::ExitCode;
@@ -8,6 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use actucheck::expect::Expectations;
+use actucheck::protocol::Op;
 use actucheck::record;
 use actucheck::report::{Report, Run, Stopped, text};
 use actucheck::run;
@@ -26,10 +28,13 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     let mut testees = super::testees(&options.adapter, options.jobs)?;
     let hello = testees.hello.clone();
     let mut all = super::checks(&spec, selection.wire, &selection.growth, Some(&hello));
+    let mut records = BTreeMap::new();
     for path in &options.also {
         let more = record::read(path).map_err(|error| Failure::new(Failure::USAGE, error))?;
-        let of_wire = more.into_iter().filter(|(wire, _)| *wire == selection.wire);
-        all.extend(of_wire.map(|(_, check)| check));
+        for (_, check) in more.into_iter().filter(|(wire, _)| *wire == selection.wire) {
+            records.insert(check.id.clone(), path.clone());
+            all.push(check);
+        }
     }
     let expectations = match &options.expect {
         Some(path) => {
@@ -48,6 +53,8 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     });
     let seconds = started.elapsed().as_secs_f64();
     progress.finish_and_clear();
+    // The op that no adapter has is none of the checks.
+    let asked = outcomes.iter().filter(|outcome| outcome.request != Some(Op::Invented)).count();
     expectations.apply(&mut outcomes);
 
     let report = Report::from(Run {
@@ -55,8 +62,8 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
         implementation: &hello.implementation,
         options: super::options(selection.wire, &selection.growth, Some(&hello)),
         command: &options.adapter.command,
-        record: None,
-        left: checks.iter().len().saturating_sub(outcomes.iter().len()),
+        records,
+        left: checks.len().saturating_sub(asked),
         outcomes,
         stopped: limit.stopped,
         seconds,

@@ -55,7 +55,11 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
         implementation: &hello.implementation,
         options: Options { seed, ..Options::new(options.wire) },
         command: &options.adapter.command,
-        record: Some(&options.out),
+        records: fuzzed
+            .findings
+            .iter()
+            .map(|finding| (finding.check.id.clone(), options.out.clone()))
+            .collect(),
         outcomes,
         stopped: None,
         left: 0,

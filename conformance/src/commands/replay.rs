@@ -20,13 +20,16 @@ pub(crate) fn run(options: &Replay) -> Result<ExitCode, Failure> {
     let mut testees = super::testees(&options.adapter, 1)?;
     let hello = testees.hello.clone();
     let (wire, checks) = meant(options, &spec, &hello)?;
+    let path = Path::new(&options.what);
+    let ids = checks.iter().filter(|_| path.is_file()).map(|check| check.id.clone());
+    let records = ids.map(|id| (id, path.to_owned())).collect();
     let outcomes = run::run(&mut testees.all, &checks, |_| ControlFlow::Continue(()));
     let report = Report::from(Run {
         spec: &spec,
         implementation: &hello.implementation,
         options: super::options(wire, &options.growth, Some(&hello)),
         command: &options.adapter.command,
-        record: Some(Path::new(&options.what)).filter(|path| path.is_file()),
+        records,
         outcomes,
         stopped: None,
         left: 0,

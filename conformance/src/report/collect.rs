@@ -1,7 +1,8 @@
 //! A finished run as a report.
 
 use std::cmp::Reverse;
-use std::path::Path;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 use actucheck_spec::Spec;
 use indexmap::{IndexMap, IndexSet};
@@ -25,8 +26,8 @@ pub struct Run<'a> {
     pub options: Options,
     /// The adapter's command; empty for the built-in codec.
     pub command: &'a [String],
-    /// The file that keeps the checks, if they are not those of `actucheck list`.
-    pub record: Option<&'a Path>,
+    /// The files that keep checks which `actucheck list` does not have, by the checks' ids.
+    pub records: BTreeMap<String, PathBuf>,
     /// What came out of each check.
     pub outcomes: Vec<Outcome>,
     /// Why it ended early, if it did.
@@ -140,9 +141,10 @@ fn result(run: &Run<'_>, outcome: &Outcome) -> CheckResult {
 /// The command that asks the same again, as a shell takes it.
 fn replay(run: &Run<'_>, id: &str) -> String {
     let Options { wire, seed, cases, .. } = run.options;
-    let what = run.record.map_or_else(|| id.to_owned(), |path| path.display().to_string());
+    let record = run.records.get(id);
+    let what = record.map_or_else(|| id.to_owned(), |path| path.display().to_string());
     let mut words = vec!["actucheck".to_owned(), "replay".to_owned(), what];
-    if run.record.is_none() && id.contains(".seed-") {
+    if record.is_none() && id.contains(".seed-") {
         words.extend(["--seed".to_owned(), seed.to_string()]);
         if cases > Options::new(wire).cases {
             words.extend(["--cases".to_owned(), cases.to_string()]);

@@ -1,5 +1,6 @@
 //! Reports to look at.
 
+use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::sync::LazyLock;
 
@@ -109,7 +110,7 @@ fn report(name: &str, only: &str, bend: fn(&Op, Answer) -> Answer, expect: &str)
         implementation: &implementation,
         options: OPTIONS,
         command: &["./adapter".to_owned(), "two words".to_owned()],
-        record: None,
+        records: BTreeMap::new(),
         outcomes,
         stopped: None,
         left: 0,
