@@ -7,7 +7,9 @@
 //! Numbers have their low byte first. The length counts everything behind itself, stuffing
 //! included (JA40 document, §1.4; DYNAMIXEL Protocol 2.0, Instruction Packet).
 
-mod tiny;
+mod direct;
+#[cfg(test)]
+mod tests;
 mod writer;
 
 use core::fmt;
@@ -203,7 +205,7 @@ impl<'a> Parts<'a> {
 }
 
 /// Builds a packet in `buffer` from its parameters, which may come in several parts; returns the
-/// packet.
+/// packet. What is behind it in `buffer` is lost.
 ///
 /// ```
 /// use actucheck_codec::{dynamixel2::Instruction, frame};
@@ -216,6 +218,7 @@ impl<'a> Parts<'a> {
 /// # Errors
 /// If the ID is none, the packet would be longer than its length field can say, or `buffer` is
 /// too small; the error tells the size needed.
+#[inline]
 pub fn encode<'b>(
     id: u8,
     instruction: Instruction,
@@ -223,9 +226,18 @@ pub fn encode<'b>(
     buffer: &'b mut [u8],
 ) -> Result<&'b [u8], EncodeError> {
     check_id(id).map_err(|found| EncodeError::Id { found })?;
-    if let Some(len) = tiny::encode(id, instruction.code(), params, buffer) {
+    if let Some(len) = direct::encode(id, instruction.code(), params, buffer) {
         return Writer::after(buffer, len).into_written();
     }
+    encode_parts(id, instruction, params, buffer)
+}
+
+fn encode_parts<'b>(
+    id: u8,
+    instruction: Instruction,
+    params: &[&[u8]],
+    buffer: &'b mut [u8],
+) -> Result<&'b [u8], EncodeError> {
     match put_body(instruction.code(), params, buffer) {
         Some(end) => Writer::after(buffer, end).finish(id),
         None => encode_bytes(id, instruction, params.iter().copied().flatten().copied(), buffer),

@@ -26,10 +26,36 @@ pub(crate) struct Places {
     pub(crate) stuffing: u64,
 }
 
+/// A packet, up to its CRC, that is not in one piece yet.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pieces<'a> {
+    /// Header, ID, length and instruction, the first byte highest.
+    pub(crate) prefix: u64,
+    /// The first parameters, the last of them lowest.
+    pub(crate) lead: u64,
+    /// How many they are, less than eight.
+    pub(crate) lead_len: usize,
+    /// The other parameters.
+    pub(crate) tail: &'a [u8],
+}
+
+/// What is known of a packet in pieces in which no pattern begins before the tail.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Looked {
+    /// Its CRC-16/UMTS, as it is without stuffing.
+    pub(crate) crc: u16,
+    /// Where in the tail FF FF FD begins; bit i stands for byte i.
+    pub(crate) patterns: u64,
+}
+
 /// What a processor does best its own way.
 pub(crate) trait Backend: Copy {
     /// As [`umts`](super::umts).
     fn umts(self, bytes: &[u8]) -> u16;
+
+    /// What a packet needs. `None` if a pattern begins before its tail, the tail is longer than a
+    /// window, or this back end is no faster with pieces than with the whole.
+    fn look(self, pieces: Pieces<'_>) -> Option<Looked>;
 
     /// Whether the last `len` bytes of the window, at least two, end in the CRC-16/UMTS of those
     /// before, low byte first.
@@ -57,6 +83,18 @@ impl Backend for Portable {
     #[inline]
     fn umts(self, bytes: &[u8]) -> u16 {
         Engine::portable().umts(bytes)
+    }
+
+    #[inline]
+    fn look(self, Pieces { prefix, lead, lead_len, tail }: Pieces<'_>) -> Option<Looked> {
+        if !tail.is_empty() {
+            return None;
+        }
+        const { assert!(UMTS_INIT == 0, "zeros in front must not change a CRC") }
+        let packet = u128::from(prefix) << (8 * lead_len) | u128::from(lead);
+        let body = packet & (u128::MAX >> (120 - 8 * lead_len));
+        (!may_have_pattern(body))
+            .then(|| Looked { crc: self.umts(&packet.to_be_bytes()), patterns: 0 })
     }
 
     #[inline]
@@ -100,6 +138,18 @@ impl Backend for Portable {
             words.iter().map(|word| u64::from_le_bytes(*word) ^ everywhere(STUFFING_BYTE));
         Places { patterns: zeros(mismatches.into_iter()), stuffing: zeros(stuffing) }
     }
+}
+
+/// Whether the pattern is among the bytes, the first of them highest; perhaps also when it is not.
+#[inline]
+fn may_have_pattern(bytes: u128) -> bool {
+    const fn everywhere(byte: u8) -> u128 {
+        u128::from_ne_bytes([byte; size_of::<u128>()])
+    }
+    let [first, second, third] = STUFFING_PATTERN.map(everywhere);
+    // Zero in the bytes where the pattern begins.
+    let others = (bytes ^ first) | (bytes ^ second) << 8 | (bytes ^ third) << 16;
+    others.wrapping_sub(everywhere(1)) & !others & everywhere(0x80) != 0
 }
 
 /// The byte in every place.

@@ -13,6 +13,7 @@
 
 mod constants;
 mod narrow;
+mod pieces;
 mod wide;
 mod window;
 
@@ -55,7 +56,8 @@ impl Answer {
     }
 
     // Relaxed will do: whoever asks twice gets the same answer twice.
-    #[inline]
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "a call would cost more than the load")]
     fn get(&self, ask: impl FnOnce() -> bool) -> bool {
         match self.0.load(Ordering::Relaxed) {
             Self::YES => true,

@@ -33,7 +33,7 @@ mod tests;
 
 use crate::dynamixel2::{CRC_INITIAL, CRC_POLYNOMIAL};
 
-pub(crate) use backend::{Backend, Places, Task, WINDOW};
+pub(crate) use backend::{Backend, Looked, Pieces, Places, Task, WINDOW};
 pub use engine::Engine;
 
 // The back ends are made for one polynomial. Should the documents' YAML say another, this stops

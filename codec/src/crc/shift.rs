@@ -5,7 +5,7 @@
 #![expect(clippy::indexing_slicing, reason = "arrays of a fixed size, indices below it")]
 
 /// The order of x modulo P = (x + 1)(x^15 + x + 1): x^32767 = 1.
-const ORDER: u64 = 32_767;
+pub(super) const ORDER: u64 = 32_767;
 
 /// Row d holds x^(8 i 32^d) mod P for i from 0 to 31, a row for each five bits of a byte count
 /// below [`ORDER`]. 192 bytes.

@@ -272,3 +272,59 @@ proptest! {
         }
     }
 }
+
+/// What a back end says of a packet in pieces.
+impl Task for Pieces<'_> {
+    type Output = Option<Looked>;
+
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "see `Task`")]
+    fn run(self, backend: impl Backend) -> Option<Looked> {
+        backend.look(self)
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn pieces_of_every_length(
+        prefix: [u8; 7],
+        body in prop_oneof![
+            proptest::collection::vec(prop_oneof![3 => Just(0xFF_u8), 2 => Just(0xFD), 3 => any::<u8>()], 80),
+            // As in most packets, no pattern, or none before the tail.
+            proptest::collection::vec(0..0xFF_u8, 80),
+            (vec![0..0xFF_u8; 8], proptest::collection::vec(prop_oneof![Just(0xFF_u8), Just(0xFD)], 72))
+                .prop_map(|(lead, tail)| [lead, tail].concat()),
+        ],
+    ) {
+        for lead_len in 0..8 {
+            for tail_len in 0..WINDOW + 5 {
+                let body = &body[..1 + lead_len + tail_len];
+                let (front, tail) = body.split_at(1 + lead_len);
+                let number = |bytes: &[u8]| bytes.iter().fold(0, |n, byte| n << 8 | u64::from(*byte));
+                let pieces = Pieces {
+                    prefix: number(&prefix) << 8 | u64::from(front[0]),
+                    lead: number(&front[1..]),
+                    lead_len,
+                    tail,
+                };
+                let begins = |place: &usize| body[*place..].starts_with(&[0xFF, 0xFF, 0xFD]);
+                let possible = tail_len <= WINDOW && !(0..front.len()).any(|place| begins(&place));
+                let expected = possible.then(|| Looked {
+                    crc: umts_oracle(umts_oracle(0, &prefix), body),
+                    patterns: (front.len()..body.len())
+                        .filter(begins)
+                        .fold(0, |places, place| places | 1 << (place - front.len())),
+                });
+                for (index, engine) in Engine::all().enumerate() {
+                    let found = engine.run(pieces);
+                    // The portable engine, the first, may decline.
+                    if index > 0 || found.is_some() {
+                        prop_assert_eq!(found, expected, "{:?}, {} and {}", engine, lead_len, tail_len);
+                    }
+                }
+            }
+        }
+    }
+}

@@ -117,7 +117,7 @@ pub(super) fn arrange<O: Order>(block: __m128i) -> __m128i {
 /// Two words in a register as [`arrange`] would have them.
 #[inline]
 #[target_feature(enable = "sse2")]
-fn pair<O: Order>(high: u64, low: u64) -> __m128i {
+pub(super) fn pair<O: Order>(high: u64, low: u64) -> __m128i {
     let (high, low) = (high.cast_signed(), low.cast_signed());
     if O::REFLECTED { _mm_set_epi64x(low, high) } else { _mm_set_epi64x(high, low) }
 }

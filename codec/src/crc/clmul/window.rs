@@ -7,15 +7,15 @@ use core::arch::x86_64::{
     _mm256_movemask_epi8, _mm256_set_m128i, _mm256_set1_epi8, _mm256_shuffle_epi8,
 };
 
-use super::super::backend::{Backend, Places, WINDOW, keep_last};
+use super::super::backend::{Backend, Looked, Pieces, Places, WINDOW, keep_last};
 use super::super::order::Msb;
 use super::constants::{BLOCKS, constants};
-use super::{Narrow, Wide, load128, load256, narrow, wide};
+use super::{Narrow, Wide, load128, load256, narrow, pieces, wide};
 use crate::dynamixel2::{STUFFING_BYTE, STUFFING_PATTERN};
 
 // One comparison finds the pattern's first two bytes, another its third and the stuffing.
-const FIRST: i8 = STUFFING_PATTERN[0].cast_signed();
-const THIRD: i8 = STUFFING_PATTERN[2].cast_signed();
+pub(super) const FIRST: i8 = STUFFING_PATTERN[0].cast_signed();
+pub(super) const THIRD: i8 = STUFFING_PATTERN[2].cast_signed();
 const _: () = assert!(STUFFING_PATTERN[0] == STUFFING_PATTERN[1]);
 const _: () = assert!(STUFFING_PATTERN[2] == STUFFING_BYTE);
 
@@ -23,6 +23,12 @@ impl Backend for Narrow {
     #[inline]
     fn umts(self, bytes: &[u8]) -> u16 {
         self.update::<Msb>(0, bytes)
+    }
+
+    #[inline(always)]
+    fn look(self, pieces: Pieces<'_>) -> Option<Looked> {
+        // SAFETY: `new` alone makes a `Narrow`, having found the features that the function needs.
+        unsafe { pieces::look_narrow(pieces) }
     }
 
     #[inline(always)]
@@ -45,6 +51,12 @@ impl Backend for Wide {
     #[inline]
     fn umts(self, bytes: &[u8]) -> u16 {
         self.update::<Msb>(0, bytes)
+    }
+
+    #[inline(always)]
+    fn look(self, pieces: Pieces<'_>) -> Option<Looked> {
+        // SAFETY: `new` alone makes a value, having found the features that the function needs.
+        unsafe { pieces::look_wide(pieces) }
     }
 
     #[inline(always)]

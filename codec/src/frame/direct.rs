@@ -1,0 +1,146 @@
+//! Short packets, from where their bytes are to the buffer and to the CRC.
+//!
+//! To read back bytes that were just written in smaller pieces takes a processor longer than
+//! everything else about such a packet.
+
+use super::{CRC, PREFIX};
+use crate::crc::{Backend, Engine, Looked, Pieces, Task, WINDOW};
+use crate::dynamixel2::{HEADER, STUFFING_BYTE, STUFFING_PATTERN};
+
+/// Bytes in front of the parameters.
+const FRONT: usize = PREFIX + 1;
+
+/// Writes the packet to `buffer`; returns how long it is. `None` if it is not made of at most
+/// seven bytes of parameters and a last part of at most 64, needs stuffing before that, or may
+/// not fit.
+#[inline]
+pub(super) fn encode(id: u8, code: u8, params: &[&[u8]], buffer: &mut [u8]) -> Option<usize> {
+    let (mut lead, mut lead_len, mut tail) = (0_u64, 0, &[][..]);
+    for part in params {
+        if !tail.is_empty() {
+            return None;
+        }
+        if lead_len + part.len() < size_of_val(&lead) {
+            lead = lead << (8 * part.len()) | word(part);
+            lead_len += part.len();
+        } else {
+            tail = part;
+        }
+    }
+    let [low, high] = u16::try_from(1 + lead_len + tail.len() + CRC).ok()?.to_le_bytes();
+    let [first, second, third, fourth] = HEADER;
+    let prefix = u64::from_be_bytes([first, second, third, fourth, id, low, high, code]);
+    let pieces = Pieces { prefix, lead, lead_len, tail };
+    let engine = Engine::new();
+    match engine.run(EncodePlain { pieces, buffer })? {
+        0 => Some(FRONT + lead_len + tail.len() + CRC),
+        patterns => engine.run(EncodeStuffed { pieces, patterns, buffer }),
+    }
+}
+
+/// The task to write a packet if it needs no stuffing; gives the places of the tail where it does.
+struct EncodePlain<'a> {
+    pieces: Pieces<'a>,
+    buffer: &'a mut [u8],
+}
+
+impl Task for EncodePlain<'_> {
+    type Output = Option<u64>;
+
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "see `Task`")]
+    fn run(self, backend: impl Backend) -> Option<u64> {
+        let Self { pieces, buffer } = self;
+        let Looked { crc, patterns } = backend.look(pieces)?;
+        if patterns == 0 {
+            let packet = buffer.get_mut(..FRONT + pieces.lead_len + pieces.tail.len() + CRC)?;
+            let (before_crc, slots) = packet.split_last_chunk_mut::<CRC>()?;
+            copy(pieces.tail, put_front(pieces, before_crc)?);
+            *slots = crc.to_le_bytes();
+        }
+        Some(patterns)
+    }
+}
+
+/// The task to write a packet with stuffing behind the patterns that begin at these places of its
+/// tail; gives its length.
+struct EncodeStuffed<'a> {
+    pieces: Pieces<'a>,
+    patterns: u64,
+    buffer: &'a mut [u8],
+}
+
+impl Task for EncodeStuffed<'_> {
+    type Output = Option<usize>;
+
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "see `Task`")]
+    fn run(self, backend: impl Backend) -> Option<usize> {
+        let Self { pieces: Pieces { prefix, lead_len, tail, .. }, patterns, buffer } = self;
+        let mut whole = [0; 2 * WINDOW];
+        copy(tail, whole.get_mut(..tail.len())?);
+        // So short a length is all in its low byte.
+        let prefix = prefix + (u64::from(patterns.count_ones()) << 16);
+        let target = put_front(Pieces { prefix, ..self.pieces }, buffer)?;
+        // A whole window each time, as nothing foretells where a loop over the bytes ends.
+        *target.first_chunk_mut()? = *whole.first_chunk::<WINDOW>()?;
+        let (mut left, mut stuffed) = (patterns, 0);
+        while left != 0 {
+            let behind = left.trailing_zeros() as usize + STUFFING_PATTERN.len();
+            let (stuffing, rest) = target.get_mut(behind + stuffed..)?.split_first_mut()?;
+            *stuffing = STUFFING_BYTE;
+            *rest.first_chunk_mut()? = *whole.get(behind..)?.first_chunk::<WINDOW>()?;
+            stuffed += 1;
+            left &= left - 1;
+        }
+        let end = FRONT + lead_len + tail.len() + stuffed;
+        let (before_crc, rest) = buffer.split_at_mut_checked(end)?;
+        *rest.first_chunk_mut()? = backend.umts(before_crc).to_le_bytes();
+        Some(end + CRC)
+    }
+}
+
+/// Writes what is in front of the tail; returns the room for that.
+#[inline]
+fn put_front<'b>(pieces: Pieces<'_>, buffer: &'b mut [u8]) -> Option<&'b mut [u8]> {
+    let Pieces { prefix, lead, lead_len, .. } = pieces;
+    let last = prefix << (8 * lead_len) | lead;
+    *buffer.first_chunk_mut()? = prefix.to_be_bytes();
+    *buffer.get_mut(lead_len..)?.first_chunk_mut()? = last.to_be_bytes();
+    buffer.get_mut(FRONT + lead_len..)
+}
+
+/// Less than eight bytes as a number, the last byte lowest.
+#[inline]
+fn word(bytes: &[u8]) -> u64 {
+    if let (Some(first), Some(last)) = (bytes.first_chunk(), bytes.last_chunk()) {
+        let (first, last) = (u32::from_be_bytes(*first), u32::from_be_bytes(*last));
+        u64::from(first) << (8 * (bytes.len() - 4)) | u64::from(last)
+    } else {
+        // Byte by byte, as a caller may have just put them together.
+        bytes.iter().fold(0, |word, byte| word << 8 | u64::from(*byte))
+    }
+}
+
+/// Copies, to as many bytes, without a call if they are few.
+#[inline]
+fn copy(bytes: &[u8], target: &mut [u8]) {
+    /// From `N` to twice as many, by two moves that may overlap.
+    #[inline]
+    fn ends<const N: usize>(bytes: &[u8], target: &mut [u8]) -> Option<()> {
+        *target.first_chunk_mut::<N>()? = *bytes.first_chunk()?;
+        *target.last_chunk_mut::<N>()? = *bytes.last_chunk()?;
+        Some(())
+    }
+    let copied = match bytes.len() {
+        0 => Some(()),
+        65.. => None,
+        32.. => ends::<32>(bytes, target),
+        16.. => ends::<16>(bytes, target),
+        8.. => ends::<8>(bytes, target),
+        _ => None,
+    };
+    if copied.is_none() {
+        target.copy_from_slice(bytes);
+    }
+}
