@@ -144,19 +144,21 @@ impl<'a> Frame<'a> {
         })
     }
 
-    /// Writes the parameters without stuffing to `buffer`; returns what was written.
+    /// Writes the parameters without stuffing to `buffer`; returns them. What is behind them in
+    /// `buffer` is lost: with 128 bytes of room, short packets are copied by moves of fixed size.
     ///
     /// # Errors
     /// If `buffer` is smaller than [`Frame::params_len`].
     pub fn copy_params<'b>(&self, buffer: &'b mut [u8]) -> Result<&'b [u8], BufferTooSmall> {
-        let too_small = BufferTooSmall { needed: self.params_len, available: buffer.len() };
-        let target = buffer.get_mut(..self.params_len).ok_or(too_small)?;
-        if self.params_len + 1 == self.body_len {
+        let (len, available) = (self.params_len, buffer.len());
+        let too_small = BufferTooSmall { needed: len, available };
+        let target = buffer.get_mut(..len).ok_or(too_small)?;
+        if len + 1 == self.body_len {
             target.copy_from_slice(self.stuffed_params());
         } else {
-            stuffing::remove(self.bytes, self.body_len, target);
+            stuffing::remove(self.bytes, self.body_len, buffer, len);
         }
-        Ok(target)
+        buffer.get(..len).ok_or(too_small)
     }
 }
 

@@ -3,11 +3,19 @@
 use crate::crc::{Backend, Engine, Task, WINDOW};
 use crate::dynamixel2::STUFFING_PATTERN;
 
-/// Writes what follows the body's first byte to `target`, which is as long as that is without
-/// stuffing. The body is the first `stuffed` of the `bytes`; if more are there it is faster.
-pub(crate) fn remove(bytes: &[u8], stuffed: usize, target: &mut [u8]) {
+/// Writes what follows the body's first byte to the first `len` bytes of `buffer`, which is how
+/// long that is without stuffing. The body is the first `stuffed` of the `bytes`. More of either
+/// makes it faster; what is behind in `buffer` is lost.
+pub(crate) fn remove(bytes: &[u8], stuffed: usize, buffer: &mut [u8], len: usize) {
+    let engine = Engine::new();
+    if let Some(whole) = buffer.first_chunk_mut()
+        && engine.run(Short { bytes, stuffed, whole }).is_some()
+    {
+        return;
+    }
+    let target = buffer.get_mut(..len).unwrap_or_default();
     let mut whole = [0; 2 * WINDOW];
-    if Engine::new().run(Short { bytes, stuffed, whole: &mut whole }).is_some() {
+    if engine.run(Short { bytes, stuffed, whole: &mut whole }).is_some() {
         copy_short(&whole, target);
     } else {
         remove_any(bytes.get(..stuffed).unwrap_or_default(), target);

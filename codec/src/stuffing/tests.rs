@@ -39,8 +39,11 @@ proptest! {
 
         // Out of bytes with others behind, which look like more of the same.
         let bytes = [stuffed.as_slice(), &behind].concat();
-        let mut target = vec![0; body.len() - 1];
-        remove(&bytes, stuffed.len(), &mut target);
-        prop_assert_eq!(&target, &body[1..]);
+        let len = body.len() - 1;
+        for room in [0, behind.len(), 200] {
+            let mut target = vec![0; len + room];
+            remove(&bytes, stuffed.len(), &mut target, len);
+            prop_assert_eq!(&target[..len], &body[1..]);
+        }
     }
 }
