@@ -12,11 +12,15 @@ pub(crate) fn owned(event: Event<'_>) -> Seen {
             let params: Vec<u8> = frame.params().collect();
             assert_eq!(params.len(), frame.params_len());
             let mut buffer = [0; 2048];
+            assert_eq!(frame.copy_params(&mut buffer), Ok(&params[..]));
             let bytes = frame::encode(frame.id(), frame.instruction(), &[&params], &mut buffer);
             Seen::Frame(bytes.unwrap().to_vec(), params)
         }
         Event::FastStatus(status) => Seen::FastStatus(status.bytes().to_vec()),
-        Event::Skipped { bytes, reason } => Seen::Skipped(bytes, reason),
+        Event::Skipped { bytes, reason } => {
+            assert!(!reason.to_string().is_empty());
+            Seen::Skipped(bytes, reason)
+        }
     }
 }
 

@@ -10,6 +10,7 @@ use actucheck_spec::model::{self, Fault, Packet};
 use arbitrary::{Result, Unstructured};
 
 use crate::targets::packet::fault;
+use crate::targets::shown;
 
 /// Bytes before the blocks: header, ID, length, instruction.
 const HEAD: usize = PREFIX + 1;
@@ -56,7 +57,7 @@ fn agree(bytes: &[u8], fast: &Fast) {
     let found = FastStatus::parse(bytes, fast.length, &fast.ids);
     let blocks = |status: FastStatus<'_>| status.blocks().map(owned).collect();
     let found = found.map(|status| Packet::FastStatus { blocks: blocks(status) });
-    let found = found.map_err(|error| fault(&error));
+    let found = found.inspect_err(shown).map_err(|error| fault(&error));
     match reference::decode_fast(bytes, fast) {
         Err(Fault::Crc) => assert!(found.is_err(), "{fast:?}"),
         expected => assert_eq!(found, expected, "{fast:?}"),

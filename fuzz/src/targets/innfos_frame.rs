@@ -3,11 +3,15 @@
 use std::sync::LazyLock;
 
 use actucheck::reference::innfos as reference;
-use actucheck_codec::innfos::{self, Command, Format, Frame, FrameError, Kind, Message, Value};
+use actucheck_codec::innfos::{
+    self, ACTUATORS, Command, Format, Frame, FrameError, Kind, Message, Value,
+};
 use actucheck_codec::{BufferTooSmall, EncodeError};
 use actucheck_spec::Spec;
-use actucheck_spec::model::{Direction, Fault, FrameKind, Packet};
+use actucheck_spec::model::{Direction, Fault, FrameKind, FullScale, Packet};
 use arbitrary::{Result, Unstructured};
+
+use crate::targets::shown;
 
 static SPEC: LazyLock<Spec> = LazyLock::new(|| Spec::embedded().unwrap());
 
@@ -34,6 +38,7 @@ fn read(kind: Kind, said: FrameKind, bytes: &[u8]) {
         Ok(frame) => frame,
         Err(error) => {
             assert!(error.offset() <= bytes.len(), "{error}");
+            shown(&error);
             return assert_eq!(Err(fault(error)), expected, "{kind:?}");
         }
     };
@@ -65,7 +70,7 @@ const fn fault(error: FrameError) -> Fault {
 
 /// A message is what a row of the YAML allows, and says again what it was read from.
 fn understood(frame: &Frame<'_>) {
-    let message = Message::parse(frame);
+    let message = Message::parse(frame).inspect_err(shown);
     let sizes = sizes(frame.kind(), frame.command().code());
     let allowed = sizes
         .is_some_and(|sizes| sizes.iter().any(|size| usize::from(*size) == frame.data().len()));
@@ -102,9 +107,12 @@ fn build(choices: &mut Unstructured<'_>) -> Result<()> {
     let command = *choices.choose(&Command::ALL)?;
     let format = command.row().and_then(|row| row.format);
     let value = format.map(|format| value(choices, format)).transpose()?;
+    if let Some(value) = value {
+        physical(command, value, choices.choose_index(ACTUATORS.len())?);
+    }
     let message = Message { kind, address, command, value };
     let mut buffer = [0; 14];
-    if let Ok(frame) = message.encode(&mut buffer) {
+    if let Ok(frame) = message.encode(&mut buffer).inspect_err(shown) {
         assert_eq!(Message::parse(&Frame::parse(kind, frame).unwrap()), Ok(message));
     }
     Ok(())
@@ -117,6 +125,30 @@ fn value(choices: &mut Unstructured<'_>, format: Format) -> Result<Value> {
     assert!(value.is(format), "{value:?}");
     assert_eq!(value.encode().as_bytes(), &bytes[..size]);
     Ok(value)
+}
+
+/// A quantity is what the YAML makes of the number in the data, and gives the value back.
+fn physical(command: Command, value: Value, model: usize) {
+    let (innfos, actuator) = (&SPEC.innfos.content, &ACTUATORS[model]);
+    let said = innfos.command(command.code()).unwrap();
+    let fraction = said.format.and_then(|format| innfos.format(format)?.fraction_bits);
+    let row = &innfos.actuators.rows[model];
+    let scale = match said.full_scale {
+        None => 1.0,
+        Some(FullScale::Current) => row.current,
+        Some(FullScale::MotorSpeed) => row.motor_speed,
+    };
+    let scaled = |number: i32| f64::from(number) / f64::from(1 << fraction.unwrap()) * scale;
+    let expected = match value {
+        Value::Iq8(number) => Some(scaled(number.0.into())),
+        Value::Iq24(number) => Some(scaled(number.0)),
+        Value::Scaled(number) => said.factor.map(|factor| f64::from(number) / factor),
+        _ => None,
+    };
+    let found = command.physical(value, actuator);
+    assert_eq!(found.map(f64::to_bits), expected.map(f64::to_bits), "{command:?}, {value:?}");
+    let again = found.and_then(|physical| command.from_physical(physical, actuator));
+    assert_eq!(again, found.map(|_| value), "{command:?}");
 }
 
 /// What is built is what the reference builds, of the very size that is said to be needed, and is

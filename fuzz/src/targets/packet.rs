@@ -10,10 +10,14 @@ use actucheck_codec::instruction::{
     FactoryReset, FastSyncRead, FastSyncWrite, Ping, Read, Reboot, RegWrite, SyncRead, SyncWrite,
     Write,
 };
-use actucheck_codec::status::{self, PingStatus, StatusError};
-use actucheck_codec::{BufferTooSmall, EncodeError, Frame, FrameError, Request, frame, layout};
+use actucheck_codec::status::{self, PingStatus, Status, StatusError};
+use actucheck_codec::{
+    BufferTooSmall, EncodeError, Frame, FrameError, Request, frame, ja40, layout,
+};
 use actucheck_spec::model::{Fault, Packet};
 use arbitrary::{Result, Unstructured};
+
+use crate::targets::shown;
 
 /// The input is a packet, and then what a packet is made of.
 ///
@@ -35,6 +39,7 @@ fn read(bytes: &[u8]) {
         Ok(frame) => frame,
         Err(error) => {
             assert!(error.offset() <= bytes.len().max(PREFIX), "{error}");
+            shown(&error);
             return assert_eq!(Err(fault(&error)), expected);
         }
     };
@@ -60,13 +65,27 @@ fn read(bytes: &[u8]) {
     walk(frame.instruction(), &params);
 
     // An instruction that is understood says again what it was read from.
-    if let Ok(request) = Request::parse(&frame, &mut scratch) {
+    if let Ok(request) = Request::parse(&frame, &mut scratch).inspect_err(shown) {
         assert_eq!(request.encode(frame.id(), &mut buffer), Ok(bytes), "{request:?}");
     }
-    if let Ok(status) = frame.status() {
-        assert_eq!(status.data().collect::<Vec<_>>(), params[1..]);
-        assert_eq!(status.ping().is_ok(), status.data_len() == PingStatus::SIZE);
+    if let Ok(status) = frame.status().inspect_err(shown) {
+        read_status(&status, frame.id(), &params);
     }
+}
+
+fn read_status(status: &Status<'_>, id: u8, params: &[u8]) {
+    let (error, data) = params.split_first().unwrap();
+    assert_eq!((status.id(), status.error().0), (id, *error));
+    assert_eq!(status.error().alert(), error & 0x80 != 0);
+    assert_eq!(status.error().number().code(), error & 0x7F);
+    assert!(status.data().eq(data.iter().copied()));
+    assert_eq!(status.copy_data(&mut vec![0; data.len()]), Ok(data));
+
+    let value = status.value(ja40::PRESENT_POSITION).inspect_err(shown);
+    assert_eq!(value.ok(), <[u8; 4]>::try_from(data).ok().map(i32::from_le_bytes));
+    let ping = status.ping().inspect_err(shown);
+    assert_eq!(ping.is_ok(), data.len() == PingStatus::SIZE);
+    assert_eq!(PingStatus::parse(data).inspect_err(shown), ping);
 }
 
 /// The fields of the parameters lie one behind the other and end with them.
@@ -79,7 +98,10 @@ fn walk(instruction: Instruction, params: &[u8]) {
                 assert_eq!(item.offset, end);
                 end += item.bytes.len();
             }
-            Err(error) => return assert!(error.offset() <= params.len(), "{error}"),
+            Err(error) => {
+                shown(&error);
+                return assert!(error.offset() <= params.len(), "{error}");
+            }
         }
     }
     assert!(layout.is_empty() || end == params.len(), "{end} of {} bytes", params.len());

@@ -1,12 +1,16 @@
 //! Values for registers, judged by the YAML as it stands there and not as it was generated.
 
+use std::fmt::Debug;
 use std::sync::LazyLock;
 
-use actucheck_codec::register::{Device, Row};
+use actucheck::reference;
+use actucheck_codec::register::{self, Device, Row, Value};
 use actucheck_codec::{ja_variant, ja40, xm430_w210};
 use actucheck_spec::Spec;
-use actucheck_spec::model::{self, Access, Bound, Range, Register, Type};
+use actucheck_spec::model::{self, Access, Bound, Packet, Range, Register, Type};
 use arbitrary::{Result, Unstructured};
+
+use crate::targets::shown;
 
 static SPEC: LazyLock<Spec> = LazyLock::new(|| Spec::embedded().unwrap());
 const DEVICES: [Device; 3] = [ja40::DEVICE, ja_variant::DEVICE, xm430_w210::DEVICE];
@@ -26,13 +30,18 @@ fn choose(choices: &mut Unstructured<'_>) -> Result<()> {
     let register = &said.registers[choices.choose_index(said.registers.len())?];
     let row = device.register(register.address).unwrap();
     assert_eq!((row.name, row.kind.size()), (&register.name[..], register.kind.size()));
+    assert_eq!(device.register_named(row.name), Some(row));
 
     // What the registers hold that limit others; without, only the size limits.
     let held: Option<[i32; 2]> = choices.arbitrary()?;
     let limits = Limits { device: said, held };
     let value = value(choices, register, &limits)?;
     write(row, register, &limits, value);
+    if device.id == "ja40" {
+        typed_by_name(register, &limits, value);
+    }
     read(row, register, choices.arbitrary()?);
+    neighbours(device, said, register.address, choices.arbitrary()?);
     Ok(())
 }
 
@@ -112,7 +121,7 @@ fn write(row: &Row, register: &Register, limits: &Limits<'_>, value: i64) {
         "{} = {value}, {held:?}",
         row.name
     );
-    let Ok(data) = written else { return };
+    let Ok(data) = written.inspect_err(shown) else { return };
     assert_eq!(data.as_bytes(), &value.to_le_bytes()[..size], "{} = {value}", row.name);
     assert_eq!(row.decode(data.as_bytes()), Some(value), "{}", row.name);
 
@@ -127,6 +136,64 @@ fn write(row: &Row, register: &Register, limits: &Limits<'_>, value: i64) {
     );
 }
 
+/// The same by some of the device module's constants, one of each kind of value.
+fn typed_by_name(register: &Register, limits: &Limits<'_>, value: i64) {
+    match register.name.as_str() {
+        "Drive Mode" => typed(ja40::DRIVE_MODE, register, limits, value),
+        "Operating Mode" => typed(ja40::OPERATING_MODE, register, limits, value),
+        "Goal Current" => typed(ja40::GOAL_CURRENT, register, limits, value),
+        "Goal Position" => typed(ja40::GOAL_POSITION, register, limits, value),
+        "Present Position" => typed(ja40::PRESENT_POSITION, register, limits, value),
+        _ => {}
+    }
+}
+
+fn typed<T: Value + PartialEq + Debug>(
+    constant: register::Register<T>,
+    register: &Register,
+    limits: &Limits<'_>,
+    value: i64,
+) {
+    let size = register.kind.size();
+    let typed = T::from_raw(value);
+    let (smallest, largest) = width(register.kind);
+    assert_eq!(typed.is_some(), (smallest..=largest).contains(&value), "{value}");
+    let Some(typed) = typed else { return };
+    assert_eq!(typed.raw(), value);
+    let bytes = &value.to_le_bytes()[..size.into()];
+    assert_eq!(constant.decode(bytes), Ok(typed));
+    let unit = |physical| constant.from_physical(physical);
+    assert_eq!(constant.physical(typed).and_then(unit), register.unit.as_ref().map(|_| typed));
+
+    let address = register.address.to_le_bytes();
+    let read = [address, size.to_le_bytes()].concat();
+    assert_eq!(constant.read(1).encode(&mut [0; 32]), Ok(&packet(2, read)[..]));
+    let write = constant.write_within(1, typed, |address| limits.at(address));
+    assert_eq!(write.is_ok(), allowed(register, limits, value), "{} = {value}", register.name);
+    let Ok(write) = write else { return };
+    assert_eq!(write.data().as_ref(), bytes);
+    let params = [&address, bytes].concat();
+    assert_eq!(write.encode(&mut [0; 32]), Ok(&packet(3, params.clone())[..]));
+    assert_eq!(write.registered().encode(&mut [0; 32]), Ok(&packet(4, params)[..]));
+}
+
+/// An instruction packet to device 1.
+fn packet(instruction: u8, params: Vec<u8>) -> Vec<u8> {
+    let packet = Packet::Instruction { id: 1, instruction, params: params.into() };
+    reference::encode(&packet).unwrap()
+}
+
+/// The registers that lie wholly in so many bytes.
+fn neighbours(device: &Device, said: &model::Device, address: u16, length: u8) {
+    let wholly_in = |register: &&Register| {
+        let end = register.address + register.kind.size();
+        register.address >= address && end <= address + u16::from(length)
+    };
+    let expected = said.registers.iter().filter(wholly_in).map(|register| register.address);
+    let found = device.registers_in(address, length.into()).map(|row| row.address);
+    assert!(found.eq(expected), "{length} bytes from {address}");
+}
+
 /// Any bytes are a value of their width, and any other number of bytes is none.
 fn read(row: &Row, register: &Register, bytes: [u8; 5]) {
     let size = usize::from(register.kind.size());
@@ -135,6 +202,10 @@ fn read(row: &Row, register: &Register, bytes: [u8; 5]) {
     }
     let unsigned = bytes[..size].iter().rev().fold(0, |high, byte| high << 8 | i64::from(*byte));
     let (_, largest) = width(register.kind);
+    for (field, said) in row.bits.iter().zip(&register.bits) {
+        let expected = (unsigned.cast_unsigned() & said.mask()) >> said.lowest;
+        assert_eq!(field.of(unsigned).cast_unsigned(), expected, "{} of {}", field.name, row.name);
+    }
     let value = if unsigned > largest { unsigned - (1 << (8 * size)) } else { unsigned };
     assert_eq!(row.decode(&bytes[..size]), Some(value), "{}", row.name);
 }

@@ -6,6 +6,7 @@ use actucheck_codec::stuffing::{stuff, stuffed_len, unstuff};
 use actucheck_codec::{BufferTooSmall, frame};
 
 use crate::draw::Draw;
+use crate::targets::shown;
 
 /// The input is a body.
 ///
@@ -27,7 +28,8 @@ pub fn check(body: &[u8]) {
 
     // And as if it were stuffed already.
     let unstuffed = reference::unstuff(body).ok();
-    assert_eq!(unstuff(body, &mut vec![0; body.len()]).ok().map(<[u8]>::to_vec), unstuffed);
+    let found = unstuff(body, &mut buffer[..body.len()]).inspect_err(shown);
+    assert_eq!(found.ok().map(<[u8]>::to_vec), unstuffed);
 
     at_every_split(body, &expected);
 }
