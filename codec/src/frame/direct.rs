@@ -30,74 +30,64 @@ pub(super) fn encode(id: u8, code: u8, params: &[&[u8]], buffer: &mut [u8]) -> O
     let [low, high] = u16::try_from(1 + lead_len + tail.len() + CRC).ok()?.to_le_bytes();
     let [first, second, third, fourth] = HEADER;
     let prefix = u64::from_be_bytes([first, second, third, fourth, id, low, high, code]);
-    let pieces = Pieces { prefix, lead, lead_len, tail };
-    let engine = Engine::new();
-    match engine.run(EncodePlain { pieces, buffer })? {
-        0 => Some(FRONT + lead_len + tail.len() + CRC),
-        patterns => engine.run(EncodeStuffed { pieces, patterns, buffer }),
-    }
+    Engine::new().run(Encode { pieces: Pieces { prefix, lead, lead_len, tail }, buffer })
 }
 
-/// The task to write a packet if it needs no stuffing; gives the places of the tail where it does.
-struct EncodePlain<'a> {
+/// The task to write a packet; gives its length.
+struct Encode<'a> {
     pieces: Pieces<'a>,
     buffer: &'a mut [u8],
 }
 
-impl Task for EncodePlain<'_> {
-    type Output = Option<u64>;
-
-    #[inline(always)]
-    #[expect(clippy::inline_always, reason = "see `Task`")]
-    fn run(self, backend: impl Backend) -> Option<u64> {
-        let Self { pieces, buffer } = self;
-        let Looked { crc, patterns } = backend.look(pieces)?;
-        if patterns == 0 {
-            let packet = buffer.get_mut(..FRONT + pieces.lead_len + pieces.tail.len() + CRC)?;
-            let (before_crc, slots) = packet.split_last_chunk_mut::<CRC>()?;
-            copy(pieces.tail, put_front(pieces, before_crc)?);
-            *slots = crc.to_le_bytes();
-        }
-        Some(patterns)
-    }
-}
-
-/// The task to write a packet with stuffing behind the patterns that begin at these places of its
-/// tail; gives its length.
-struct EncodeStuffed<'a> {
-    pieces: Pieces<'a>,
-    patterns: u64,
-    buffer: &'a mut [u8],
-}
-
-impl Task for EncodeStuffed<'_> {
+impl Task for Encode<'_> {
     type Output = Option<usize>;
 
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "see `Task`")]
     fn run(self, backend: impl Backend) -> Option<usize> {
-        let Self { pieces: Pieces { prefix, lead_len, tail, .. }, patterns, buffer } = self;
-        let mut whole = [0; 2 * WINDOW];
-        copy(tail, whole.get_mut(..tail.len())?);
-        // So short a length is all in its low byte.
-        let prefix = prefix + (u64::from(patterns.count_ones()) << 16);
-        let target = put_front(Pieces { prefix, ..self.pieces }, buffer)?;
-        // A whole window each time, as nothing foretells where a loop over the bytes ends.
-        *target.first_chunk_mut()? = *whole.first_chunk::<WINDOW>()?;
-        let (mut left, mut stuffed) = (patterns, 0);
-        while left != 0 {
-            let behind = left.trailing_zeros() as usize + STUFFING_PATTERN.len();
-            let (stuffing, rest) = target.get_mut(behind + stuffed..)?.split_first_mut()?;
-            *stuffing = STUFFING_BYTE;
-            *rest.first_chunk_mut()? = *whole.get(behind..)?.first_chunk::<WINDOW>()?;
-            stuffed += 1;
-            left &= left - 1;
+        let Self { pieces, buffer } = self;
+        let Looked { crc, patterns } = backend.look(pieces)?;
+        if patterns != 0 {
+            return encode_stuffed(backend, pieces, patterns, buffer);
         }
-        let end = FRONT + lead_len + tail.len() + stuffed;
-        let (before_crc, rest) = buffer.split_at_mut_checked(end)?;
-        *rest.first_chunk_mut()? = backend.umts(before_crc).to_le_bytes();
-        Some(end + CRC)
+        let len = FRONT + pieces.lead_len + pieces.tail.len() + CRC;
+        let (before_crc, slots) = buffer.get_mut(..len)?.split_last_chunk_mut::<CRC>()?;
+        copy(pieces.tail, put_front(pieces, before_crc)?);
+        *slots = crc.to_le_bytes();
+        Some(len)
     }
+}
+
+/// The same, with stuffing behind the patterns that begin at these places of the tail. Apart, as
+/// most packets need none.
+#[inline(never)]
+fn encode_stuffed(
+    backend: impl Backend,
+    pieces: Pieces<'_>,
+    patterns: u64,
+    buffer: &mut [u8],
+) -> Option<usize> {
+    let Pieces { prefix, lead_len, tail, .. } = pieces;
+    let mut whole = [0; 2 * WINDOW];
+    copy(tail, whole.get_mut(..tail.len())?);
+    // So short a length is all in its low byte.
+    let prefix = prefix + (u64::from(patterns.count_ones()) << 16);
+    let target = put_front(Pieces { prefix, ..pieces }, buffer)?;
+    // A whole window each time, as nothing foretells where a loop over the bytes ends.
+    *target.first_chunk_mut()? = *whole.first_chunk::<WINDOW>()?;
+    let (mut left, mut stuffed) = (patterns, 0);
+    while left != 0 {
+        let behind = left.trailing_zeros() as usize + STUFFING_PATTERN.len();
+        let (stuffing, rest) = target.get_mut(behind + stuffed..)?.split_first_mut()?;
+        *stuffing = STUFFING_BYTE;
+        *rest.first_chunk_mut()? = *whole.get(behind..)?.first_chunk::<WINDOW>()?;
+        stuffed += 1;
+        left &= left - 1;
+    }
+    let end = FRONT + lead_len + tail.len() + stuffed;
+    let (before_crc, rest) = buffer.split_at_mut_checked(end)?;
+    *rest.first_chunk_mut()? = backend.umts(before_crc).to_le_bytes();
+    Some(end + CRC)
 }
 
 /// Writes what is in front of the tail; returns the room for that.
