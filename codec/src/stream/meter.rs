@@ -1,16 +1,16 @@
 //! Counts the bytes that the parser looks at, for tests of its cost; without the feature `meter`
 //! nothing is counted.
 
-#[cfg(not(any(test, feature = "meter")))]
+#[cfg(not(feature = "meter"))]
 #[inline]
 pub(super) fn add(_bytes: usize) {}
 
-#[cfg(any(test, feature = "meter"))]
+#[cfg(feature = "meter")]
 pub(super) use counting::add;
-#[cfg(any(test, feature = "meter"))]
+#[cfg(feature = "meter")]
 pub use counting::total;
 
-#[cfg(any(test, feature = "meter"))]
+#[cfg(feature = "meter")]
 mod counting {
     use core::cell::Cell;
 
