@@ -110,7 +110,10 @@ fn build(choices: &mut Unstructured<'_>) -> Result<()> {
     if let Some(value) = value {
         physical(command, value, choices.choose_index(ACTUATORS.len())?);
     }
-    let message = Message { kind, address, command, value };
+    let message = match kind {
+        Kind::Request => Message::request(address, command, value),
+        Kind::Reply => Message::reply(address, command, value),
+    };
     let mut buffer = [0; 14];
     if let Ok(frame) = message.encode(&mut buffer).inspect_err(shown) {
         assert_eq!(Message::parse(&Frame::parse(kind, frame).unwrap()), Ok(message));
@@ -124,6 +127,14 @@ fn value(choices: &mut Unstructured<'_>, format: Format) -> Result<Value> {
     let value = Value::decode(format, &bytes[..size]).unwrap();
     assert!(value.is(format), "{value:?}");
     assert_eq!(value.encode().as_bytes(), &bytes[..size]);
+    match value {
+        Value::Flag(flag) => {
+            let meaning = [false, true].get(usize::from(bytes[0]));
+            assert_eq!(flag.is_yes(), meaning.copied());
+        }
+        Value::Mac(mac) => assert_eq!(mac.as_bytes(), &bytes[..size]),
+        _ => {}
+    }
     Ok(value)
 }
 

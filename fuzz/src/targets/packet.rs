@@ -62,6 +62,7 @@ fn read(bytes: &[u8]) {
     let mut buffer = vec![0; bytes.len()];
     let again = frame::encode(frame.id(), frame.instruction(), &[&params], &mut buffer);
     assert_eq!(again, Ok(bytes));
+    assert_eq!(Frame::parse(&buffer), Ok(frame));
     walk(frame.instruction(), &params);
 
     // An instruction that is understood says again what it was read from.
@@ -96,6 +97,10 @@ fn walk(instruction: Instruction, params: &[u8]) {
         match item {
             Ok(item) => {
                 assert_eq!(item.offset, end);
+                let number = |bytes: [u8; 2]| u16::from_le_bytes(bytes).into();
+                if let Ok(bytes) = item.bytes.try_into() {
+                    assert_eq!(item.number(), Some(number(bytes)));
+                }
                 end += item.bytes.len();
             }
             Err(error) => {
@@ -237,6 +242,7 @@ fn sync(choices: &mut Unstructured<'_>) -> Result<()> {
         |request| matches!(request, Request::FastSyncRead(found) if *found == read),
     );
 
+    wrong_length(address, length, &devices);
     let mut params = head(address, length).to_vec();
     params.extend(devices.iter().flat_map(|device| [&[device.id], device.data].concat()));
     let write = SyncWrite { address, length, devices: &devices };
@@ -262,6 +268,16 @@ fn sync(choices: &mut Unstructured<'_>) -> Result<()> {
         },
     );
     Ok(())
+}
+
+/// The devices' data have to be as long as is said.
+fn wrong_length(address: u16, length: u16, devices: &[DeviceData<'_>]) {
+    let Some(first) = devices.first().filter(|first| first.id <= 252) else { return };
+    let (id, found, expected) = (first.id, first.data.len(), length + 1);
+    let write = SyncWrite { address, length: expected, devices };
+    let mut buffer = [0; 256];
+    let built = write.encode(&mut buffer).inspect_err(shown);
+    assert_eq!(built, Err(EncodeError::DataLength { id, found, expected }));
 }
 
 fn bulk_read(choices: &mut Unstructured<'_>) -> Result<()> {
@@ -322,12 +338,16 @@ fn broadcast(
     is_the_same: impl Fn(&Request<'_>) -> bool,
 ) {
     if let Some(found) = ids.iter().copied().find(|id| *id > 252) {
-        assert_eq!(encode(&mut [0; 256]), Err(EncodeError::Id { found }));
-        return;
+        let built = encode(&mut [0; 256]).inspect_err(shown).map(<[u8]>::to_vec);
+        return assert_eq!(built, Err(EncodeError::Id { found }));
     }
     let body = [&[code], params].concat();
     built(BROADCAST, &body, encode, |frame| {
-        is_the_same(&Request::parse(frame, &mut vec![0; params.len()]).unwrap())
+        let mut scratch = vec![0; params.len()];
+        let request = Request::parse(frame, &mut scratch).unwrap();
+        // It names its devices itself.
+        assert_eq!(request.encode(1, &mut [0; 256]), Err(EncodeError::Id { found: 1 }));
+        is_the_same(&request)
     });
 }
 
@@ -346,7 +366,7 @@ fn built(
     }
     assert_eq!(encode(&mut buffer), Ok(&expected[..]));
     let too_small = BufferTooSmall { needed: expected.len(), available: expected.len() - 1 };
-    assert_eq!(encode(&mut buffer[1..]), Err(EncodeError::Buffer(too_small)));
+    assert_eq!(encode(&mut buffer[1..]).inspect_err(shown), Err(EncodeError::Buffer(too_small)));
     assert!(is_the_same(&Frame::parse(&expected).unwrap()), "{expected:02x?}");
 }
 

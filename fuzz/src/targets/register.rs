@@ -170,7 +170,9 @@ fn typed<T: Value + PartialEq + Debug>(
     assert_eq!(constant.read(1).encode(&mut [0; 32]), Ok(&packet(2, read)[..]));
     let write = constant.write_within(1, typed, |address| limits.at(address));
     assert_eq!(write.is_ok(), allowed(register, limits, value), "{} = {value}", register.name);
-    let Ok(write) = write else { return };
+    let Ok(write) = write.inspect_err(shown) else { return };
+    // What other registers hold can only forbid.
+    assert_eq!(constant.write(1, typed), Ok(write));
     assert_eq!(write.data().as_ref(), bytes);
     let params = [&address, bytes].concat();
     assert_eq!(write.encode(&mut [0; 32]), Ok(&packet(3, params.clone())[..]));

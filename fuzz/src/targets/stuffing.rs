@@ -22,7 +22,8 @@ pub fn check(body: &[u8]) {
     assert_eq!(stuff(body, &mut buffer), Ok(&expected[..]));
     if let Some(available) = expected.len().checked_sub(1) {
         let too_small = BufferTooSmall { needed: expected.len(), available };
-        assert_eq!(stuff(body, &mut buffer[..available]), Err(too_small));
+        let stuffed = stuff(body, &mut buffer[..available]).inspect_err(shown);
+        assert_eq!(stuffed, Err(too_small));
     }
     assert_eq!(unstuff(&expected, &mut buffer), Ok(body));
 
