@@ -1,16 +1,16 @@
 //! Counts the bytes that the parser looks at, for tests of its cost; without the feature `meter`
 //! nothing is counted.
 
-#[cfg(not(feature = "meter"))]
+#[cfg(not(any(test, feature = "meter")))]
 #[inline]
 pub(super) fn add(_bytes: usize) {}
 
-#[cfg(feature = "meter")]
+#[cfg(any(test, feature = "meter"))]
 pub(super) use counting::add;
-#[cfg(feature = "meter")]
+#[cfg(any(test, feature = "meter"))]
 pub use counting::total;
 
-#[cfg(feature = "meter")]
+#[cfg(any(test, feature = "meter"))]
 mod counting {
     use core::cell::Cell;
 

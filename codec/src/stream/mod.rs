@@ -85,9 +85,9 @@
 mod candidate;
 mod checkpoints;
 mod event;
-#[cfg(feature = "meter")]
+#[cfg(any(test, feature = "meter"))]
 pub mod meter;
-#[cfg(not(feature = "meter"))]
+#[cfg(not(any(test, feature = "meter")))]
 mod meter;
 mod parser;
 mod search;
