@@ -13,7 +13,8 @@ use actucheck::run::run;
 use actucheck::testee::{Answer, Builtin, Testee};
 use actucheck::verdict::{Outcome, Totals, Verdict};
 use actucheck_spec::Spec;
-use actucheck_spec::model::{CheckedBy, Fault, Packet};
+use actucheck_spec::coverage::{self, CheckName, Cover};
+use actucheck_spec::model::{CheckedBy, Fault, Packet, Role};
 
 fn checks() -> Vec<Check> {
     let options = cases::Options { cases: 100, ..cases::Options::new(Wire::Dynamixel2) };
@@ -178,4 +179,25 @@ fn requirements_say_whether_the_suite_checks_them() {
         };
         assert_eq!(named.contains(&row.id), said, "{}", row.id);
     }
+}
+
+#[test]
+fn no_requirement_on_a_codec_is_left_uncovered() {
+    let spec = Spec::embedded().unwrap();
+    let all: Vec<_> = Wire::ALL
+        .into_iter()
+        .flat_map(|wire| cases::all(&spec, &cases::Options::new(wire)))
+        .collect();
+    let names = all.iter().map(|check| CheckName {
+        id: &check.id,
+        requirement: &check.requirement,
+        role: Role::Codec,
+    });
+    let uncovered: Vec<_> = coverage::matrix(&spec, names)
+        .into_iter()
+        .filter(|row| row.requirement.binds.contains(&Role::Codec))
+        .filter(|row| row.cover(Role::Codec) == Cover::Nothing)
+        .map(|row| &row.requirement.id)
+        .collect();
+    assert_eq!(uncovered, Vec::<&String>::new());
 }
