@@ -135,6 +135,7 @@ pub(super) fn built(
         return assert_eq!(encode(&mut buffer), Err(EncodeError::Id { found: id }));
     }
     assert_eq!(encode(&mut buffer), Ok(&expected[..]));
+    assert_eq!(encode(&mut vec![0; expected.len() + 80]), Ok(&expected[..]), "in a larger buffer");
     let too_small = BufferTooSmall { needed: expected.len(), available: expected.len() - 1 };
     assert_eq!(encode(&mut buffer[1..]).inspect_err(shown), Err(EncodeError::Buffer(too_small)));
     assert!(is_the_same(&Frame::parse(&expected).unwrap()), "{expected:02x?}");
