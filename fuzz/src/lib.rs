@@ -10,6 +10,7 @@ mod draw;
 pub mod published;
 pub mod stream;
 pub mod targets;
+mod yaml;
 
 #[cfg(fuzzing)]
 pub use libfuzzer_sys;

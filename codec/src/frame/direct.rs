@@ -70,8 +70,10 @@ fn encode_stuffed(
     let Pieces { prefix, lead_len, tail, .. } = pieces;
     let mut whole = [0; 2 * WINDOW];
     copy(tail, whole.get_mut(..tail.len())?);
+    let count = patterns.count_ones();
+    let count = planted!("packet.length-of-one-stuffing", count.min(1), count);
     // So short a length is all in its low byte.
-    let prefix = prefix + (u64::from(patterns.count_ones()) << 16);
+    let prefix = prefix + (u64::from(count) << 16);
     let target = put_front(Pieces { prefix, ..pieces }, buffer)?;
     // A whole window each time, as nothing foretells where a loop over the bytes ends.
     *target.first_chunk_mut()? = *whole.first_chunk::<WINDOW>()?;

@@ -9,6 +9,7 @@ use actucheck_codec::{BufferTooSmall, EncodeError, FastStatus};
 use actucheck_spec::model::{self, Fault, Packet};
 use arbitrary::{Result, Unstructured};
 
+use crate::draw::Draw;
 use crate::targets::packet::fault;
 use crate::targets::shown;
 
@@ -30,14 +31,16 @@ pub fn check(input: &[u8]) {
     }
 }
 
-/// The requests that could be answered so: as many devices as the packet has room for, with the
-/// IDs that stand where theirs would. And others that could not: with another last ID, and for
-/// other data.
+/// A request that could be answered so: of one of the numbers of devices that the packet has room
+/// for, with the IDs that stand where theirs would. And two that could not: with another last ID,
+/// and for other data.
 fn requests(bytes: &[u8]) -> Vec<Fast> {
     let room = bytes.len().saturating_sub(HEAD);
     let fits = |devices: &usize| room.is_multiple_of(*devices) && room / devices >= OVERHEAD;
     let mut requests = vec![request(room, vec![1, 2])];
-    for devices in (1..=6).filter(fits) {
+    let numbers: Vec<_> = (1..=6).filter(fits).collect();
+    if !numbers.is_empty() {
+        let devices = numbers[Draw::of(bytes).below(numbers.len())];
         let block = room / devices;
         let ids: Vec<_> = (0..devices).map(|device| bytes[HEAD + block * device + 1]).collect();
         let mut other_ids = ids.clone();

@@ -7,13 +7,13 @@ use actucheck_codec::innfos::{
     self, ACTUATORS, Command, Format, Frame, FrameError, Kind, Message, Value,
 };
 use actucheck_codec::{BufferTooSmall, EncodeError};
-use actucheck_spec::Spec;
-use actucheck_spec::model::{Direction, Fault, FrameKind, FullScale, Packet};
+use actucheck_spec::model::{Direction, Fault, FrameKind, FullScale, Innfos, Packet};
 use arbitrary::{Result, Unstructured};
 
 use crate::targets::shown;
+use crate::yaml;
 
-static SPEC: LazyLock<Spec> = LazyLock::new(|| Spec::embedded().unwrap());
+static INNFOS: LazyLock<Innfos> = LazyLock::new(|| yaml::read("protocols/innfos.yaml"));
 
 /// Both ways that a frame can go.
 pub(super) const WAYS: [(Kind, FrameKind); 2] =
@@ -84,7 +84,7 @@ fn understood(frame: &Frame<'_>) {
 
 /// The sizes that the data of a command may have this way; `None` if it does not go this way.
 fn sizes(kind: Kind, code: u8) -> Option<Vec<u16>> {
-    let innfos = &SPEC.innfos.content;
+    let innfos = &*INNFOS;
     let command = innfos.command(code)?;
     let value =
         || command.format.map_or(vec![0], |format| innfos.format(format).unwrap().sizes.clone());
@@ -99,11 +99,15 @@ fn sizes(kind: Kind, code: u8) -> Option<Vec<u16>> {
 fn build(choices: &mut Unstructured<'_>) -> Result<()> {
     let (kind, _) = *choices.choose(&WAYS)?;
     let (address, code) = choices.arbitrary()?;
-    let command = Command::from_code(code);
-    assert_eq!(command.code(), code);
-    let size = choices.int_in_range(0..=280)?;
-    built(kind, address, command, choices.bytes(size.min(choices.len()))?);
-
+    if choices.arbitrary()? {
+        let command = Command::from_code(code);
+        assert_eq!(command.code(), code);
+        // Now and then more than the length's low byte can tell.
+        let most = if choices.ratio(1, 16)? { 280 } else { 12 };
+        let size = choices.int_in_range(0..=most)?;
+        built(kind, address, command, choices.bytes(size.min(choices.len()))?);
+        return Ok(());
+    }
     let command = *choices.choose(&Command::ALL)?;
     let format = command.row().and_then(|row| row.format);
     let value = format.map(|format| value(choices, format)).transpose()?;
@@ -140,7 +144,7 @@ fn value(choices: &mut Unstructured<'_>, format: Format) -> Result<Value> {
 
 /// A quantity is what the YAML makes of the number in the data, and gives the value back.
 fn physical(command: Command, value: Value, model: usize) {
-    let (innfos, actuator) = (&SPEC.innfos.content, &ACTUATORS[model]);
+    let (innfos, actuator) = (&*INNFOS, &ACTUATORS[model]);
     let said = innfos.command(command.code()).unwrap();
     let fraction = said.format.and_then(|format| innfos.format(format)?.fraction_bits);
     let row = &innfos.actuators.rows[model];

@@ -6,14 +6,15 @@ use std::sync::LazyLock;
 use actucheck::reference;
 use actucheck_codec::register::{self, Device, Row, Value};
 use actucheck_codec::{ja_variant, ja40, xm430_w210};
-use actucheck_spec::Spec;
 use actucheck_spec::model::{self, Access, Bound, Packet, Range, Register, Type};
 use arbitrary::{Result, Unstructured};
 
 use crate::targets::shown;
+use crate::yaml;
 
-static SPEC: LazyLock<Spec> = LazyLock::new(|| Spec::embedded().unwrap());
 const DEVICES: [Device; 3] = [ja40::DEVICE, ja_variant::DEVICE, xm430_w210::DEVICE];
+static SAID: LazyLock<[model::Device; 3]> =
+    LazyLock::new(|| DEVICES.map(|device| yaml::read(&format!("devices/{}.yaml", device.id))));
 
 /// The input is a device, a register, what the registers hold that limit it, and a value.
 ///
@@ -25,8 +26,8 @@ pub fn check(input: &[u8]) {
 }
 
 fn choose(choices: &mut Unstructured<'_>) -> Result<()> {
-    let device = &DEVICES[choices.choose_index(DEVICES.len())?];
-    let said = SPEC.device(device.id).unwrap();
+    let index = choices.choose_index(DEVICES.len())?;
+    let (device, said) = (&DEVICES[index], &SAID[index]);
     let register = &said.registers[choices.choose_index(said.registers.len())?];
     let row = device.register(register.address).unwrap();
     assert_eq!((row.name, row.kind.size()), (&register.name[..], register.kind.size()));

@@ -8,6 +8,9 @@ use actucheck_codec::{BufferTooSmall, frame};
 use crate::draw::Draw;
 use crate::targets::shown;
 
+/// So much more than it needs lets a packet be written a window at a time.
+const ROOM: usize = 80;
+
 /// The input is a body.
 ///
 /// # Panics
@@ -35,19 +38,25 @@ pub fn check(body: &[u8]) {
     at_every_split(body, &expected);
 }
 
-/// A packet's parameters may come in parts, and a pattern across them.
+/// A packet's parameters may come in parts, and a pattern across them; and the buffer may have room
+/// for much more.
 fn at_every_split(body: &[u8], stuffed: &[u8]) {
     let Some((code, params)) = body.split_first() else { return };
     let packet = reference::frame(1, stuffed);
     let instruction = Instruction::from_code(*code);
-    let mut buffer = vec![0; packet.len()];
+    let mut buffer = vec![0; packet.len() + ROOM];
     // Of a long body a few, drawn from its bytes.
     let mut draw = Draw::of(body);
-    let every = params.len() < 16;
-    for split in 0..if every { params.len() + 1 } else { 4 } {
+    let every = params.len() < 12;
+    for split in 0..if every { params.len() + 1 } else { 2 } {
         let split = if every { split } else { draw.below(params.len() + 1) };
         let (head, tail) = params.split_at(split);
-        let built = frame::encode(1, instruction, &[head, tail], &mut buffer);
-        assert_eq!(built, Ok(&packet[..]), "split at {split}");
+        let (first, second) = head.split_at(head.len() / 2);
+        for parts in [&[head, tail][..], &[first, second, tail]] {
+            for room in [packet.len(), packet.len() + ROOM] {
+                let built = frame::encode(1, instruction, parts, &mut buffer[..room]);
+                assert_eq!(built, Ok(&packet[..]), "split at {split}, {room} bytes of room");
+            }
+        }
     }
 }

@@ -1,0 +1,130 @@
+//! Packets of every kind: built and read they are the same again, and arbitrary bytes are read as
+//! the reference reads them.
+
+mod build;
+mod several;
+
+use actucheck::reference::{self, HEADER, PREFIX};
+use actucheck_codec::dynamixel2::Instruction;
+use actucheck_codec::status::{PingStatus, Status};
+use actucheck_codec::{Frame, FrameError, Request, frame, ja40, layout};
+use actucheck_spec::model::{Fault, Packet};
+use arbitrary::Unstructured;
+
+use crate::targets::shown;
+
+/// The input is a packet, and then what a packet is made of.
+///
+/// # Panics
+/// If the codec is wrong.
+pub fn check(input: &[u8]) {
+    read(input);
+    let mut choices = Unstructured::new(input);
+    // Choices may end early: then there is no packet.
+    let _ = build::any(&mut choices);
+}
+
+/// Bytes are the packet, or have the fault, that the reference finds.
+fn read(bytes: &[u8]) {
+    let expected = reference::decode(bytes);
+    let frame = match Frame::parse(bytes) {
+        Ok(frame) => frame,
+        Err(error) => {
+            assert!(error.offset() <= bytes.len().max(PREFIX), "{error}");
+            shown(&error);
+            return assert_eq!(Err(fault(&error)), expected);
+        }
+    };
+    let params: Vec<u8> = frame.params().collect();
+    let found = match (frame.error(), frame.instruction()) {
+        (Some(error), _) => {
+            let params = params[1..].to_vec().into();
+            Packet::Status { id: frame.id(), error: error.0, params }
+        }
+        (None, instruction) => {
+            let (instruction, params) = (instruction.code(), params.clone().into());
+            Packet::Instruction { id: frame.id(), instruction, params }
+        }
+    };
+    assert_eq!(Ok(found), expected);
+
+    assert_eq!(frame.params_len(), params.len());
+    let mut scratch = vec![0; params.len()];
+    assert_eq!(frame.copy_params(&mut scratch), Ok(&params[..]));
+    let mut buffer = vec![0; bytes.len()];
+    let again = frame::encode(frame.id(), frame.instruction(), &[&params], &mut buffer);
+    assert_eq!(again, Ok(bytes));
+    assert_eq!(Frame::parse(&buffer), Ok(frame));
+    walk(frame.instruction(), &params);
+
+    // An instruction that is understood says again what it was read from.
+    if let Ok(request) = Request::parse(&frame, &mut scratch).inspect_err(shown) {
+        assert_eq!(request.encode(frame.id(), &mut buffer), Ok(bytes), "{request:?}");
+    }
+    if let Ok(status) = frame.status().inspect_err(shown) {
+        read_status(&status, frame.id(), &params);
+    }
+}
+
+fn read_status(status: &Status<'_>, id: u8, params: &[u8]) {
+    let (error, data) = params.split_first().unwrap();
+    assert_eq!((status.id(), status.error().0), (id, *error));
+    assert_eq!(status.error().alert(), error & 0x80 != 0);
+    assert_eq!(status.error().number().code(), error & 0x7F);
+    assert!(status.data().eq(data.iter().copied()));
+    assert_eq!(status.copy_data(&mut vec![0; data.len()]), Ok(data));
+
+    let value = status.value(ja40::PRESENT_POSITION).inspect_err(shown);
+    assert_eq!(value.ok(), <[u8; 4]>::try_from(data).ok().map(i32::from_le_bytes));
+    let ping = status.ping().inspect_err(shown);
+    assert_eq!(ping.is_ok(), data.len() == PingStatus::SIZE);
+    assert_eq!(PingStatus::parse(data).inspect_err(shown), ping);
+}
+
+/// The fields of the parameters lie one behind the other and end with them.
+fn walk(instruction: Instruction, params: &[u8]) {
+    let layout = instruction.parameters().unwrap_or_default();
+    let mut end = 0;
+    for item in layout::fields(layout, params) {
+        match item {
+            Ok(item) => {
+                assert_eq!(item.offset, end);
+                let number = |bytes: [u8; 2]| u16::from_le_bytes(bytes).into();
+                if let Ok(bytes) = item.bytes.try_into() {
+                    assert_eq!(item.number(), Some(number(bytes)));
+                }
+                end += item.bytes.len();
+            }
+            Err(error) => {
+                shown(&error);
+                return assert!(error.offset() <= params.len(), "{error}");
+            }
+        }
+    }
+    assert!(layout.is_empty() || end == params.len(), "{end} of {} bytes", params.len());
+}
+
+/// The fault that the reference would name.
+pub(super) const fn fault(error: &FrameError) -> Fault {
+    match error {
+        FrameError::Header { .. } => Fault::Header,
+        FrameError::Id { .. } | FrameError::BlockId { .. } => Fault::Id,
+        FrameError::Length { .. } => Fault::Length,
+        FrameError::Truncated { .. } => Fault::Truncated,
+        FrameError::Trailing { .. } => Fault::Trailing,
+        FrameError::Crc { .. } => Fault::Crc,
+        FrameError::Stuffing { .. } => Fault::Stuffing,
+        FrameError::Instruction { .. } => Fault::Instruction,
+    }
+}
+
+/// Makes a packet of it that only its stuffing can be wrong with.
+pub fn repair(input: &mut [u8]) {
+    let Some(length) = input.len().checked_sub(PREFIX).filter(|length| *length > 2) else { return };
+    let [low, high] = u16::try_from(length).unwrap_or(u16::MAX).to_le_bytes();
+    input[..4].copy_from_slice(&HEADER);
+    input[5..PREFIX].copy_from_slice(&[low, high]);
+    if let Some((before, crc)) = input.split_last_chunk_mut::<2>() {
+        *crc = reference::crc(before).to_le_bytes();
+    }
+}
