@@ -106,7 +106,7 @@ pub fn encode<'b>(blocks: &[Block<'_>], buffer: &'b mut [u8]) -> Result<&'b [u8]
     for block in blocks {
         writer.put(block.error.0);
         writer.put(block.id);
-        block.data.iter().for_each(|byte| writer.put(*byte));
+        writer.put_all(block.data);
         writer.put_crc();
     }
     writer.into_written()

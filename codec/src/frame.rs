@@ -14,8 +14,9 @@ mod writer;
 
 use core::fmt;
 
-use crate::dynamixel2::{BROADCAST_ID, HEADER, Instruction, MAX_ID, MIN_LENGTH, STUFFING_BYTE};
-use crate::stuffing::{self, Matcher, Unstuffed};
+use crate::dynamixel2::{BROADCAST_ID, HEADER, Instruction, MAX_ID, MIN_LENGTH};
+use crate::stream::patterns;
+use crate::stuffing::{self, Matcher};
 use crate::{BufferTooSmall, EncodeError, FrameError, crc};
 
 pub(crate) use writer::Writer;
@@ -83,27 +84,17 @@ impl<'a> Frame<'a> {
     /// stuffing, in this order.
     pub fn parse(bytes: &'a [u8]) -> Result<Self, FrameError> {
         let parts = Parts::split(bytes)?;
-        parts.check_crc()?;
-        let (code, params) = parts.body.split_first().ok_or(FrameError::Length {
+        let patterns = parts.check()?;
+        let code = *parts.body.first().ok_or(FrameError::Length {
             found: parts.body.len() + CRC,
             expected: MIN_LENGTH.into(),
         })?;
-        let mut body_len = 0;
-        for byte in Unstuffed::new(parts.body) {
-            byte.map_err(|at| FrameError::Stuffing { at: PREFIX + at })?;
-            body_len += 1;
-        }
-        if *code == Instruction::Status.code() && params.is_empty() {
+        if code == Instruction::Status.code() && parts.body.len() == 1 {
             let found = parts.body.len() + CRC;
             return Err(FrameError::Length { found, expected: found + 1 });
         }
-        Ok(Self {
-            id: parts.id,
-            code: *code,
-            body_len: parts.body.len(),
-            params_len: body_len - 1,
-            bytes: parts.body,
-        })
+        let (body_len, params_len) = (parts.body.len(), parts.body.len() - 1 - patterns);
+        Ok(Self { id: parts.id, code, body_len, params_len, bytes: parts.body })
     }
 
     /// Whom an instruction packet is for, or who sent a status packet.
@@ -149,14 +140,28 @@ impl<'a> Frame<'a> {
     ///
     /// # Errors
     /// If `buffer` is smaller than [`Frame::params_len`].
+    #[inline]
     pub fn copy_params<'b>(&self, buffer: &'b mut [u8]) -> Result<&'b [u8], BufferTooSmall> {
-        let (len, available) = (self.params_len, buffer.len());
+        self.copy_behind(0, buffer)
+    }
+
+    /// The same without the first `front` of the parameters, in front of which and with which no
+    /// pattern may begin.
+    #[inline]
+    pub(crate) fn copy_behind<'b>(
+        &self,
+        front: usize,
+        buffer: &'b mut [u8],
+    ) -> Result<&'b [u8], BufferTooSmall> {
+        let (len, available) = (self.params_len.saturating_sub(front), buffer.len());
         let too_small = BufferTooSmall { needed: len, available };
         let target = buffer.get_mut(..len).ok_or(too_small)?;
-        if len + 1 == self.body_len {
-            target.copy_from_slice(self.stuffed_params());
+        let body_len = self.body_len.saturating_sub(front);
+        let bytes = self.bytes.get(front..).unwrap_or_default();
+        if len + 1 == body_len {
+            target.copy_from_slice(bytes.get(1..body_len).unwrap_or_default());
         } else {
-            stuffing::remove(self.bytes, self.body_len, buffer, len);
+            stuffing::remove(bytes, body_len, buffer, len);
         }
         buffer.get(..len).ok_or(too_small)
     }
@@ -167,6 +172,8 @@ pub(crate) struct Parts<'a> {
     pub(crate) id: u8,
     /// From the instruction up to the CRC, as on the wire.
     pub(crate) body: &'a [u8],
+    /// The whole packet.
+    bytes: &'a [u8],
     /// Everything before the CRC.
     before_crc: &'a [u8],
     crc: u16,
@@ -175,10 +182,8 @@ pub(crate) struct Parts<'a> {
 impl<'a> Parts<'a> {
     pub(crate) fn split(bytes: &'a [u8]) -> Result<Self, FrameError> {
         let available = bytes.len();
-        for (at, (found, expected)) in bytes.iter().zip(HEADER).enumerate() {
-            if *found != expected {
-                return Err(FrameError::Header { at, found: *found, expected });
-            }
+        if !bytes.starts_with(&HEADER) {
+            return Err(wrong_header(bytes));
         }
         let truncated = |needed| FrameError::Truncated { available, needed };
         let (prefix, rest) = bytes.split_first_chunk::<PREFIX>().ok_or(truncated(PREFIX))?;
@@ -196,14 +201,45 @@ impl<'a> Parts<'a> {
         let (before_crc, crc) =
             bytes.split_last_chunk::<CRC>().filter(|_| available == end).ok_or(truncated(end))?;
         let body = rest.get(..usize::from(length) - CRC).ok_or(truncated(end))?;
-        Ok(Self { id, body, before_crc, crc: u16::from_le_bytes(*crc) })
+        Ok(Self { id, body, bytes, before_crc, crc: u16::from_le_bytes(*crc) })
+    }
+
+    /// Checks the CRC, then the stuffing; tells how many patterns the body has.
+    fn check(&self) -> Result<usize, FrameError> {
+        let looked = direct::look(self.before_crc);
+        self.compare_crc(looked.map_or_else(|| crc::umts(self.before_crc), |looked| looked.crc))?;
+        match looked {
+            Some(looked) if looked.patterns == 0 => Ok(0),
+            _ => self.patterns(),
+        }
+    }
+
+    fn patterns(&self) -> Result<usize, FrameError> {
+        let end = self.before_crc.len();
+        let up_to_crc = self.bytes.get(..=end).unwrap_or(self.bytes);
+        let bare = || stuffing::bare(self.body).unwrap_or_default();
+        patterns(up_to_crc, PREFIX, end).ok_or_else(|| FrameError::Stuffing { at: PREFIX + bare() })
     }
 
     pub(crate) fn check_crc(&self) -> Result<(), FrameError> {
-        let (found, expected) = (self.crc, crc::umts(self.before_crc));
-        let at = self.before_crc.len();
+        self.compare_crc(crc::umts(self.before_crc))
+    }
+
+    fn compare_crc(&self, expected: u16) -> Result<(), FrameError> {
+        let (at, found) = (self.before_crc.len(), self.crc);
         if found == expected { Ok(()) } else { Err(FrameError::Crc { at, found, expected }) }
     }
+}
+
+/// What is wrong with bytes that do not begin with a header.
+#[cold]
+fn wrong_header(bytes: &[u8]) -> FrameError {
+    let pairs = bytes.iter().zip(HEADER).enumerate();
+    let mut wrong = pairs.filter(|(_, (found, expected))| **found != *expected);
+    wrong.next().map_or(
+        FrameError::Truncated { available: bytes.len(), needed: PREFIX },
+        |(at, (found, expected))| FrameError::Header { at, found: *found, expected },
+    )
 }
 
 /// Builds a packet in `buffer` from its parameters, which may come in several parts; returns the
@@ -220,7 +256,8 @@ impl<'a> Parts<'a> {
 /// # Errors
 /// If the ID is none, the packet would be longer than its length field can say, or `buffer` is
 /// too small; the error tells the size needed.
-#[inline]
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "most of it goes where the number of parts is known")]
 pub fn encode<'b>(
     id: u8,
     instruction: Instruction,
@@ -234,50 +271,42 @@ pub fn encode<'b>(
     encode_parts(id, instruction, params, buffer)
 }
 
+#[inline(never)]
 fn encode_parts<'b>(
     id: u8,
     instruction: Instruction,
     params: &[&[u8]],
     buffer: &'b mut [u8],
 ) -> Result<&'b [u8], EncodeError> {
-    match put_body(instruction.code(), params, buffer) {
-        Some(end) => Writer::after(buffer, end).finish(id),
-        None => encode_bytes(id, instruction, params.iter().copied().flatten().copied(), buffer),
-    }
+    let put_all = |put: &mut dyn FnMut(&[u8])| params.iter().for_each(|part| put(part));
+    encode_with(id, instruction, put_all, buffer)
 }
 
-/// Writes a body behind the room for the prefix; returns where it ends, or `None` if there is no
-/// room for it and the CRC.
-#[inline]
-fn put_body(code: u8, params: &[&[u8]], buffer: &mut [u8]) -> Option<usize> {
-    *buffer.get_mut(PREFIX)? = code;
-    let mut end = PREFIX + 1;
-    for part in params {
-        buffer.get_mut(end..)?.get_mut(..part.len())?.copy_from_slice(part);
-        end += part.len();
-    }
-    let end = stuffing::insert(buffer, PREFIX, end)?;
-    (end + CRC <= buffer.len()).then_some(end)
-}
-
-/// As [`encode`], with the parameters a byte at a time.
-pub(crate) fn encode_bytes(
+/// As [`encode`], with the parameters from a function that puts one part of them behind the other.
+pub(crate) fn encode_with(
     id: u8,
     instruction: Instruction,
-    params: impl Iterator<Item = u8>,
+    params: impl Fn(&mut dyn FnMut(&[u8])),
     buffer: &mut [u8],
 ) -> Result<&[u8], EncodeError> {
     check_id(id).map_err(|found| EncodeError::Id { found })?;
     let mut writer = Writer::new(buffer);
     writer.skip_prefix();
-    let mut matcher = Matcher::default();
-    for byte in core::iter::once(instruction.code()).chain(params) {
-        writer.put(byte);
-        if matcher.step(byte) {
-            writer.put(STUFFING_BYTE);
-        }
+    writer.put(instruction.code());
+    params(&mut |part| writer.put_all(part));
+    if let Some(end) = writer.written().and_then(|end| stuffing::insert(buffer, PREFIX, end))
+        && end + CRC <= buffer.len()
+    {
+        return Writer::after(buffer, end).finish(id);
     }
-    writer.finish(id)
+    let mut matcher = Matcher::default();
+    let mut end = PREFIX;
+    let mut count = |part: &[u8]| {
+        end += part.len() + part.iter().filter(|byte| matcher.step(**byte)).count();
+    };
+    count(&[instruction.code()]);
+    params(&mut count);
+    Writer::after(buffer, end).finish(id)
 }
 
 pub(crate) fn length_field(length: usize) -> Result<u16, EncodeError> {

@@ -73,18 +73,13 @@ impl<'a> Status<'a> {
         self.frame.params_len().saturating_sub(1)
     }
 
-    /// Writes the data to `buffer`; returns what was written.
+    /// Writes the data to `buffer`; returns them. What is behind them in `buffer` is lost, as with
+    /// [`Frame::copy_params`].
     ///
     /// # Errors
     /// If `buffer` is smaller than [`Status::data_len`].
     pub fn copy_data<'b>(&self, buffer: &'b mut [u8]) -> Result<&'b [u8], BufferTooSmall> {
-        let needed = self.data_len();
-        let too_small = BufferTooSmall { needed, available: buffer.len() };
-        let target = buffer.get_mut(..needed).ok_or(too_small)?;
-        for (slot, byte) in target.iter_mut().zip(self.data()) {
-            *slot = byte;
-        }
-        Ok(target)
+        self.frame.copy_behind(1, buffer)
     }
 
     /// The answer to a Read of this register. It may be one although the device tells of an error.

@@ -12,7 +12,7 @@ mod tests;
 use core::fmt;
 
 use crate::BufferTooSmall;
-use crate::dynamixel2::{STUFFING_BYTE, STUFFING_PATTERN};
+use crate::dynamixel2::STUFFING_PATTERN;
 
 pub(crate) use insert::insert;
 pub(crate) use remove::remove;
@@ -71,11 +71,11 @@ impl core::error::Error for UnstuffError {}
 /// How many bytes `body` has when it is stuffed: at most a third more.
 #[must_use]
 pub fn stuffed_len(body: &[u8]) -> usize {
-    let mut matcher = Matcher::default();
-    body.len() + body.iter().filter(|byte| matcher.step(**byte)).count()
+    body.len() + insert::missing(body)
 }
 
-/// Writes `body` to `buffer` with FD behind every FF FF FD; returns what was written.
+/// Writes `body` to `buffer` with FD behind every FF FF FD; returns what was written. What is
+/// behind it in `buffer` is lost.
 ///
 /// ```
 /// use actucheck_codec::stuffing::stuff;
@@ -88,20 +88,15 @@ pub fn stuffed_len(body: &[u8]) -> usize {
 /// # Errors
 /// If `buffer` is smaller than [`stuffed_len`].
 pub fn stuff<'b>(body: &[u8], buffer: &'b mut [u8]) -> Result<&'b [u8], BufferTooSmall> {
-    let too_small = BufferTooSmall { needed: stuffed_len(body), available: buffer.len() };
-    let target = buffer.get_mut(..too_small.needed).ok_or(too_small)?;
-    let mut matcher = Matcher::default();
-    let stuffed = body.iter().flat_map(|byte| {
-        let extra = matcher.step(*byte).then_some(STUFFING_BYTE);
-        core::iter::once(*byte).chain(extra)
-    });
-    for (slot, byte) in target.iter_mut().zip(stuffed) {
-        *slot = byte;
-    }
-    Ok(target)
+    let available = buffer.len();
+    let too_small = || BufferTooSmall { needed: stuffed_len(body), available };
+    buffer.get_mut(..body.len()).ok_or_else(too_small)?.copy_from_slice(body);
+    let end = insert(buffer, 0, body.len()).ok_or_else(too_small)?;
+    buffer.get(..end).ok_or_else(too_small)
 }
 
-/// Writes a stuffed body to `buffer` as it was before stuffing; returns what was written.
+/// Writes a stuffed body to `buffer` as it was before stuffing; returns what was written. What is
+/// behind it in `buffer` is lost.
 ///
 /// ```
 /// use actucheck_codec::stuffing::unstuff;
@@ -115,55 +110,12 @@ pub fn stuff<'b>(body: &[u8], buffer: &'b mut [u8]) -> Result<&'b [u8], BufferTo
 /// If FF FF FD stands in `stuffed` without FD behind it, or `buffer` is too small; a buffer of
 /// the size of `stuffed` is always enough.
 pub fn unstuff<'b>(stuffed: &[u8], buffer: &'b mut [u8]) -> Result<&'b [u8], UnstuffError> {
-    let available = buffer.len();
-    let mut needed = 0;
-    let mut slots = buffer.iter_mut();
-    for byte in Unstuffed::new(stuffed) {
-        let byte = byte.map_err(|at| UnstuffError::Bare { at })?;
-        needed += 1;
-        if let Some(slot) = slots.next() {
-            *slot = byte;
-        }
-    }
-    let too_small = UnstuffError::Buffer(BufferTooSmall { needed, available });
-    buffer.get(..needed).ok_or(too_small)
+    let needed = remove::checked(stuffed, buffer).map_err(|at| UnstuffError::Bare { at })?;
+    let too_small = BufferTooSmall { needed, available: buffer.len() };
+    buffer.get(..needed).ok_or(UnstuffError::Buffer(too_small))
 }
 
-/// The bytes of a stuffed body without its stuffing; `Err` with the offset of the byte that is
-/// not FD where a pattern is bare, and nothing after it.
-#[derive(Clone, Debug)]
-pub(crate) struct Unstuffed<'a> {
-    stuffed: &'a [u8],
-    next: usize,
-    matcher: Matcher,
-    /// The last byte taken ended a pattern.
-    after_pattern: bool,
-}
-
-impl<'a> Unstuffed<'a> {
-    pub(crate) fn new(stuffed: &'a [u8]) -> Self {
-        Self { stuffed, next: 0, matcher: Matcher::default(), after_pattern: false }
-    }
-}
-
-impl Iterator for Unstuffed<'_> {
-    type Item = Result<u8, usize>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        if self.after_pattern {
-            self.after_pattern = false;
-            let next = self.stuffed.get(self.next);
-            let bare = next != Some(&STUFFING_BYTE);
-            if planted!("stuffing.bare-at-the-end", bare && next.is_some(), bare) {
-                let at = self.next;
-                self.next = self.stuffed.len();
-                return Some(Err(at));
-            }
-            self.next += 1;
-        }
-        let byte = *self.stuffed.get(self.next)?;
-        self.next += 1;
-        self.after_pattern = self.matcher.step(byte);
-        Some(Ok(byte))
-    }
+/// The offset at which FD is missing behind the first bare pattern.
+pub(crate) fn bare(stuffed: &[u8]) -> Option<usize> {
+    remove::checked(stuffed, &mut []).err()
 }

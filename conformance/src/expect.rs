@@ -117,7 +117,10 @@ impl Expectations {
         for Expectation { glob, row, checks } in &self.globs {
             let mut matched: Vec<_> =
                 outcomes.iter_mut().filter(|outcome| glob.is_match(&outcome.id)).collect();
-            let failed = matched.iter().any(|outcome| outcome.verdict.is_failure());
+            // Another row may have been first.
+            let failed = matched.iter().any(|outcome| {
+                outcome.verdict.is_failure() || outcome.verdict == Verdict::ExpectedFailure
+            });
             let stale = !failed && matched.len() == *checks;
             for outcome in &mut matched {
                 if outcome.verdict.is_failure() {

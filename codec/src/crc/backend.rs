@@ -27,16 +27,31 @@ pub(crate) struct Places {
 }
 
 /// A packet, up to its CRC, that is not in one piece yet.
+///
+/// The prefix and the lead are not neighbours: a processor waits when it loads at once what it has
+/// just stored in two pieces.
 #[derive(Clone, Copy, Debug)]
+#[repr(C)]
 pub(crate) struct Pieces<'a> {
-    /// Header, ID, length and instruction, the first byte highest.
+    /// Header, ID, length and instruction, the first byte lowest.
     pub(crate) prefix: u64,
-    /// The first parameters, the last of them lowest.
-    pub(crate) lead: u64,
-    /// How many they are, less than eight.
+    /// How many parameters the lead has, less than eight.
     pub(crate) lead_len: usize,
+    /// The first parameters, the first of them lowest, with zeros behind.
+    pub(crate) lead: u64,
     /// The other parameters.
     pub(crate) tail: &'a [u8],
+}
+
+/// The task to look at it.
+impl Task for Pieces<'_> {
+    type Output = Option<Looked>;
+
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "see `Task`")]
+    fn run(self, backend: impl Backend) -> Option<Looked> {
+        backend.look(self)
+    }
 }
 
 /// What is known of a packet in pieces in which no pattern begins before the tail.
@@ -63,6 +78,9 @@ pub(crate) trait Backend: Copy {
 
     /// The patterns that are wholly in the window, and stuffing.
     fn places(self, window: &[u8; WINDOW]) -> Places;
+
+    /// Where patterns may begin: if it is faster to tell, where FF FF does.
+    fn pairs(self, window: &[u8; WINDOW]) -> u64;
 }
 
 /// Zeros, then as many ones: what to keep of a window's end.
@@ -91,10 +109,10 @@ impl Backend for Portable {
             return None;
         }
         const { assert!(UMTS_INIT == 0, "zeros in front must not change a CRC") }
-        let packet = u128::from(prefix) << (8 * lead_len) | u128::from(lead);
-        let body = packet & (u128::MAX >> (120 - 8 * lead_len));
-        (!may_have_pattern(body))
-            .then(|| Looked { crc: self.umts(&packet.to_be_bytes()), patterns: 0 })
+        let packet = u128::from(lead) << 64 | u128::from(prefix);
+        let zeros_in_front = packet << (64 - 8 * lead_len);
+        (!may_have_pattern(packet >> 56))
+            .then(|| Looked { crc: self.umts(&zeros_in_front.to_le_bytes()), patterns: 0 })
     }
 
     #[inline]
@@ -138,9 +156,14 @@ impl Backend for Portable {
             words.iter().map(|word| u64::from_le_bytes(*word) ^ everywhere(STUFFING_BYTE));
         Places { patterns: zeros(mismatches.into_iter()), stuffing: zeros(stuffing) }
     }
+
+    #[inline]
+    fn pairs(self, window: &[u8; WINDOW]) -> u64 {
+        self.places(window).patterns
+    }
 }
 
-/// Whether the pattern is among the bytes, the first of them highest; perhaps also when it is not.
+/// Whether the pattern is among the bytes, the first of them lowest; perhaps also when it is not.
 #[inline]
 fn may_have_pattern(bytes: u128) -> bool {
     const fn everywhere(byte: u8) -> u128 {
@@ -148,7 +171,7 @@ fn may_have_pattern(bytes: u128) -> bool {
     }
     let [first, second, third] = STUFFING_PATTERN.map(everywhere);
     // Zero in the bytes where the pattern begins.
-    let others = (bytes ^ first) | (bytes ^ second) << 8 | (bytes ^ third) << 16;
+    let others = (bytes ^ first) | (bytes >> 8 ^ second) | (bytes >> 16 ^ third);
     others.wrapping_sub(everywhere(1)) & !others & everywhere(0x80) != 0
 }
 

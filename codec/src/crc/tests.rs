@@ -226,12 +226,13 @@ struct Look<'a> {
 }
 
 impl Task for Look<'_> {
-    type Output = (bool, Places);
+    type Output = (bool, Places, u64);
 
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "see `Task`")]
-    fn run(self, backend: impl Backend) -> (bool, Places) {
-        (backend.ends_in_crc(self.window, self.len), backend.places(self.window))
+    fn run(self, backend: impl Backend) -> (bool, Places, u64) {
+        let right = backend.ends_in_crc(self.window, self.len);
+        (right, backend.places(self.window), backend.pairs(self.window))
     }
 }
 
@@ -256,31 +257,23 @@ proptest! {
                 let right = umts_oracle(0, &window[WINDOW - len..WINDOW - 2]).to_le_bytes()
                     == window[WINDOW - 2..];
                 let mut patterns = 0;
-                let mut stuffing = 0;
+                let (mut stuffing, mut pairs) = (0, 0);
                 for place in 0..WINDOW {
+                    pairs |= u64::from(window[place..].starts_with(&[0xFF, 0xFF])) << place;
                     patterns |= u64::from(window[place..].starts_with(&[0xFF, 0xFF, 0xFD])) << place;
                     stuffing |= u64::from(window[place] == 0xFD) << place;
                 }
                 for engine in Engine::all() {
-                    let (found, places) = engine.run(Look { window: &window, len });
+                    let (found, places, may_begin) = engine.run(Look { window: &window, len });
                     prop_assert_eq!(found, right, "{:?}, {} bytes", engine, len);
                     prop_assert_eq!(places.patterns, patterns, "{:?}", engine);
+                    prop_assert_eq!(may_begin & patterns, patterns, "{:?}", engine);
+                    prop_assert_eq!(may_begin & !pairs, 0, "{:?}", engine);
                     // Not found where there is no pattern that it could be behind.
                     prop_assert!(patterns == 0 || places.stuffing == stuffing, "{:?}", engine);
                 }
             }
         }
-    }
-}
-
-/// What a back end says of a packet in pieces.
-impl Task for Pieces<'_> {
-    type Output = Option<Looked>;
-
-    #[inline(always)]
-    #[expect(clippy::inline_always, reason = "see `Task`")]
-    fn run(self, backend: impl Backend) -> Option<Looked> {
-        backend.look(self)
     }
 }
 
@@ -302,11 +295,11 @@ proptest! {
             for tail_len in 0..WINDOW + 5 {
                 let body = &body[..1 + lead_len + tail_len];
                 let (front, tail) = body.split_at(1 + lead_len);
-                let number = |bytes: &[u8]| bytes.iter().fold(0, |n, byte| n << 8 | u64::from(*byte));
+                let number = |bytes: &[u8]| bytes.iter().rev().fold(0, |n, byte| n << 8 | u64::from(*byte));
                 let pieces = Pieces {
-                    prefix: number(&prefix) << 8 | u64::from(front[0]),
-                    lead: number(&front[1..]),
+                    prefix: number(&prefix) | u64::from(front[0]) << 56,
                     lead_len,
+                    lead: number(&front[1..]),
                     tail,
                 };
                 let begins = |place: &usize| body[*place..].starts_with(&[0xFF, 0xFF, 0xFD]);

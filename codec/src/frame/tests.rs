@@ -3,7 +3,7 @@
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-use super::{encode, encode_bytes};
+use super::{encode, encode_with};
 use crate::dynamixel2::Instruction;
 
 /// Bytes among which the pattern is common, or none of it.
@@ -30,9 +30,11 @@ proptest! {
         room in prop_oneof![Just(300_usize), 0..120_usize],
     ) {
         let instruction = Instruction::from_code(code);
-        let bytes = parts.iter().flatten().copied();
+        let bytes = parts.concat();
         let (mut buffer, mut plain_buffer) = (vec![0; room], vec![0; room]);
-        let plain = encode_bytes(1, instruction, bytes, &mut plain_buffer);
+        let bytewise =
+            |put: &mut dyn FnMut(&[u8])| bytes.iter().for_each(|byte| put(&[*byte]));
+        let plain = encode_with(1, instruction, bytewise, &mut plain_buffer);
         let parts: Vec<&[u8]> = parts.iter().map(Vec::as_slice).collect();
         prop_assert_eq!(encode(1, instruction, &parts, &mut buffer), plain);
     }

@@ -32,6 +32,19 @@ impl<'b> Writer<'b> {
         self.written += 1;
     }
 
+    pub(crate) fn put_all(&mut self, bytes: &[u8]) {
+        let end = self.written + bytes.len();
+        if let Some(slots) = self.buffer.get_mut(self.written..end) {
+            slots.copy_from_slice(bytes);
+        }
+        self.written = end;
+    }
+
+    /// How many bytes are there; `None` if more than there is room for.
+    pub(super) fn written(&self) -> Option<usize> {
+        Some(self.written).filter(|written| *written <= self.buffer.len())
+    }
+
     /// Appends the CRC of all that was written so far.
     pub(crate) fn put_crc(&mut self) {
         let crc = crc::umts(self.buffer.get(..self.written).unwrap_or_default());

@@ -6,7 +6,7 @@ use super::RequestError;
 use super::params::Params;
 use crate::EncodeError;
 use crate::dynamixel2::{BROADCAST_ID, Instruction};
-use crate::frame::{check_device, encode_bytes, length_field};
+use crate::frame::{check_device, encode_with, length_field};
 
 /// Reads registers of several devices, each of which answers with a status packet (DYNAMIXEL
 /// Protocol 2.0, Bulk Read).
@@ -36,8 +36,10 @@ impl<D: IntoIterator<Item: Borrow<DeviceRange>> + Clone> BulkRead<D> {
     pub fn encode<'b>(&self, buffer: &'b mut [u8]) -> Result<&'b [u8], EncodeError> {
         let devices = || self.devices.clone().into_iter().map(|device| *device.borrow());
         devices().try_for_each(|device| check_device(device.id))?;
-        let params = devices().flat_map(|device| head(device.id, device.address, device.length));
-        encode_bytes(BROADCAST_ID, Instruction::BulkRead, params, buffer)
+        let params = |put: &mut dyn FnMut(&[u8])| {
+            devices().for_each(|device| put(&head(device.id, device.address, device.length)));
+        };
+        encode_with(BROADCAST_ID, Instruction::BulkRead, params, buffer)
     }
 }
 
@@ -86,12 +88,15 @@ impl<'d, D: IntoIterator<Item: Borrow<DeviceWrite<'d>>> + Clone> BulkWrite<D> {
             check_device(device.id)?;
             length_field(device.data.len())?;
         }
-        let params = devices().flat_map(|device| {
-            // Checked above.
-            let length = u16::try_from(device.data.len()).unwrap_or_default();
-            head(device.id, device.address, length).chain(device.data.iter().copied())
-        });
-        encode_bytes(BROADCAST_ID, Instruction::BulkWrite, params, buffer)
+        let params = |put: &mut dyn FnMut(&[u8])| {
+            for device in devices() {
+                // Checked above.
+                let length = u16::try_from(device.data.len()).unwrap_or_default();
+                put(&head(device.id, device.address, length));
+                put(device.data);
+            }
+        };
+        encode_with(BROADCAST_ID, Instruction::BulkWrite, params, buffer)
     }
 }
 
@@ -110,8 +115,9 @@ impl<'a> BulkWrite<WriteBlocks<'a>> {
     }
 }
 
-fn head(id: u8, address: u16, length: u16) -> impl Iterator<Item = u8> {
-    core::iter::once(id).chain(address.to_le_bytes()).chain(length.to_le_bytes())
+fn head(id: u8, address: u16, length: u16) -> [u8; 5] {
+    let ([a, b], [c, d]) = (address.to_le_bytes(), length.to_le_bytes());
+    [id, a, b, c, d]
 }
 
 fn range(params: &mut Params<'_>) -> Result<DeviceRange, RequestError> {

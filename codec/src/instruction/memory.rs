@@ -15,8 +15,8 @@ pub struct Read {
 }
 
 impl Read {
-    fn params(&self) -> impl Iterator<Item = u8> {
-        self.address.to_le_bytes().into_iter().chain(self.length.to_le_bytes())
+    fn with_params<T>(self, encode: impl FnOnce(&[&[u8]]) -> T) -> T {
+        encode(&[&self.address.to_le_bytes(), &self.length.to_le_bytes()])
     }
 
     /// Reads its parameters.
@@ -45,8 +45,8 @@ macro_rules! write {
         }
 
         impl<'a> $name<'a> {
-            fn params(&self) -> impl Iterator<Item = u8> {
-                self.address.to_le_bytes().into_iter().chain(self.data.iter().copied())
+            fn with_params<T>(self, encode: impl FnOnce(&[&[u8]]) -> T) -> T {
+                encode(&[&self.address.to_le_bytes(), self.data])
             }
 
             /// Reads its parameters.

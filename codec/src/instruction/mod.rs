@@ -50,7 +50,7 @@ macro_rules! addressed {
                 buffer: &'b mut [u8],
             ) -> Result<&'b [u8], crate::EncodeError> {
                 let instruction = crate::dynamixel2::Instruction::$name;
-                crate::frame::encode_bytes(id, instruction, self.params(), buffer)
+                self.with_params(|params| crate::frame::encode(id, instruction, params, buffer))
             }
         }
     };

@@ -14,8 +14,8 @@ pub struct FactoryReset {
 }
 
 impl FactoryReset {
-    fn params(&self) -> impl Iterator<Item = u8> {
-        core::iter::once(self.option.code())
+    fn with_params<T>(self, encode: impl FnOnce(&[&[u8]]) -> T) -> T {
+        encode(&[&[self.option.code()]])
     }
 
     /// Reads its parameters.
@@ -63,12 +63,11 @@ impl Clear<'static> {
 }
 
 impl<'a> Clear<'a> {
-    fn params(&self) -> impl Iterator<Item = u8> {
-        let (option, key) = match *self {
-            Self::Bare => (None, &[] as &[u8]),
-            Self::Option { option, key } => (Some(option.code()), key),
-        };
-        option.into_iter().chain(key.iter().copied())
+    fn with_params<T>(self, encode: impl FnOnce(&[&[u8]]) -> T) -> T {
+        match self {
+            Self::Bare => encode(&[]),
+            Self::Option { option, key } => encode(&[&[option.code()], key]),
+        }
     }
 
     /// Reads its parameters; any number will do.
@@ -109,8 +108,8 @@ impl ControlTableBackup {
     /// the same instruction elsewhere.
     pub const RESTORE: Self = Self { option: ControlTableBackupOption::Restore, key: Self::KEY };
 
-    fn params(&self) -> impl Iterator<Item = u8> {
-        core::iter::once(self.option.code()).chain(self.key)
+    fn with_params<T>(self, encode: impl FnOnce(&[&[u8]]) -> T) -> T {
+        encode(&[&[self.option.code()], &self.key])
     }
 
     /// Reads its parameters. Whether the key is right is the device's to judge.

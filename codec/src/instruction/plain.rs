@@ -10,8 +10,8 @@ macro_rules! plain {
 
         impl $name {
             #[allow(clippy::unused_self)] // as the instructions that have some
-            fn params(&self) -> impl Iterator<Item = u8> {
-                core::iter::empty()
+            fn with_params<T>(self, encode: impl FnOnce(&[&[u8]]) -> T) -> T {
+                encode(&[])
             }
         }
 

@@ -6,7 +6,7 @@ use super::RequestError;
 use super::params::Params;
 use crate::EncodeError;
 use crate::dynamixel2::{BROADCAST_ID, Instruction};
-use crate::frame::{check_device, encode_bytes};
+use crate::frame::{check_device, encode_with};
 
 macro_rules! read {
     ($(#[$doc:meta])* $name:ident) => {
@@ -30,8 +30,11 @@ macro_rules! read {
             pub fn encode<'b>(&self, buffer: &'b mut [u8]) -> Result<&'b [u8], EncodeError> {
                 let ids = || self.ids.clone().into_iter().map(|id| *id.borrow());
                 ids().try_for_each(check_device)?;
-                let params = head(self.address, self.length).chain(ids());
-                encode_bytes(BROADCAST_ID, Instruction::$name, params, buffer)
+                let params = |put: &mut dyn FnMut(&[u8])| {
+                    put(&head(self.address, self.length));
+                    ids().for_each(|id| put(&[id]));
+                };
+                encode_with(BROADCAST_ID, Instruction::$name, params, buffer)
             }
         }
 
@@ -97,10 +100,14 @@ macro_rules! write {
             pub fn encode<'b>(&self, buffer: &'b mut [u8]) -> Result<&'b [u8], EncodeError> {
                 let devices = || self.devices.clone().into_iter().map(|device| *device.borrow());
                 devices().try_for_each(|device| device.check(self.length))?;
-                let blocks = devices()
-                    .flat_map(|device| core::iter::once(device.id).chain(device.data.iter().copied()));
-                let params = head(self.address, self.length).chain(blocks);
-                encode_bytes(BROADCAST_ID, Instruction::$name, params, buffer)
+                let params = |put: &mut dyn FnMut(&[u8])| {
+                    put(&head(self.address, self.length));
+                    for device in devices() {
+                        put(&[device.id]);
+                        put(device.data);
+                    }
+                };
+                encode_with(BROADCAST_ID, Instruction::$name, params, buffer)
             }
         }
 
@@ -135,8 +142,9 @@ write! {
     FastSyncWrite
 }
 
-fn head(address: u16, length: u16) -> impl Iterator<Item = u8> {
-    address.to_le_bytes().into_iter().chain(length.to_le_bytes())
+fn head(address: u16, length: u16) -> [u8; 4] {
+    let ([a, b], [c, d]) = (address.to_le_bytes(), length.to_le_bytes());
+    [a, b, c, d]
 }
 
 impl DeviceData<'_> {

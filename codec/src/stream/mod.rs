@@ -95,6 +95,8 @@ mod short;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use search::patterns;
+
 pub use event::{Event, RawFastStatus, Reason};
 pub use parser::{DEFAULT_MAX_PACKET, Parser};
 

@@ -79,7 +79,7 @@ pub(super) fn header(bytes: &[u8]) -> usize {
 /// `bytes` are those of a packet from its header on, at most up to its first CRC byte; the body
 /// ends at `body_end`. A pattern counts as soon as the byte behind it is there.
 #[inline]
-pub(super) fn patterns(bytes: &[u8], from: usize, body_end: usize) -> Option<usize> {
+pub(crate) fn patterns(bytes: &[u8], from: usize, body_end: usize) -> Option<usize> {
     let large = bytes.len() >= from + LARGE;
     let (mut count, mut at) =
         if large { Engine::new().run(CountPatterns { bytes, from, body_end })? } else { (0, from) };

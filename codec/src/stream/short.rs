@@ -6,7 +6,7 @@
 use super::candidate::{STATUS, Whole};
 use super::meter;
 use crate::crc::{Backend, Engine, Places, Task, WINDOW};
-use crate::dynamixel2::{BROADCAST_ID, HEADER, MAX_ID, MIN_LENGTH};
+use crate::dynamixel2::{BROADCAST_ID, HEADER, MAX_ID, MIN_LENGTH, STUFFING_PATTERN};
 use crate::frame::{CRC, PREFIX};
 
 /// How many packets are looked for at once.
@@ -94,7 +94,20 @@ fn packet(backend: impl Backend, buffer: &[u8], start: usize, max_packet: usize)
     if !backend.ends_in_crc(window, len) {
         return None;
     }
-    Some(Short { len, patterns: patterns(backend.places(window), len)? })
+    // Most packets have no pattern, nor its first bytes.
+    let patterns = match backend.pairs(window) & in_body(len) {
+        0 => 0,
+        _ => patterns(backend.places(window), len)?,
+    };
+    Some(Short { len, patterns })
+}
+
+/// Where a pattern begins that is in the body of a packet, which is the last `len` bytes of a
+/// window.
+#[inline]
+fn in_body(len: usize) -> u64 {
+    // Its last byte is in the body too.
+    u64::MAX >> (CRC + STUFFING_PATTERN.len() - 1) & u64::MAX << (WINDOW - len + PREFIX)
 }
 
 /// How long a packet is if it begins with these bytes, is short, and breaks no rule before its
@@ -111,19 +124,13 @@ fn len(bytes: &[u8]) -> Option<usize> {
     short.then_some(PREFIX + usize::from(length))
 }
 
-/// How many patterns the body of a packet has, which is the last `len` bytes of a window; `None`
-/// if one of them lacks the byte that belongs behind it.
+/// How many patterns the body of such a packet has; `None` if one of them lacks the byte that
+/// belongs behind it.
 #[inline]
 fn patterns(places: Places, len: usize) -> Option<usize> {
-    /// A pattern is in the body if its last byte is.
-    const IN_BODY: u64 = u64::MAX >> (CRC + 2);
-    let body = WINDOW - len + PREFIX;
-    let in_body = planted!("stream.pattern-at-the-end", IN_BODY >> 1, IN_BODY);
-    let patterns = places.patterns & in_body & u64::MAX << body;
-    if patterns == 0 {
-        return Some(0);
-    }
+    let in_body = planted!("stream.pattern-at-the-end", in_body(len) >> 1, in_body(len));
+    let patterns = places.patterns & in_body;
     // And so must be its stuffing.
-    let stuffed = (places.stuffing & u64::MAX >> CRC) >> 3;
+    let stuffed = (places.stuffing & u64::MAX >> CRC) >> STUFFING_PATTERN.len();
     (patterns & !stuffed == 0).then_some(patterns.count_ones() as usize)
 }

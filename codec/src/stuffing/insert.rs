@@ -13,6 +13,27 @@ pub(crate) fn insert(buffer: &mut [u8], start: usize, end: usize) -> Option<usiz
     Engine::new().run(Insert { buffer, start, end })
 }
 
+/// How many bytes stuffing adds to a body.
+pub(super) fn missing(body: &[u8]) -> usize {
+    Engine::new().run(Missing { body })
+}
+
+struct Missing<'a> {
+    body: &'a [u8],
+}
+
+impl Task for Missing<'_> {
+    type Output = usize;
+
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "see `Task`")]
+    fn run(self, backend: impl Backend) -> usize {
+        let windows = (0..self.body.len()).step_by(PLACES);
+        let patterns = windows.map(|at| patterns(backend, self.body, at, self.body.len()));
+        patterns.map(|patterns| patterns.count_ones() as usize).sum()
+    }
+}
+
 struct Insert<'a> {
     buffer: &'a mut [u8],
     start: usize,

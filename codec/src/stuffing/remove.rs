@@ -1,21 +1,29 @@
 //! Takes stuffing away from a body that is known to be right.
 
-use crate::crc::{Backend, Engine, Task, WINDOW};
+use crate::crc::{Backend, Engine, Places, Task, WINDOW};
 use crate::dynamixel2::STUFFING_PATTERN;
+
+/// How many places a window decides about: those with the whole pattern and one byte more in it.
+const PLACES: usize = WINDOW - STUFFING_PATTERN.len();
 
 /// Writes what follows the body's first byte to the first `len` bytes of `buffer`, which is how
 /// long that is without stuffing. The body is the first `stuffed` of the `bytes`. More of either
 /// makes it faster; what is behind in `buffer` is lost.
+#[inline]
 pub(crate) fn remove(bytes: &[u8], stuffed: usize, buffer: &mut [u8], len: usize) {
-    let engine = Engine::new();
     if let Some(whole) = buffer.first_chunk_mut()
-        && engine.run(Short { bytes, stuffed, whole }).is_some()
+        && Engine::new().run(Short { bytes, stuffed, whole }).is_some()
     {
         return;
     }
-    let target = buffer.get_mut(..len).unwrap_or_default();
+    remove_slowly(bytes, stuffed, buffer.get_mut(..len).unwrap_or_default());
+}
+
+/// The same for any body and for any buffer.
+#[inline(never)]
+fn remove_slowly(bytes: &[u8], stuffed: usize, target: &mut [u8]) {
     let mut whole = [0; 2 * WINDOW];
-    if engine.run(Short { bytes, stuffed, whole: &mut whole }).is_some() {
+    if Engine::new().run(Short { bytes, stuffed, whole: &mut whole }).is_some() {
         copy_short(&whole, target);
     } else {
         remove_any(bytes.get(..stuffed).unwrap_or_default(), target);
@@ -75,21 +83,94 @@ fn copy_short(bytes: &[u8; 2 * WINDOW], target: &mut [u8]) {
     }
 }
 
-/// Byte by byte, whatever the length, and again without branches.
+/// Whatever the length.
 fn remove_any(body: &[u8], target: &mut [u8]) {
-    let [one, two, three] = STUFFING_PATTERN;
-    let pattern = u32::from_be_bytes([0, one, two, three]);
-    let Some((first, rest)) = body.split_first() else {
-        return; // never: there is an instruction
+    // A pattern may begin with the byte that is left out.
+    let (front, rest) = if body.starts_with(&STUFFING_PATTERN) {
+        let behind = STUFFING_PATTERN.len() + 1;
+        (body.get(1..STUFFING_PATTERN.len()), body.get(behind..))
+    } else {
+        (None, body.get(1..))
     };
-    let mut last_four = u32::from(*first);
-    let mut next = 0;
-    for byte in rest {
-        if let Some(slot) = target.get_mut(next) {
-            *slot = *byte;
+    let (front, rest) = (front.unwrap_or_default(), rest.unwrap_or_default());
+    if let Some((target, behind)) = target.split_at_mut_checked(front.len()) {
+        target.copy_from_slice(front);
+        // It is right, so there is no error.
+        let _len = checked(rest, behind);
+    }
+}
+
+/// Writes a stuffed body without its stuffing to `buffer`, as far as there is room; tells how many
+/// bytes it has then. What is behind them in `buffer` is lost.
+///
+/// # Errors
+/// The offset at which FD is missing behind the first bare pattern.
+pub(super) fn checked(stuffed: &[u8], buffer: &mut [u8]) -> Result<usize, usize> {
+    Engine::new().run(Checked { stuffed, buffer })
+}
+
+/// The task to do so, a window at a time.
+struct Checked<'a> {
+    stuffed: &'a [u8],
+    buffer: &'a mut [u8],
+}
+
+impl Task for Checked<'_> {
+    type Output = Result<usize, usize>;
+
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "see `Task`")]
+    fn run(self, backend: impl Backend) -> Result<usize, usize> {
+        let Self { stuffed, buffer } = self;
+        let (mut read, mut written) = (0, 0);
+        while let Some(rest @ [_, ..]) = stuffed.get(read..) {
+            let mut keep = |from: usize, to: usize| {
+                put(rest, from, to, buffer.get_mut(written..).unwrap_or_default());
+                written += to - from;
+            };
+            let Places { patterns, stuffing } = match rest.first_chunk() {
+                Some(window) => backend.places(window),
+                None => backend.places(&pad(rest)),
+            };
+            let decided = PLACES.min(rest.len());
+            let (mut left, mut done) = (patterns & ((1 << decided) - 1), 0);
+            while left != 0 {
+                let behind = left.trailing_zeros() as usize + STUFFING_PATTERN.len();
+                let bare = stuffing >> behind & 1 == 0;
+                if planted!("stuffing.bare-at-the-end", bare && behind < rest.len(), bare) {
+                    return Err(read + behind);
+                }
+                keep(done, behind);
+                done = behind + 1;
+                left &= left - 1;
+            }
+            if done < decided {
+                keep(done, decided);
+                done = decided;
+            }
+            read += done;
         }
-        // Behind a pattern stands stuffing: the next byte takes its place.
-        next += usize::from(last_four & 0x00FF_FFFF != pattern);
-        last_four = last_four << 8 | u32::from(*byte);
+        Ok(written)
+    }
+}
+
+/// With zeros behind.
+fn pad(bytes: &[u8]) -> [u8; WINDOW] {
+    let mut padded = [0; WINDOW];
+    padded.iter_mut().zip(bytes).for_each(|(slot, byte)| *slot = *byte);
+    padded
+}
+
+/// Puts the bytes between two places, and perhaps some more, to the front of `target`, as far as it
+/// has room.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "part of a `Task`")]
+fn put(bytes: &[u8], from: usize, to: usize, target: &mut [u8]) {
+    let bytes = bytes.get(from..).unwrap_or_default();
+    if let (Some(window), Some(target)) = (bytes.first_chunk(), target.first_chunk_mut::<WINDOW>())
+    {
+        *target = *window;
+    } else {
+        target.iter_mut().zip(bytes).take(to - from).for_each(|(slot, byte)| *slot = *byte);
     }
 }

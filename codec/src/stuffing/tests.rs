@@ -3,7 +3,7 @@
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-use super::{insert, remove, stuff};
+use super::{UnstuffError, insert, remove, stuff, stuffed_len, unstuff};
 
 /// Bytes among which the pattern is common.
 fn tricky(most: usize) -> impl Strategy<Value = Vec<u8>> {
@@ -46,4 +46,55 @@ proptest! {
             prop_assert_eq!(&target[..len], &body[1..]);
         }
     }
+
+    #[test]
+    fn whole_bodies_are_as_byte_by_byte(body in tricky(400), room in 0..500_usize) {
+        let mut buffer = vec![0; room];
+        let expected = stuff_bytewise(&body);
+        prop_assert_eq!(stuffed_len(&body), expected.len());
+        match stuff(&body, &mut buffer) {
+            Ok(stuffed) => prop_assert_eq!(stuffed, expected.as_slice()),
+            Err(error) => prop_assert_eq!((error.needed, room < error.needed), (expected.len(), true)),
+        }
+        // Of random bytes few are stuffed rightly.
+        for stuffed in [&expected, &body] {
+            match (unstuff(stuffed, &mut buffer), unstuff_bytewise(stuffed)) {
+                (Ok(found), expected) => prop_assert_eq!(Ok(found.to_vec()), expected),
+                (Err(UnstuffError::Bare { at }), expected) => prop_assert_eq!(Err(at), expected),
+                (Err(UnstuffError::Buffer(error)), expected) => {
+                    prop_assert_eq!(Ok(error.needed), expected.map(|body| body.len()));
+                    prop_assert!(room < error.needed);
+                }
+            }
+        }
+    }
+}
+
+fn stuff_bytewise(body: &[u8]) -> Vec<u8> {
+    let mut stuffed = Vec::new();
+    let mut since = 0;
+    for byte in body {
+        stuffed.push(*byte);
+        if stuffed[since..].ends_with(&[0xFF, 0xFF, 0xFD]) {
+            stuffed.push(0xFD);
+            since = stuffed.len();
+        }
+    }
+    stuffed
+}
+
+/// The offset of a byte that should be stuffing as the error.
+fn unstuff_bytewise(stuffed: &[u8]) -> Result<Vec<u8>, usize> {
+    let (mut body, mut at) = (Vec::new(), 0);
+    while let Some(byte) = stuffed.get(at) {
+        body.push(*byte);
+        at += 1;
+        if stuffed[..at].ends_with(&[0xFF, 0xFF, 0xFD]) {
+            if stuffed.get(at) != Some(&0xFD) {
+                return Err(at);
+            }
+            at += 1;
+        }
+    }
+    Ok(body)
 }

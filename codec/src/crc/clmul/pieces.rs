@@ -1,10 +1,11 @@
 //! A packet that is still in pieces: its CRC, and whether it needs stuffing, out of the registers
 //! and the memory that its bytes are in.
 #![expect(clippy::indexing_slicing, reason = "arrays of a fixed size, indices below it")]
+#![expect(clippy::inline_always, reason = "parts of a `Task`")]
 
 use core::arch::x86_64::{
-    __m128i, __m256i, _mm_and_si128, _mm_cmpeq_epi8, _mm_movemask_epi8, _mm_set1_epi8,
-    _mm_setzero_si128, _mm256_and_si256, _mm256_castsi256_si128, _mm256_cmpeq_epi8,
+    __m128i, __m256i, _mm_and_si128, _mm_cmpeq_epi8, _mm_movemask_epi8, _mm_set_epi64x,
+    _mm_set1_epi8, _mm256_and_si256, _mm256_castsi256_si128, _mm256_cmpeq_epi8,
     _mm256_extracti128_si256, _mm256_movemask_epi8, _mm256_set_m128i, _mm256_set1_epi8,
 };
 
@@ -44,7 +45,11 @@ struct Seen {
     places: Places,
 }
 
-/// Where FF and FD stand; bit i stands for byte i.
+/// What is looked for: patterns, or just FF FF. The second is quicker, and mostly there is none.
+const PATTERNS: bool = true;
+const PAIRS: bool = false;
+
+/// Where FF and, for patterns, FD stand; bit i stands for byte i.
 #[derive(Clone, Copy)]
 struct Places {
     ff: u64,
@@ -66,93 +71,165 @@ impl Places {
         Self { ff: self.ff >> gone, fd: self.fd >> gone }
     }
 
-    /// Where the pattern begins.
+    /// Where what is looked for begins.
     #[inline]
-    fn patterns(self) -> u64 {
-        self.ff & self.ff >> 1 & self.fd >> 2
+    fn found<const WHAT: bool>(self) -> u64 {
+        let pairs = self.ff & self.ff >> 1;
+        if WHAT == PAIRS { pairs } else { pairs & self.fd >> 2 }
     }
 }
 
-/// As [`Backend::look`].
-#[inline]
-#[target_feature(enable = "pclmulqdq,ssse3")]
-pub(super) fn look_narrow(pieces: Pieces<'_>) -> Option<Looked> {
-    let tail = pieces.tail;
-    let front = Seen::front::<Narrow>(pieces)?;
-    let behind = if tail.len() < BLOCK { short::<Narrow>(tail) } else { blocks(tail)? };
-    front.crc::<Narrow>(pieces, behind)
+impl Narrow {
+    /// As [`Backend::look`].
+    #[inline(always)]
+    pub(super) fn look_at(self, pieces: Pieces<'_>) -> Option<Looked> {
+        let looked = self.look_for::<PAIRS>(pieces)?;
+        let Pieces { prefix, lead_len, lead, tail } = pieces;
+        let mut patterns = looked.patterns;
+        if patterns != 0 {
+            patterns = self.patterns(prefix, lead, lead_len, tail)?;
+        }
+        Some(Looked { patterns, ..looked })
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn patterns(self, prefix: u64, lead: u64, lead_len: usize, tail: &[u8]) -> Option<u64> {
+        #[target_feature(enable = "pclmulqdq,ssse3")]
+        fn patterns(proof: Narrow, pieces: Pieces<'_>) -> Option<u64> {
+            proof.look_for::<PATTERNS>(pieces).map(|looked| looked.patterns)
+        }
+        // SAFETY: the value is the proof that the processor has the features.
+        unsafe { patterns(self, Pieces { prefix, lead_len, lead, tail }) }
+    }
+
+    #[inline(always)]
+    #[expect(clippy::unused_self, reason = "its value is the proof")]
+    fn look_for<const WHAT: bool>(self, pieces: Pieces<'_>) -> Option<Looked> {
+        let tail = pieces.tail;
+        // SAFETY: the value is the proof that the processor has the features.
+        unsafe {
+            let front = Seen::front::<Self, WHAT>(pieces)?;
+            let behind = match tail.len() {
+                0 => return front.alone::<Self, WHAT>(),
+                1..BLOCK => short::<Self, WHAT>(tail),
+                _ => blocks::<WHAT>(tail)?,
+            };
+            front.crc::<Self, WHAT>(pieces, behind)
+        }
+    }
 }
 
-/// The same.
-#[inline]
-#[target_feature(enable = "vpclmulqdq,avx2,pclmulqdq,ssse3")]
-pub(super) fn look_wide(pieces: Pieces<'_>) -> Option<Looked> {
-    let tail = pieces.tail;
-    let front = Seen::front::<Wide>(pieces)?;
-    let behind = match tail.len() {
-        0..BLOCK => short::<Wide>(tail),
-        BLOCK..32 => two_blocks::<Wide>(tail)?,
-        _ => two_double_blocks(tail)?,
-    };
-    front.crc::<Wide>(pieces, behind)
+impl Wide {
+    /// As [`Backend::look`].
+    #[inline(always)]
+    pub(super) fn look_at(self, pieces: Pieces<'_>) -> Option<Looked> {
+        let looked = self.look_for::<PAIRS>(pieces)?;
+        let Pieces { prefix, lead_len, lead, tail } = pieces;
+        let mut patterns = looked.patterns;
+        if patterns != 0 {
+            patterns = self.patterns(prefix, lead, lead_len, tail)?;
+        }
+        Some(Looked { patterns, ..looked })
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn patterns(self, prefix: u64, lead: u64, lead_len: usize, tail: &[u8]) -> Option<u64> {
+        #[target_feature(enable = "vpclmulqdq,avx2,pclmulqdq,ssse3")]
+        fn patterns(proof: Wide, pieces: Pieces<'_>) -> Option<u64> {
+            proof.look_for::<PATTERNS>(pieces).map(|looked| looked.patterns)
+        }
+        // SAFETY: the value is the proof that the processor has the features.
+        unsafe { patterns(self, Pieces { prefix, lead_len, lead, tail }) }
+    }
+
+    #[inline(always)]
+    #[expect(clippy::unused_self, reason = "its value is the proof")]
+    fn look_for<const WHAT: bool>(self, pieces: Pieces<'_>) -> Option<Looked> {
+        let tail = pieces.tail;
+        // SAFETY: the value is the proof that the processor has the features.
+        unsafe {
+            let front = Seen::front::<Self, WHAT>(pieces)?;
+            let behind = match tail.len() {
+                0 => return front.alone::<Self, WHAT>(),
+                1..BLOCK => short::<Self, WHAT>(tail),
+                BLOCK..32 => two_blocks::<Self, WHAT>(tail)?,
+                _ => two_double_blocks::<WHAT>(tail)?,
+            };
+            front.crc::<Self, WHAT>(pieces, behind)
+        }
+    }
 }
 
 impl Seen {
     /// What is in front of the tail.
     #[inline]
     #[target_feature(enable = "pclmulqdq,ssse3")]
-    fn front<B: Backend>(Pieces { prefix, lead, lead_len, tail }: Pieces<'_>) -> Option<Self> {
+    fn front<B: Backend, const WHAT: bool>(
+        Pieces { prefix, lead_len, lead, tail }: Pieces<'_>,
+    ) -> Option<Self> {
         if tail.len() > WINDOW {
             return None;
         }
-        // To the left, so that the body begins at the same place in front of every lead.
-        let left = if lead_len == 0 { 0 } else { lead << (64 - 8 * lead_len) };
-        let words = narrow::pair::<Msb>(prefix, left);
+        let block = _mm_set_epi64x(lead.cast_signed(), prefix.cast_signed());
         let factors = load128(FACTORS.get(lead_len + tail.len())?);
-        let products = narrow::multiply(words, factors);
-        Some(Self { products, places: find128(narrow::arrange::<Msb>(words)) })
+        let products = narrow::multiply(narrow::arrange::<Msb>(block), factors);
+        Some(Self { products, places: find128::<WHAT>(block) })
+    }
+
+    /// What [`Looked`] tells of a packet without a tail.
+    #[inline]
+    #[target_feature(enable = "pclmulqdq,ssse3")]
+    fn alone<B: Backend, const WHAT: bool>(self) -> Option<Looked> {
+        let patterns = self.places.behind(WORD - 1).found::<WHAT>();
+        let crc = narrow::finish::<Msb>(self.products);
+        (patterns == 0 || WHAT == PAIRS).then_some(Looked { crc, patterns })
     }
 
     /// What [`Looked`] tells of the whole packet.
     #[inline]
     #[target_feature(enable = "pclmulqdq,ssse3")]
-    fn crc<B: Backend>(self, pieces: Pieces<'_>, tail: Self) -> Option<Looked> {
+    fn crc<B: Backend, const WHAT: bool>(self, pieces: Pieces<'_>, tail: Self) -> Option<Looked> {
         // The body begins with the instruction, the prefix's last byte. Of a long tail's places the
         // last fall off.
         let body = self.places.and(tail.places, WORD + pieces.lead_len).behind(WORD - 1);
-        let before_tail = body.patterns() << (WORD - 1 - pieces.lead_len) & 0xFF;
         let crc = narrow::finish::<Msb>(narrow::add(self.products, tail.products));
-        (before_tail == 0).then_some(Looked { crc, patterns: tail.places.patterns() })
+        let patterns = tail.places.found::<WHAT>();
+        if WHAT == PAIRS {
+            return Some(Looked { crc, patterns: patterns | body.found::<WHAT>() });
+        }
+        let before_tail = body.found::<WHAT>() << (WORD - 1 - pieces.lead_len) & 0xFF;
+        (before_tail == 0).then_some(Looked { crc, patterns })
     }
 }
 
-/// Less than a block.
+/// Less than a block, but not nothing.
 #[inline]
 #[target_feature(enable = "pclmulqdq,ssse3")]
-fn short<B: Backend>(tail: &[u8]) -> Seen {
+fn short<B: Backend, const WHAT: bool>(tail: &[u8]) -> Seen {
     let (high, low) = match tail.len() {
-        0 => return Seen { products: _mm_setzero_si128(), places: Places::NONE },
-        1..4 => (0, tail.iter().fold(0, |word, byte| word << 8 | u64::from(*byte))),
+        0..4 => (0, tail.iter().fold(0, |word, byte| word << 8 | u64::from(*byte))),
         4..=8 => (0, short::word::<Msb>(0, tail)),
         _ => short::pair::<Msb>(0, tail),
     };
     let words = narrow::pair::<Msb>(high, low);
     Seen {
         products: narrow::multiply(words, load128(&FACTORS[WORD])),
-        places: find128(narrow::arrange::<Msb>(words)).behind(BLOCK - tail.len()),
+        places: find128::<WHAT>(narrow::arrange::<Msb>(words)).behind(BLOCK - tail.len()),
     }
 }
 
 /// A block or more, one after the other.
 #[inline]
 #[target_feature(enable = "pclmulqdq,ssse3")]
-fn blocks(tail: &[u8]) -> Option<Seen> {
+fn blocks<const WHAT: bool>(tail: &[u8]) -> Option<Seen> {
     let whole = tail.len() / BLOCK * BLOCK;
-    let mut seen = two_blocks::<Narrow>(tail.get(whole - BLOCK..)?)?;
+    let mut seen = two_blocks::<Narrow, WHAT>(tail.get(whole - BLOCK..)?)?;
     seen.places = Places::NONE.and(seen.places, whole - BLOCK);
     for (index, block) in tail.get(..whole - BLOCK)?.as_chunks().0.iter().enumerate() {
         let (block, at) = (load128(block), BLOCK * index);
-        seen.places = seen.places.and(find128(block), at);
+        seen.places = seen.places.and(find128::<WHAT>(block), at);
         let factors = load128(FACTORS.get(WORD + tail.len() - BLOCK - at)?);
         let products = narrow::multiply(narrow::arrange::<Msb>(block), factors);
         seen.products = narrow::add(seen.products, products);
@@ -163,13 +240,13 @@ fn blocks(tail: &[u8]) -> Option<Seen> {
 /// A block or two, as two that may overlap: what they share counts in the first.
 #[inline]
 #[target_feature(enable = "pclmulqdq,ssse3")]
-fn two_blocks<B: Backend>(tail: &[u8]) -> Option<Seen> {
+fn two_blocks<B: Backend, const WHAT: bool>(tail: &[u8]) -> Option<Seen> {
     let behind = tail.len() - BLOCK;
     let (first, last) = (load128(tail.first_chunk()?), load128(tail.last_chunk()?));
-    let places = find128(first).and(find128(last), behind);
-    let last = _mm_and_si128(last, load128(keep_last(behind).last_chunk()?));
+    let places = find128::<WHAT>(first).and(find128::<WHAT>(last), behind);
+    let last = _mm_and_si128(last, load128(&keep_last(behind).as_chunks().0[WINDOW / BLOCK - 1]));
     let products = narrow::add(
-        narrow::multiply(narrow::arrange::<Msb>(first), load128(FACTORS.get(behind + WORD)?)),
+        narrow::multiply(narrow::arrange::<Msb>(first), load128(&FACTORS[behind + WORD])),
         narrow::multiply(narrow::arrange::<Msb>(last), load128(&FACTORS[WORD])),
     );
     Some(Seen { products, places })
@@ -178,10 +255,10 @@ fn two_blocks<B: Backend>(tail: &[u8]) -> Option<Seen> {
 /// The same for blocks of twice the size.
 #[inline]
 #[target_feature(enable = "vpclmulqdq,avx2,pclmulqdq,ssse3")]
-fn two_double_blocks(tail: &[u8]) -> Option<Seen> {
+fn two_double_blocks<const WHAT: bool>(tail: &[u8]) -> Option<Seen> {
     let behind = tail.len() - 2 * BLOCK;
     let (first, last) = (load256(tail.first_chunk()?), load256(tail.last_chunk()?));
-    let places = find256(first).and(find256(last), behind);
+    let places = find256::<WHAT>(first).and(find256::<WHAT>(last), behind);
     let last = _mm256_and_si256(last, load256(keep_last(behind).last_chunk()?));
     let products = wide::add(
         wide::multiply(wide::arrange::<Msb>(first), factors256(behind)?),
@@ -201,20 +278,20 @@ fn factors256(behind: usize) -> Option<__m256i> {
 
 #[inline]
 #[target_feature(enable = "sse2")]
-fn find128(block: __m128i) -> Places {
+fn find128<const WHAT: bool>(block: __m128i) -> Places {
     let find = |byte| {
         let found = _mm_movemask_epi8(_mm_cmpeq_epi8(block, _mm_set1_epi8(byte)));
         u64::from(found.cast_unsigned())
     };
-    Places { ff: find(FIRST), fd: find(THIRD) }
+    Places { ff: find(FIRST), fd: if WHAT == PAIRS { 0 } else { find(THIRD) } }
 }
 
 #[inline]
 #[target_feature(enable = "avx2")]
-fn find256(block: __m256i) -> Places {
+fn find256<const WHAT: bool>(block: __m256i) -> Places {
     let find = |byte| {
         let found = _mm256_movemask_epi8(_mm256_cmpeq_epi8(block, _mm256_set1_epi8(byte)));
         u64::from(found.cast_unsigned())
     };
-    Places { ff: find(FIRST), fd: find(THIRD) }
+    Places { ff: find(FIRST), fd: if WHAT == PAIRS { 0 } else { find(THIRD) } }
 }

@@ -10,7 +10,7 @@ use core::arch::x86_64::{
 use super::super::backend::{Backend, Looked, Pieces, Places, WINDOW, keep_last};
 use super::super::order::Msb;
 use super::constants::{BLOCKS, constants};
-use super::{Narrow, Wide, load128, load256, narrow, pieces, wide};
+use super::{Narrow, Wide, load128, load256, narrow, wide};
 use crate::dynamixel2::{STUFFING_BYTE, STUFFING_PATTERN};
 
 // One comparison finds the pattern's first two bytes, another its third and the stuffing.
@@ -27,8 +27,7 @@ impl Backend for Narrow {
 
     #[inline(always)]
     fn look(self, pieces: Pieces<'_>) -> Option<Looked> {
-        // SAFETY: `new` alone makes a `Narrow`, having found the features that the function needs.
-        unsafe { pieces::look_narrow(pieces) }
+        self.look_at(pieces)
     }
 
     #[inline(always)]
@@ -45,6 +44,15 @@ impl Backend for Narrow {
         };
         places(find(FIRST), find(THIRD))
     }
+
+    #[inline(always)]
+    fn pairs(self, window: &[u8; WINDOW]) -> u64 {
+        let mut ff = 0;
+        for (index, block) in window.as_chunks().0.iter().enumerate() {
+            ff |= u64::from(find128(load128(block), FIRST)) << (16 * index);
+        }
+        pairs(ff)
+    }
 }
 
 impl Backend for Wide {
@@ -55,8 +63,7 @@ impl Backend for Wide {
 
     #[inline(always)]
     fn look(self, pieces: Pieces<'_>) -> Option<Looked> {
-        // SAFETY: `new` alone makes a value, having found the features that the function needs.
-        unsafe { pieces::look_wide(pieces) }
+        self.look_at(pieces)
     }
 
     #[inline(always)]
@@ -70,6 +77,18 @@ impl Backend for Wide {
         // SAFETY: `new` alone makes a `Wide`, having found the features that the function needs.
         unsafe { places_wide(window) }
     }
+
+    #[inline(always)]
+    fn pairs(self, window: &[u8; WINDOW]) -> u64 {
+        // SAFETY: `new` alone makes a `Wide`, having found the features that the function needs.
+        unsafe { pairs_wide(window) }
+    }
+}
+
+/// From where FF stands.
+#[inline]
+const fn pairs(ff: u64) -> u64 {
+    ff & ff >> 1
 }
 
 /// From where FF and FD stand.
@@ -90,16 +109,22 @@ fn find128(block: __m128i, byte: i8) -> u16 {
 #[target_feature(enable = "avx2")]
 fn places_wide(window: &[u8; WINDOW]) -> Places {
     let [low, high] = halves(window);
-    places(find256(low, high, FIRST), find256(low, high, THIRD))
+    let find = |byte| find256(high, byte) << 32 | find256(low, byte);
+    places(find(FIRST), find(THIRD))
 }
 
 #[inline]
 #[target_feature(enable = "avx2")]
-fn find256(low: __m256i, high: __m256i, byte: i8) -> u64 {
-    let byte = _mm256_set1_epi8(byte);
-    let low = _mm256_movemask_epi8(_mm256_cmpeq_epi8(low, byte)).cast_unsigned();
-    let high = _mm256_movemask_epi8(_mm256_cmpeq_epi8(high, byte)).cast_unsigned();
-    u64::from(high) << 32 | u64::from(low)
+fn pairs_wide(window: &[u8; WINDOW]) -> u64 {
+    let [low, high] = halves(window);
+    pairs(find256(high, FIRST) << 32 | find256(low, FIRST))
+}
+
+#[inline]
+#[target_feature(enable = "avx2")]
+fn find256(block: __m256i, byte: i8) -> u64 {
+    let found = _mm256_movemask_epi8(_mm256_cmpeq_epi8(block, _mm256_set1_epi8(byte)));
+    u64::from(found.cast_unsigned())
 }
 
 #[inline]
