@@ -154,8 +154,10 @@ fn keys() -> Tokens {
         let keys = keys.filter(|key| key.len() > 2 && key.find(':') == Some(key.len() - 1));
         tokens.extend(keys.map(|key| format!("{key} ").into()));
     }
-    let syntax =
-        ["- ", "\n  ", "[", "]", "{", "}", "'", "\"", "#", "&a ", "*a", "!!str ", "|\n", "---\n"];
+    let syntax = [
+        "- ", "\n  ", "[", "]", "{", "}", "'", "\"", "#", "&a ", "*a", "!!str ", "|\n", "---\n",
+        "§", "𝄞",
+    ];
     tokens.extend(syntax.map(|token| token.as_bytes().to_vec()));
     tokens
 }
