@@ -66,6 +66,8 @@ Examples:
       with a page to read and a file for what collects the results of tests
   actucheck codec --report json=- -- ./my-adapter | jq .totals
       everything, for a program
+  actucheck codec --cases 20000 --body-length 7 --jobs 4 -- ./my-adapter
+      more than half a million checks
   actucheck codec --jobs 4 --max-fail 10 -- ./my-adapter
       four adapters side by side, until something failed ten times
 
@@ -142,7 +144,7 @@ pub(crate) enum Level {
 }
 
 /// What generated checks grow from.
-#[derive(Debug, Args)]
+#[derive(Clone, Copy, Debug, Args)]
 pub(crate) struct Growth {
     /// What the generated checks grow from; the same seed yields the same checks
     #[arg(long, value_name = "N", default_value_t = 1)]
@@ -150,6 +152,10 @@ pub(crate) struct Growth {
     /// How many packets are generated
     #[arg(long, value_name = "N", default_value_t = 1000)]
     pub(crate) cases: u32,
+    /// Bytes of the longest bodies of FF, FD, 00 and 01 that are all tried inside every kind of
+    /// packet, 7 at most; a byte more means four times as many checks
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(..=7))]
+    pub(crate) body_length: u32,
 }
 
 /// An adapter, or none.

@@ -3,16 +3,13 @@
 
 use actucheck_spec::model::Packet;
 
-use super::{Author, hex};
+use super::{Author, Options, hex};
 use crate::check::{Check, Demand};
 use crate::protocol::{Op, Output};
 use crate::reference::{self, BROADCAST, STATUS};
 
 /// The bytes of the pattern, the one that makes it a header, and one that is none of them.
 const ALPHABET: [u8; 4] = [0xFF, 0xFD, 0x00, 0x01];
-/// The longest body that is tried alone, and inside a packet.
-const ALONE: u32 = 7;
-const INSIDE: u32 = 4;
 
 /// Data lengths around 0, a register, and where the length needs another bit or byte: with 5
 /// bytes of instruction, address and CRC a Write's length passes 128 and 256 here.
@@ -27,14 +24,16 @@ const WRITE_AROUND: usize = 12;
 /// The address that is written, 116: some libraries end at 255.
 const REGISTER: [u8; 2] = [0x74, 0x00];
 
-pub(super) fn checks(author: &Author<'_>, max_packet: Option<usize>) -> Vec<Check> {
+pub(super) fn checks(author: &Author<'_>, options: &Options) -> Vec<Check> {
+    let bodies = |longest| (0..=longest).flat_map(words);
+    let inside_of = options.body_length.min(Options::LONGEST_BODY);
     let mut checks = Vec::new();
-    checks.extend((0..=ALONE).flat_map(words).flat_map(|body| alone(author, &body)));
-    checks.extend((0..=INSIDE).flat_map(words).flat_map(|body| inside(author, &body)));
+    checks.extend(bodies(Options::LONGEST_BODY).flat_map(|body| alone(author, &body)));
+    checks.extend(bodies(inside_of).flat_map(|body| inside(author, &body)));
     checks.extend((0..=u8::MAX).flat_map(|code| instruction(author, code)));
     checks.extend((0..=u8::MAX).flat_map(|error| error_byte(author, error)));
     checks.extend((0..=252).chain([BROADCAST]).flat_map(|id| id_byte(author, id)));
-    let around = LENGTHS.into_iter().chain(largest(max_packet));
+    let around = LENGTHS.into_iter().chain(largest(options.max_packet));
     checks.extend(around.flat_map(|length| lengths(author, length)));
     checks.extend(before_params(author));
     checks

@@ -2,31 +2,69 @@
 
 use std::ops::Range;
 
-use actucheck_spec::model::Packet;
+use actucheck_spec::Spec;
+use actucheck_spec::model::{Access, Bound, Packet, Register};
 use proptest::collection::vec;
 use proptest::prelude::{Just, Strategy, any};
 use proptest::prop_oneof;
+use proptest::sample::select;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
+use super::open::resumed;
 use super::{Author, parameters_of};
 use crate::check::Check;
-use crate::reference::{self, BROADCAST};
+use crate::reference::{self, BROADCAST, HEADER};
 
 /// What a case is made of.
 #[derive(Clone, Debug)]
 struct Case {
     instruction: (&'static str, Packet),
+    /// A Write of a value that a register may have.
+    register: Packet,
     status: Packet,
     /// Noise before and behind the status packet in a stream.
     noise: [Vec<u8>; 2],
     /// Where the stream is cut, as parts of 256.
     cuts: Vec<u8>,
+    /// What stands before the status packet in a stream, and behind it in another.
+    damage: [Damage; 2],
+}
+
+/// What is no packet, but looks like one.
+#[derive(Clone, Debug)]
+enum Damage {
+    /// The status packet, but for its end, as parts of 256.
+    Cut(u8),
+    /// A header, ID and length, and something behind.
+    FalseHeader { id: u8, length: u16, behind: Vec<u8> },
+}
+
+impl Damage {
+    const fn name(&self) -> &'static str {
+        match self {
+            Self::Cut(_) => "a packet that is cut short",
+            Self::FalseHeader { .. } => "a header that no packet follows",
+        }
+    }
+
+    /// Its bytes, beside a packet of these.
+    fn bytes(&self, frame: &[u8]) -> Vec<u8> {
+        match self {
+            Self::Cut(end) => {
+                let end = 1 + (frame.len() - 1) * usize::from(*end) / 256;
+                frame.get(..end).unwrap_or_default().to_vec()
+            }
+            Self::FalseHeader { id, length, behind } => {
+                [&HEADER[..], &[*id], &length.to_le_bytes(), behind].concat()
+            }
+        }
+    }
 }
 
 pub(super) fn checks(author: &Author<'_>, seed: u64, cases: u32) -> Vec<Check> {
     let mut runner = runner(seed);
-    let strategy = case();
+    let strategy = case(author.spec);
     let mut checks = Vec::new();
     for number in 0..cases {
         // A strategy without filters always yields a value.
@@ -53,11 +91,22 @@ fn of(author: &Author<'_>, id: &str, case: &Case) -> Vec<Check> {
     let layout = "dynamixel2.status-packet.layout";
     checks.extend(author.both_ways(&format!("{id}.status"), layout, &case.status));
 
+    let requirement = parameters_of(author.spec, "Write");
+    checks.extend(author.both_ways(&format!("{id}.register"), &requirement, &case.register));
+
     let frame = reference::encode(&case.status).unwrap_or_default();
     let [before, behind] = &case.noise;
     let stream = [before.as_slice(), &frame, behind, &frame].concat();
     let requirement = "dynamixel2.receive.stream";
     checks.push(author.streamed(format!("{id}/stream"), requirement, &split(&stream, &case.cuts)));
+    let bytes: Vec<_> = stream.iter().map(|byte| vec![*byte]).collect();
+    checks.push(author.streamed(format!("{id}/bytewise"), requirement, &bytes));
+
+    let [before, behind] = &case.damage;
+    let stream = split(&[before.bytes(&frame).as_slice(), &frame].concat(), &case.cuts);
+    checks.push(resumed(author, format!("{id}.damaged/resume"), before.name(), &stream));
+    let stream = split(&[frame.as_slice(), &behind.bytes(&frame)].concat(), &case.cuts);
+    checks.push(author.streamed(format!("{id}.damaged/end"), requirement, &stream));
     checks
 }
 
@@ -71,10 +120,63 @@ fn split(stream: &[u8], cuts: &[u8]) -> Vec<Vec<u8>> {
     pairs.map(|(from, to)| stream.get(*from..*to).unwrap_or_default().to_vec()).collect()
 }
 
-fn case() -> impl Strategy<Value = Case> {
+fn case(spec: &Spec) -> impl Strategy<Value = Case> + use<> {
     let noise = || vec(any::<u8>().prop_map(|byte| if byte == 0xFF { 0 } else { byte }), 0..12);
-    (instruction(), status(), [noise(), noise()], vec(any::<u8>(), 0..6))
-        .prop_map(|(instruction, status, noise, cuts)| Case { instruction, status, noise, cuts })
+    let cuts = vec(any::<u8>(), 0..6);
+    let damage = [damage(), damage()];
+    (instruction(), status(), [noise(), noise()], cuts, register(spec), damage).prop_map(
+        |(instruction, status, noise, cuts, register, damage)| Case {
+            instruction,
+            register,
+            status,
+            noise,
+            cuts,
+            damage,
+        },
+    )
+}
+
+fn damage() -> impl Strategy<Value = Damage> {
+    // About as long as what follows, or anything.
+    let length = prop_oneof![2..24_u16, any::<u16>()];
+    let header = (id(), length, vec(any::<u8>(), 0..8));
+    prop_oneof![
+        any::<u8>().prop_map(Damage::Cut),
+        header.prop_map(|(id, length, behind)| Damage::FalseHeader { id, length, behind }),
+    ]
+}
+
+/// A Write to a register of any device: the ends of its range and something between.
+fn register(spec: &Spec) -> impl Strategy<Value = Packet> + use<> {
+    let devices = spec.devices.iter().map(|file| &file.content);
+    let registers = devices.flat_map(|device| &device.registers);
+    let writable: Vec<_> = registers
+        .filter(|register| register.access == Access::Rw)
+        .map(|register| (register.address, usize::from(register.kind.size()), limits(register)))
+        .collect();
+    (id(), select(writable)).prop_flat_map(|(id, (address, size, (min, max)))| {
+        prop_oneof![Just(min), Just(max), min..=max].prop_map(move |value| {
+            let address = address.to_le_bytes();
+            let value = value.to_le_bytes();
+            let params = [&address, value.get(..size).unwrap_or_default()].concat();
+            packet(id, 0x03, params)
+        })
+    })
+}
+
+/// The least and the greatest value that a register may have; where another register limits it,
+/// those of its size.
+fn limits(register: &Register) -> (i64, i64) {
+    let (least, greatest) = register.kind.limits();
+    let Some(range) = &register.range else { return (least, greatest) };
+    let number = |bound: &Option<Bound>| match bound {
+        Some(Bound::Value(value)) => Some(*value),
+        _ => None,
+    };
+    let one_of = range.one_of.iter().flatten().copied();
+    let min = number(&range.min).or_else(|| one_of.clone().min());
+    let max = number(&range.max).or_else(|| one_of.max());
+    (min.unwrap_or(least), max.unwrap_or(greatest))
 }
 
 /// Bytes among which the pattern of byte stuffing is common.
@@ -94,7 +196,9 @@ fn id() -> impl Strategy<Value = u8> {
 }
 
 pub(crate) fn status() -> impl Strategy<Value = Packet> {
-    (id(), any::<u8>(), data(0..24)).prop_map(|(id, error, params)| Packet::Status {
+    // Many libraries give no data where there is an error.
+    let error = prop_oneof![3 => Just(0), 1 => any::<u8>()];
+    (id(), error, data(0..24)).prop_map(|(id, error, params)| Packet::Status {
         id,
         error,
         params: params.into(),

@@ -36,6 +36,7 @@ pub(super) fn checks(author: &Author<'_>, max_packet: Option<usize>) -> Vec<Chec
             both_ways(author, &format!("data.{}", hex(&data)), kind, 6, 0x0A, &data)
         }));
         checks.extend(damaged(author, kind));
+        checks.extend(other_way(author, kind));
         checks.extend(behind_damage(author, kind));
     }
     checks
@@ -183,6 +184,33 @@ fn damaged(author: &Author<'_>, kind: FrameKind) -> Vec<Check> {
         checks.push(author.check(id, requirement, decode(author, kind, &bytes), demand));
     }
     checks
+}
+
+/// A frame that goes the other way: with one byte of data it has a CRC too many or lacks one, with
+/// any other number it looks the same.
+fn other_way(author: &Author<'_>, kind: FrameKind) -> Vec<Check> {
+    let (address, command) = (6, 0x0A);
+    let check = |size: usize| {
+        let data = vec![0x5A; size].into();
+        let (word, requirement, packet) = match kind {
+            FrameKind::Request => {
+                let packet = Packet::Reply { address, command, data };
+                ("reply-as-request", "innfos.crc.request", packet)
+            }
+            FrameKind::Reply => {
+                let packet = Packet::Request { address, command, data };
+                ("request-as-reply", "innfos.crc.reply", packet)
+            }
+        };
+        let frame = reference::encode(&packet).unwrap_or_default();
+        let demand = match reference::decode(kind, &frame) {
+            Ok(packet) => Demand::Yield(Output::Packet(packet)),
+            Err(fault) => Demand::Reject(fault),
+        };
+        let id = format!("innfos.negative.{word}.size-{size}/decode");
+        author.check(id, requirement, decode(author, kind, &frame), demand)
+    };
+    (0..=4).map(check).collect()
 }
 
 /// A good frame behind something else in one datagram, which the document does not speak of.

@@ -36,15 +36,21 @@ pub struct Options {
     pub seed: u64,
     /// How many packets are generated.
     pub cases: u32,
+    /// Bytes of the longest bodies of the pattern's bytes that are all tried inside every kind of
+    /// packet, at most [`Options::LONGEST_BODY`]; a byte more means four times as many.
+    pub body_length: u32,
     /// Bytes of the longest frame that the implementation says it takes.
     pub max_packet: Option<usize>,
 }
 
 impl Options {
+    /// Bytes of the longest bodies that are tried at all.
+    pub const LONGEST_BODY: u32 = 7;
+
     /// The checks of a wire as they are without further options.
     #[must_use]
     pub const fn new(wire: Wire) -> Self {
-        Self { wire, seed: 1, cases: 1000, max_packet: None }
+        Self { wire, seed: 1, cases: 1000, body_length: 4, max_packet: None }
     }
 }
 
@@ -55,7 +61,7 @@ pub fn all(spec: &Spec, options: &Options) -> Vec<Check> {
     match options.wire {
         Wire::Dynamixel2 => {
             let mut checks = golden::checks(&author);
-            checks.extend(exhaustive::checks(&author, options.max_packet));
+            checks.extend(exhaustive::checks(&author, options));
             checks.extend(instructions::checks(&author));
             checks.extend(negative::checks(&author));
             checks.extend(open::checks(&author));

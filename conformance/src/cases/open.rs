@@ -159,26 +159,30 @@ fn resume_points(author: &Author<'_>) -> Vec<Check> {
         ("cut-in-header", "a packet cut behind its ID", cut(5)),
         ("cut-in-params", "a packet cut in its parameters", cut(11)),
     ];
-    let mut checks = Vec::new();
-    for (name, what, bad) in scenarios {
-        let stream = [bad, good.clone()].concat();
-        let ways = open(
-            &format!("Where does the search go on behind {what}?"),
-            [
-                ("it finds every whole packet", reference::packets(&stream)),
-                (
-                    "behind the bytes that the length covers",
-                    reference::packets_behind_lengths(&stream),
-                ),
-                ("it finds none of the whole packets behind it", Vec::new()),
-            ]
-            .map(|(name, packets)| (name, Output::Packets(packets))),
-        );
-        let id = format!("resume.{name}");
-        let op = Op::Stream { wire: author.wire, chunks: vec![stream.into()], kind: None };
-        checks.push(record(author, &id, "dynamixel2.receive.resume", op, ways));
-    }
-    checks
+    let check = |(name, what, bad): (&str, &str, Vec<u8>)| {
+        let id = format!("dynamixel2.open.resume.{name}/stream");
+        resumed(author, id, what, &[[bad, good.clone()].concat()])
+    };
+    scenarios.map(check).into()
+}
+
+/// A stream in which the search has to go on behind `what`.
+pub(super) fn resumed(author: &Author<'_>, id: String, what: &str, chunks: &[Vec<u8>]) -> Check {
+    let stream = chunks.concat();
+    let (anywhere, behind) =
+        (reference::packets(&stream), reference::packets_behind_lengths(&stream));
+    let ways = open(
+        &format!("Where does the search go on behind {what}?"),
+        [
+            ("it finds every whole packet", anywhere),
+            ("behind the bytes that the length covers", behind),
+            ("it finds none of the whole packets behind it", Vec::new()),
+        ]
+        .map(|(name, packets)| (name, Output::Packets(packets))),
+    );
+    let chunks = chunks.iter().map(|chunk| chunk.clone().into()).collect();
+    let op = Op::Stream { wire: author.wire, chunks, kind: None };
+    author.check(id, "dynamixel2.receive.resume", op, Demand::Record(ways))
 }
 
 /// A packet that breaks two rules: which is named first is nobody's rule.

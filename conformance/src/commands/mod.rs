@@ -75,8 +75,8 @@ fn checks(spec: &Spec, wire: Wire, growth: &Growth, hello: Option<&Hello>) -> Ve
 /// What decides which checks a wire has.
 fn options(wire: Wire, growth: &Growth, hello: Option<&Hello>) -> cases::Options {
     let max_packet = hello.and_then(|hello| hello.limits.max_packet);
-    let Growth { seed, cases } = *growth;
-    cases::Options { wire, seed, cases, max_packet }
+    let Growth { seed, cases, body_length } = *growth;
+    cases::Options { wire, seed, cases, body_length, max_packet }
 }
 
 /// The checks that the user means.
@@ -91,18 +91,22 @@ fn selected(checks: Vec<Check>, selection: &Selection) -> Result<Vec<Check>, Fai
         .map_err(|error| Failure::new(Failure::USAGE, error))
 }
 
-/// The check with this id, of whichever wire.
+/// The check with this id, of whichever wire, and of bodies of any length.
 fn named(
     spec: &Spec,
     id: &str,
     growth: &Growth,
     hello: Option<&Hello>,
 ) -> Result<(Wire, Check), Failure> {
-    let wires = [Wire::Dynamixel2, Wire::Innfos];
-    let all = wires.into_iter().flat_map(|wire| {
-        checks(spec, wire, growth, hello).into_iter().map(move |check| (wire, check))
-    });
-    all.into_iter().find(|(_, check)| check.id == id).ok_or_else(|| {
+    let all = |growth: Growth| {
+        let of = |wire| (wire, checks(spec, wire, &growth, hello));
+        Wire::ALL.map(of).into_iter().find_map(|(wire, checks)| {
+            let check = checks.into_iter().find(|check| check.id == id)?;
+            Some((wire, check))
+        })
+    };
+    let longest = Growth { body_length: cases::Options::LONGEST_BODY, ..*growth };
+    all(*growth).or_else(|| all(longest)).ok_or_else(|| {
         let message = format!("no check has the id `{id}`; `actucheck list` has them all");
         Failure::new(Failure::USAGE, message)
     })

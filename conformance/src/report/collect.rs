@@ -50,6 +50,7 @@ impl From<Run<'_>> for Report {
             command: run.command.to_vec(),
             seed: run.options.seed,
             cases: run.options.cases,
+            body_length: run.options.body_length,
             seconds: run.seconds,
             stopped: run.stopped,
             left: run.left,

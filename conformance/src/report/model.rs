@@ -11,7 +11,7 @@ use crate::protocol::{Implementation, Wire};
 use crate::verdict::{Outcome, Totals, Verdict};
 
 /// Version of the report's form. It changes when a field goes or takes another meaning.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 
 /// What came out of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -30,6 +30,8 @@ pub struct Report {
     pub seed: u64,
     /// How many packets were generated.
     pub cases: u32,
+    /// Bytes of the longest bodies that were all tried inside every kind of packet.
+    pub body_length: u32,
     /// How long the run took.
     pub seconds: f64,
     /// Why the run ended early, if it did.

@@ -37,8 +37,7 @@ pub(super) const fn mark(verdict: Verdict) -> &'static str {
 }
 
 /// Said of a comparison where it may be unfair.
-pub(super) const ASKED_DIFFERENTLY: &str =
-    "They were not asked the same: selection, seed or cases differ, or a run was cut short.";
+pub(super) const ASKED_DIFFERENTLY: &str = "They were not asked the same: selection, seed, cases or lengths differ, or a run was cut short.";
 
 /// A cell of a matrix: `pass`, `fail 65/23963`, or `-` if nothing was asked.
 pub(super) fn cell(cell: Option<&Cell>) -> String {

@@ -119,10 +119,10 @@ fn a_report_can_be_read_back() {
 #[test]
 fn what_is_no_report_or_one_of_another_version_is_refused() {
     let text = written(&sample::small());
-    let other = text.replacen("\"version\": 2", "\"version\": 1", 1);
+    let other = text.replacen("\"version\": 3", "\"version\": 2", 1);
     let error = read(&other).unwrap_err().to_string();
     assert!(error.ends_with(
-        "report.json is a report of version 1, this program reads 2; \
+        "report.json is a report of version 2, this program reads 3; \
          run the checks again, or use the actucheck that wrote it"
     ));
     assert!(matches!(

@@ -15,7 +15,7 @@ use crate::report::model::{
 use crate::verdict::{Totals, Verdict};
 
 /// Version of the comparison's form. It changes when a field goes or takes another meaning.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// The matrix of implementations and requirements.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -44,6 +44,8 @@ pub struct Implementation {
     pub seed: u64,
     /// How many packets were generated.
     pub cases: u32,
+    /// Bytes of the longest bodies that were all tried inside every kind of packet.
+    pub body_length: u32,
     /// Why the run ended early, if it did.
     pub stopped: Option<Stopped>,
     /// How often each verdict came out.
@@ -133,7 +135,8 @@ impl Comparison {
     /// from the same seed, and to the end.
     #[must_use]
     pub fn asked_alike(&self) -> bool {
-        let mut growths = self.implementations.iter().map(|one| (one.seed, one.cases));
+        let growth = |one: &Implementation| (one.seed, one.cases, one.body_length);
+        let mut growths = self.implementations.iter().map(growth);
         let first = growths.next();
         growths.all(|other| Some(other) == first)
             && self.implementations.iter().all(|one| one.stopped.is_none())
@@ -194,6 +197,7 @@ fn implementation(report: &Report) -> Implementation {
         who: report.implementation.clone(),
         seed: report.seed,
         cases: report.cases,
+        body_length: report.body_length,
         stopped: report.stopped,
         totals: report.totals.clone(),
     }
