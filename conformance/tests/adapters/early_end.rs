@@ -28,6 +28,20 @@ fn expected_failures_do_not_count_towards_the_end() {
     assert!(run.report["stopped"].is_null(), "{}", run.report["stopped"]);
 }
 
+/// The CRC of every packet is said to be that of a Ping to device 1, which is so for a few.
+#[test]
+fn two_rows_may_name_the_same_failures() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("expected.yaml");
+    let row = "{ids: ['*/crc'], reason: no CRC}";
+    std::fs::write(&file, format!("expected_failures: [{row}, {row}]")).unwrap();
+    let constant = WRONG.replace(r#""crc":1"#, r#""crc":19993"#);
+    let options = ["--expect", file.to_str().unwrap()];
+    let run = check_with(&options, &WELL_BEHAVED.replace("ANSWER", &constant));
+    assert!(run.total("pass") > 0 && run.total("expected-failure") > 0, "{:?}", run.report);
+    assert_eq!((run.exit(), run.total("unexpected-pass")), (0, 0));
+}
+
 #[test]
 fn ctrl_c_ends_a_run_with_a_report() {
     let folder = tempfile::tempdir().unwrap();
