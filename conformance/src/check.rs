@@ -82,9 +82,12 @@ impl Open {
     /// What none of the ways foresees.
     fn other(&self, output: &Output) -> String {
         match (output, self.ways.first().map(|way| &way.output)) {
-            (Output::Packets(found), Some(Output::Packets(whole))) => {
+            (Output::Packets(found), Some(Output::Packets(whole)))
+                if found.iter().all(|packet| whole.contains(packet)) =>
+            {
                 format!("finds {} of {} packets", found.len(), whole.len())
             }
+            (Output::Packets(_), _) => "finds other packets".to_owned(),
             _ => "answers something else".to_owned(),
         }
     }
