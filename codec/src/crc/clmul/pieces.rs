@@ -1,7 +1,6 @@
 //! A packet that is still in pieces: its CRC, and whether it needs stuffing, out of the registers
 //! and the memory that its bytes are in.
 #![expect(clippy::indexing_slicing, reason = "arrays of a fixed size, indices below it")]
-#![expect(clippy::inline_always, reason = "parts of a `Task`")]
 
 use core::arch::x86_64::{
     __m128i, __m256i, _mm_and_si128, _mm_cmpeq_epi8, _mm_movemask_epi8, _mm_set_epi64x,
@@ -79,88 +78,62 @@ impl Places {
     }
 }
 
-impl Narrow {
-    /// As [`Backend::look`].
-    #[inline(always)]
-    pub(super) fn look_at(self, pieces: Pieces<'_>) -> Option<Looked> {
-        let looked = self.look_for::<PAIRS>(pieces)?;
-        let Pieces { prefix, lead_len, lead, tail } = pieces;
-        let mut patterns = looked.patterns;
-        if patterns != 0 {
-            patterns = self.patterns(prefix, lead, lead_len, tail)?;
-        }
-        Some(Looked { patterns, ..looked })
-    }
+/// Gives a back end its `look_at`, from what it sees in tails of a length.
+macro_rules! look {
+    ($proof:ident, $features:literal, $what:ident, $tail:ident, $($len:pat => $seen:expr,)*) => {
+        impl $proof {
+            /// As [`Backend::look`].
+            #[inline(always)]
+            pub(super) fn look_at(self, pieces: Pieces<'_>) -> Option<Looked> {
+                let mut looked = self.look_for::<PAIRS>(pieces)?;
+                if looked.patterns != 0 {
+                    let Pieces { prefix, lead_len, lead, tail } = pieces;
+                    looked.patterns = self.patterns(prefix, lead_len, lead, tail)?;
+                }
+                Some(looked)
+            }
 
-    #[cold]
-    #[inline(never)]
-    fn patterns(self, prefix: u64, lead: u64, lead_len: usize, tail: &[u8]) -> Option<u64> {
-        #[target_feature(enable = "pclmulqdq,ssse3")]
-        fn patterns(proof: Narrow, pieces: Pieces<'_>) -> Option<u64> {
-            proof.look_for::<PATTERNS>(pieces).map(|looked| looked.patterns)
-        }
-        // SAFETY: the value is the proof that the processor has the features.
-        unsafe { patterns(self, Pieces { prefix, lead_len, lead, tail }) }
-    }
+            /// One by one, so that the pieces stay in registers where this is not called.
+            #[cold]
+            #[inline(never)]
+            fn patterns(self, prefix: u64, lead_len: usize, lead: u64, tail: &[u8]) -> Option<u64> {
+                #[target_feature(enable = $features)]
+                fn patterns(proof: $proof, pieces: Pieces<'_>) -> Option<u64> {
+                    proof.look_for::<PATTERNS>(pieces).map(|looked| looked.patterns)
+                }
+                // SAFETY: the value is the proof that the processor has the features.
+                unsafe { patterns(self, Pieces { prefix, lead_len, lead, tail }) }
+            }
 
-    #[inline(always)]
-    #[expect(clippy::unused_self, reason = "its value is the proof")]
-    fn look_for<const WHAT: bool>(self, pieces: Pieces<'_>) -> Option<Looked> {
-        let tail = pieces.tail;
-        // SAFETY: the value is the proof that the processor has the features.
-        unsafe {
-            let front = Seen::front::<Self, WHAT>(pieces)?;
-            let behind = match tail.len() {
-                0 => return front.alone::<Self, WHAT>(),
-                1..BLOCK => short::<Self, WHAT>(tail),
-                _ => blocks::<WHAT>(tail)?,
-            };
-            front.crc::<Self, WHAT>(pieces, behind)
+            #[inline(always)]
+            fn look_for<const $what: bool>(self, pieces: Pieces<'_>) -> Option<Looked> {
+                let $tail = pieces.tail;
+                // SAFETY: the value is the proof that the processor has the features.
+                unsafe {
+                    let front = Seen::front::<Self, $what>(pieces)?;
+                    let behind = match $tail.len() {
+                        0 => return front.alone::<Self, $what>(),
+                        $($len => $seen,)*
+                    };
+                    front.crc::<Self, $what>(pieces, behind)
+                }
+            }
         }
-    }
+    };
 }
 
-impl Wide {
-    /// As [`Backend::look`].
-    #[inline(always)]
-    pub(super) fn look_at(self, pieces: Pieces<'_>) -> Option<Looked> {
-        let looked = self.look_for::<PAIRS>(pieces)?;
-        let Pieces { prefix, lead_len, lead, tail } = pieces;
-        let mut patterns = looked.patterns;
-        if patterns != 0 {
-            patterns = self.patterns(prefix, lead, lead_len, tail)?;
-        }
-        Some(Looked { patterns, ..looked })
-    }
+look!(
+    Narrow, "pclmulqdq,ssse3", WHAT, tail,
+    1..BLOCK => short::<Self, WHAT>(tail),
+    _ => blocks::<WHAT>(tail)?,
+);
 
-    #[cold]
-    #[inline(never)]
-    fn patterns(self, prefix: u64, lead: u64, lead_len: usize, tail: &[u8]) -> Option<u64> {
-        #[target_feature(enable = "vpclmulqdq,avx2,pclmulqdq,ssse3")]
-        fn patterns(proof: Wide, pieces: Pieces<'_>) -> Option<u64> {
-            proof.look_for::<PATTERNS>(pieces).map(|looked| looked.patterns)
-        }
-        // SAFETY: the value is the proof that the processor has the features.
-        unsafe { patterns(self, Pieces { prefix, lead_len, lead, tail }) }
-    }
-
-    #[inline(always)]
-    #[expect(clippy::unused_self, reason = "its value is the proof")]
-    fn look_for<const WHAT: bool>(self, pieces: Pieces<'_>) -> Option<Looked> {
-        let tail = pieces.tail;
-        // SAFETY: the value is the proof that the processor has the features.
-        unsafe {
-            let front = Seen::front::<Self, WHAT>(pieces)?;
-            let behind = match tail.len() {
-                0 => return front.alone::<Self, WHAT>(),
-                1..BLOCK => short::<Self, WHAT>(tail),
-                BLOCK..32 => two_blocks::<Self, WHAT>(tail)?,
-                _ => two_double_blocks::<WHAT>(tail)?,
-            };
-            front.crc::<Self, WHAT>(pieces, behind)
-        }
-    }
-}
+look!(
+    Wide, "vpclmulqdq,avx2,pclmulqdq,ssse3", WHAT, tail,
+    1..BLOCK => short::<Self, WHAT>(tail),
+    BLOCK..32 => two_blocks::<Self, WHAT>(tail)?,
+    _ => two_double_blocks::<WHAT>(tail)?,
+);
 
 impl Seen {
     /// What is in front of the tail.
