@@ -36,6 +36,21 @@ impl<'a> FastStatus<'a> {
     /// Reads `bytes`, the one packet that answers an instruction for `length` bytes of data
     /// (0 for Fast Sync Write) from the devices `ids`, in this order.
     ///
+    /// ```
+    /// use actucheck_codec::{FastStatus, ja40};
+    /// // What devices 1 and 2 answer to a Fast Sync Read of Present Position, 4 bytes.
+    /// let packet = b"\xFF\xFF\xFD\x00\xFE\x11\x00\x55\
+    ///     \x00\x01\xD0\x07\x00\x00\x0C\x83\
+    ///     \x00\x02\x09\x00\x00\x00\x11\x40";
+    /// let mut positions = Vec::new();
+    /// for block in FastStatus::parse(packet, 4, &[1, 2])?.blocks() {
+    ///     assert!(!block.error.alert());
+    ///     positions.push((block.id, ja40::PRESENT_POSITION.decode(block.data)?));
+    /// }
+    /// assert_eq!(positions, [(1, 2000), (2, 9)]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     /// The first rule that the bytes break, with the offset.
     pub fn parse(bytes: &'a [u8], length: u16, ids: &[u8]) -> Result<Self, FrameError> {

@@ -59,6 +59,19 @@ macro_rules! read {
 read! {
     /// Reads the same registers of several devices, each of which answers with a status packet
     /// (DYNAMIXEL Protocol 2.0, Sync Read).
+    ///
+    /// ```
+    /// use actucheck_codec::instruction::SyncRead;
+    /// use actucheck_codec::{Frame, xm430_w210};
+    /// let mut buffer = [0; 32];
+    /// let packet = SyncRead { address: 132, length: 4, ids: [1, 2] }.encode(&mut buffer)?;
+    /// assert_eq!(packet, b"\xFF\xFF\xFD\x00\xFE\x09\x00\x82\x84\x00\x04\x00\x01\x02\xCE\xFA");
+    ///
+    /// let answer = b"\xFF\xFF\xFD\x00\x01\x08\x00\x55\x00\xA6\x00\x00\x00\x8C\xC0";
+    /// let status = Frame::parse(answer)?.status()?;
+    /// assert_eq!((status.id(), status.value(xm430_w210::PRESENT_POSITION)?), (1, 166));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     SyncRead
 }
 
