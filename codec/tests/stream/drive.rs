@@ -12,7 +12,12 @@ pub(crate) fn owned(event: Event<'_>) -> Seen {
             let params: Vec<u8> = frame.params().collect();
             assert_eq!(params.len(), frame.params_len());
             let mut buffer = [0; 2048];
+            // With room behind them, and without.
             assert_eq!(frame.copy_params(&mut buffer), Ok(&params[..]));
+            assert_eq!(frame.copy_params(&mut buffer[..params.len()]), Ok(&params[..]));
+            if let (Ok(status), [_, data @ ..]) = (frame.status(), &params[..]) {
+                assert_eq!(status.copy_data(&mut buffer), Ok(data));
+            }
             let bytes = frame::encode(frame.id(), frame.instruction(), &[&params], &mut buffer);
             Seen::Frame(bytes.unwrap().to_vec(), params)
         }

@@ -52,7 +52,7 @@ impl Damage {
     fn bytes(&self, frame: &[u8]) -> Vec<u8> {
         match self {
             Self::Cut(end) => {
-                let end = 1 + (frame.len() - 1) * usize::from(*end) / 256;
+                let end = 1 + frame.len().saturating_sub(1) * usize::from(*end) / 256;
                 frame.get(..end).unwrap_or_default().to_vec()
             }
             Self::FalseHeader { id, length, behind } => {
