@@ -145,8 +145,8 @@ impl<'a> Frame<'a> {
         self.copy_behind(0, buffer)
     }
 
-    /// The same without the first `front` of the parameters, in front of which and with which no
-    /// pattern may begin.
+    /// The same without the first `front` of the parameters. A pattern may begin with the last of
+    /// these, but with no byte before it.
     #[inline]
     pub(crate) fn copy_behind<'b>(
         &self,

@@ -8,6 +8,7 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::time::Duration;
 
+use actucheck::cases::Options;
 use actucheck::protocol::{Fast, Wire};
 use clap::{Args, Parser, Subcommand};
 
@@ -154,7 +155,7 @@ pub(crate) struct Growth {
     pub(crate) cases: u32,
     /// Bytes of the longest bodies of FF, FD, 00 and 01 that are all tried inside every kind of
     /// packet, 7 at most; a byte more means four times as many checks
-    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(..=7))]
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(..=i64::from(Options::LONGEST_BODY)))]
     pub(crate) body_length: u32,
 }
 

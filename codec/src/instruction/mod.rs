@@ -2,7 +2,8 @@
 //!
 //! An instruction for one device or for all is built with `encode(id, buffer)`. One that names its
 //! devices in its parameters goes to the broadcast ID and is built with `encode(buffer)`. Devices
-//! come from any iterator that can be cloned, or from an array or slice.
+//! come from any iterator that can be cloned, or from an array or slice. What is behind the packet in
+//! the buffer is lost.
 //!
 //! ```
 //! use actucheck_codec::instruction::{DeviceData, Ping, SyncWrite};

@@ -1,4 +1,4 @@
-//! Takes stuffing away from a body that is known to be right.
+//! Takes stuffing away: from a body that is known to be right, quickly, and from any.
 
 use crate::crc::{Backend, Engine, Places, Task, WINDOW};
 use crate::dynamixel2::STUFFING_PATTERN;

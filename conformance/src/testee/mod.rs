@@ -5,7 +5,7 @@ mod process;
 
 use crate::protocol::{Hello, Op, Output, Rejection};
 
-pub use builtin::Builtin;
+pub use builtin::{Builtin, fault};
 pub(crate) use process::{Line, Running};
 pub use process::{Process, Settings, StartError, Timeouts, Trace};
 

@@ -3,6 +3,7 @@
 
 use actucheck::protocol::Fast;
 use actucheck::reference::{self, BROADCAST, HEADER, PREFIX, STATUS};
+use actucheck::testee::fault;
 use actucheck_codec::fast_status::{self, Block};
 use actucheck_codec::status::StatusError;
 use actucheck_codec::{BufferTooSmall, EncodeError, FastStatus};
@@ -10,7 +11,6 @@ use actucheck_spec::model::{self, Fault, Packet};
 use arbitrary::{Result, Unstructured};
 
 use crate::draw::Draw;
-use crate::targets::packet::fault;
 use crate::targets::shown;
 
 /// Bytes before the blocks: header, ID, length, instruction.

@@ -118,8 +118,9 @@ fn frame_rejection(error: FrameError) -> Rejection {
     rejection(fault(&error), &error)
 }
 
-/// The error class of the adapter protocol that a codec's error belongs to.
-fn fault(error: &FrameError) -> Fault {
+/// The error class of the adapter protocol that an error of the codec belongs to.
+#[must_use]
+pub const fn fault(error: &FrameError) -> Fault {
     match error {
         FrameError::Header { .. } => Fault::Header,
         FrameError::Id { .. } | FrameError::BlockId { .. } => Fault::Id,

@@ -3,6 +3,8 @@
 mod dynamixel2;
 mod innfos;
 
+pub use dynamixel2::fault;
+
 use actucheck_codec::EncodeError;
 use actucheck_spec::model::{Fault, HexBytes};
 

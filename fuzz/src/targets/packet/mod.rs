@@ -5,10 +5,11 @@ mod build;
 mod several;
 
 use actucheck::reference::{self, HEADER, PREFIX};
+use actucheck::testee::fault;
 use actucheck_codec::dynamixel2::Instruction;
 use actucheck_codec::status::{PingStatus, Status};
-use actucheck_codec::{Frame, FrameError, Request, frame, ja40, layout};
-use actucheck_spec::model::{Fault, Packet};
+use actucheck_codec::{Frame, Request, frame, ja40, layout};
+use actucheck_spec::model::Packet;
 use arbitrary::Unstructured;
 
 use crate::targets::shown;
@@ -102,20 +103,6 @@ fn walk(instruction: Instruction, params: &[u8]) {
         }
     }
     assert!(layout.is_empty() || end == params.len(), "{end} of {} bytes", params.len());
-}
-
-/// The fault that the reference would name.
-pub(super) const fn fault(error: &FrameError) -> Fault {
-    match error {
-        FrameError::Header { .. } => Fault::Header,
-        FrameError::Id { .. } | FrameError::BlockId { .. } => Fault::Id,
-        FrameError::Length { .. } => Fault::Length,
-        FrameError::Truncated { .. } => Fault::Truncated,
-        FrameError::Trailing { .. } => Fault::Trailing,
-        FrameError::Crc { .. } => Fault::Crc,
-        FrameError::Stuffing { .. } => Fault::Stuffing,
-        FrameError::Instruction { .. } => Fault::Instruction,
-    }
 }
 
 /// Makes a packet of it that only its stuffing can be wrong with.

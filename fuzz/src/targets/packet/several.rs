@@ -30,65 +30,51 @@ impl<'a> Sync<'a> {
         let ids = devices.iter().map(|device| device.id).collect();
         Ok(Self { address, length: u16::try_from(size).unwrap(), devices, ids })
     }
-
-    /// The parameters of a read.
-    fn asked(&self) -> Vec<u8> {
-        [&head(self.address, self.length), &self.ids[..]].concat()
-    }
-
-    /// The parameters of a write.
-    fn given(&self) -> Vec<u8> {
-        let blocks = self.devices.iter().flat_map(|device| [&[device.id], device.data].concat());
-        head(self.address, self.length).into_iter().chain(blocks).collect()
-    }
 }
 
-pub(super) fn sync_read(choices: &mut Unstructured<'_>) -> Result<()> {
-    let sync = Sync::of(choices)?;
-    let read = SyncRead { address: sync.address, length: sync.length, ids: &sync.ids[..] };
-    let is_it = |request: &Request<'_>| matches!(request, Request::SyncRead(it) if *it == read);
-    broadcast(0x82, &sync.asked(), &sync.ids, |buffer| read.encode(buffer), is_it);
-    Ok(())
-}
-
-pub(super) fn fast_sync_read(choices: &mut Unstructured<'_>) -> Result<()> {
-    let sync = Sync::of(choices)?;
-    let read = FastSyncRead { address: sync.address, length: sync.length, ids: &sync.ids[..] };
-    let is_it = |request: &Request<'_>| matches!(request, Request::FastSyncRead(it) if *it == read);
-    broadcast(0x8A, &sync.asked(), &sync.ids, |buffer| read.encode(buffer), is_it);
-    Ok(())
-}
-
-pub(super) fn sync_write(choices: &mut Unstructured<'_>) -> Result<()> {
-    let sync = Sync::of(choices)?;
-    wrong_length(sync.address, sync.length, &sync.devices);
-    let Sync { address, length, devices, ids } = &sync;
-    let write = SyncWrite { address: *address, length: *length, devices };
-    let is_it = |request: &Request<'_>| match request {
-        Request::SyncWrite(it) => {
-            (it.address, it.length) == (*address, *length)
-                && it.devices.clone().eq(devices.iter().copied())
+/// Sync Read and Fast Sync Read differ in their code alone.
+macro_rules! sync_read {
+    ($function:ident, $instruction:ident, $code:literal) => {
+        pub(super) fn $function(choices: &mut Unstructured<'_>) -> Result<()> {
+            let Sync { address, length, ids, .. } = &Sync::of(choices)?;
+            let read = $instruction { address: *address, length: *length, ids: &ids[..] };
+            let params = [&head(*address, *length), &ids[..]].concat();
+            let is_it = |request: &Request<'_>| {
+                matches!(request, Request::$instruction(found) if *found == read)
+            };
+            broadcast($code, &params, ids, |buffer| read.encode(buffer), is_it);
+            Ok(())
         }
-        _ => false,
     };
-    broadcast(0x83, &sync.given(), ids, |buffer| write.encode(buffer), is_it);
-    Ok(())
 }
 
-pub(super) fn fast_sync_write(choices: &mut Unstructured<'_>) -> Result<()> {
-    let sync = Sync::of(choices)?;
-    let Sync { address, length, devices, ids } = &sync;
-    let write = FastSyncWrite { address: *address, length: *length, devices };
-    let is_it = |request: &Request<'_>| match request {
-        Request::FastSyncWrite(it) => {
-            (it.address, it.length) == (*address, *length)
-                && it.devices.clone().eq(devices.iter().copied())
+sync_read!(sync_read, SyncRead, 0x82);
+sync_read!(fast_sync_read, FastSyncRead, 0x8A);
+
+/// And so do Sync Write and Fast Sync Write.
+macro_rules! sync_write {
+    ($function:ident, $instruction:ident, $code:literal) => {
+        pub(super) fn $function(choices: &mut Unstructured<'_>) -> Result<()> {
+            let Sync { address, length, devices, ids } = &Sync::of(choices)?;
+            let write = $instruction { address: *address, length: *length, devices };
+            let blocks = devices.iter().flat_map(|device| [&[device.id], device.data].concat());
+            let params: Vec<_> = head(*address, *length).into_iter().chain(blocks).collect();
+            let is_it = |request: &Request<'_>| match request {
+                Request::$instruction(found) => {
+                    (found.address, found.length) == (*address, *length)
+                        && found.devices.clone().eq(devices.iter().copied())
+                }
+                _ => false,
+            };
+            broadcast($code, &params, ids, |buffer| write.encode(buffer), is_it);
+            wrong_length(*address, *length, devices);
+            Ok(())
         }
-        _ => false,
     };
-    broadcast(0x8B, &sync.given(), ids, |buffer| write.encode(buffer), is_it);
-    Ok(())
 }
+
+sync_write!(sync_write, SyncWrite, 0x83);
+sync_write!(fast_sync_write, FastSyncWrite, 0x8B);
 
 /// The devices' data have to be as long as is said.
 fn wrong_length(address: u16, length: u16, devices: &[DeviceData<'_>]) {
