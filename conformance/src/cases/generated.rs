@@ -20,7 +20,7 @@ use crate::reference::{self, BROADCAST, HEADER};
 #[derive(Clone, Debug)]
 struct Case {
     instruction: (&'static str, Packet),
-    /// A Write of a value that a register may have.
+    /// A Write of a value between the least and the greatest of a register.
     register: Packet,
     status: Packet,
     /// Noise before and behind the status packet in a stream.
@@ -165,7 +165,7 @@ fn register(spec: &Spec) -> impl Strategy<Value = Packet> + use<> {
 }
 
 /// The least and the greatest value that a register may have; where another register limits it,
-/// those of its size.
+/// those of its size. Where the document lists values, not all between them may be had.
 fn limits(register: &Register) -> (i64, i64) {
     let (least, greatest) = register.kind.limits();
     let Some(range) = &register.range else { return (least, greatest) };
