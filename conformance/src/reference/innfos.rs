@@ -18,8 +18,7 @@ pub fn crc(bytes: &[u8]) -> u16 {
     for byte in bytes {
         crc ^= u16::from(*byte);
         for _ in 0..8 {
-            let carry = crc & 1;
-            crc = (crc >> 1) ^ (0xA001 * carry);
+            crc = if crc & 1 == 0 { crc >> 1 } else { (crc >> 1) ^ 0xA001 };
         }
     }
     crc

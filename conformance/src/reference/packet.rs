@@ -12,8 +12,7 @@ pub fn crc(bytes: &[u8]) -> u16 {
     for byte in bytes {
         crc ^= u16::from(*byte) << 8;
         for _ in 0..8 {
-            let carry = crc >> 15;
-            crc = (crc << 1) ^ (0x8005 * carry);
+            crc = if crc & 0x8000 == 0 { crc << 1 } else { (crc << 1) ^ 0x8005 };
         }
     }
     crc
