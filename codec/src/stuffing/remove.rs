@@ -56,7 +56,8 @@ impl Task for Short<'_> {
         }
         // Where there is no stuffing, that of a body that ends there.
         let stuffing = |patterns: u64| (patterns.trailing_zeros() as usize + 3).min(stuffed);
-        let (first, second) = (stuffing(patterns), stuffing(others));
+        let first = stuffing(patterns);
+        let second = planted!("stream.second-stays", stuffed, stuffing(others));
         let after = |at: usize| bytes.get(at + 1..)?.first_chunk::<WINDOW>();
         *whole.first_chunk_mut()? = *after(0)?;
         *whole.get_mut(first - 1..)?.first_chunk_mut()? = *after(first)?;
@@ -142,7 +143,7 @@ impl Task for Checked<'_> {
                 }
                 keep(done, behind);
                 done = behind + 1;
-                left &= left - 1;
+                left &= planted!("stuffing.one-a-window", 0, left - 1);
             }
             if done < decided {
                 keep(done, decided);

@@ -179,8 +179,10 @@ fn packet(choices: &mut Unstructured<'_>) -> Result<Vec<u8>> {
     }
     body.extend(bytes(choices, 100)?);
     if code == STATUS && id == BROADCAST {
-        // A fast status packet's length is 5 at least.
+        // A fast status packet's length is 5 at least, and the more devices answer, the longer.
         body.push(choices.arbitrary()?);
+        let devices = choices.int_in_range(1..=8)?;
+        body.extend(body[1..].repeat(devices - 1));
         return Ok(reference::frame(id, &body));
     }
     Ok(reference::frame(id, &reference::stuff(&body)))
