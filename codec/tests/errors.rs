@@ -49,6 +49,15 @@ fn each_rule_has_its_error() {
 }
 
 #[test]
+fn a_status_packet_has_an_error_byte() {
+    let mut bytes = *b"\xFF\xFF\xFD\x00\x01\x03\x00\x55\x00\x00";
+    let crc = actucheck_codec::crc::umts(&bytes[..8]).to_le_bytes();
+    bytes[8..].copy_from_slice(&crc);
+    let error = FrameError::Length { found: 3, expected: 4 };
+    assert_eq!(Frame::parse(&bytes).map(drop), Err(error));
+}
+
+#[test]
 fn a_bare_pattern_is_rejected_although_its_crc_is_right() {
     // Write FF FF FD to 564 as an implementation sends it that does not stuff; CRC 81 05.
     let bytes = b"\xFF\xFF\xFD\x00\x01\x08\x00\x03\x34\x02\xFF\xFF\xFD\x81\x05";

@@ -167,6 +167,29 @@ fn a_message_that_no_table_allows_is_refused() {
 }
 
 #[test]
+fn a_frame_that_ends_early_tells_its_size() {
+    let mut buffer = [0; 16];
+    for (kind, data) in [(Kind::Request, &[][..]), (Kind::Request, &[1]), (Kind::Reply, &[1, 2])] {
+        let frame = innfos::encode(kind, 1, Command::from_code(0x06), data, &mut buffer).unwrap();
+        for available in 0..frame.len() {
+            // Without its length it is known to be one of the smallest.
+            let needed = if available < 5 { 6 } else { frame.len() };
+            let error = FrameError::Truncated { available, needed };
+            assert_eq!(Frame::parse(kind, &frame[..available]).map(drop), Err(error), "{frame:?}");
+        }
+    }
+}
+
+#[test]
+fn a_flag_is_yes_or_no_or_neither() {
+    assert_eq!(
+        (0..=2).map(|byte| Flag(byte).is_yes()).collect::<Vec<_>>(),
+        [Some(false), Some(true), None]
+    );
+    assert_eq!((Flag::NO, Flag::YES), (Flag(0), Flag(1)));
+}
+
+#[test]
 fn what_follows_a_damaged_frame_is_lost() {
     let good = b"\xEE\x06\x07\x00\x01\x01\xED";
     let datagram = [good, &b"\xEE\x06\x07\x00\x01\x01\xEC"[..], good].concat();

@@ -15,12 +15,42 @@ fn an_instruction_is_no_status() {
     assert_eq!(frame.status(), Err(FrameError::Instruction { found: 1 }));
 }
 
+#[test]
+fn frames_are_equal_that_say_the_same() {
+    let (mut one, mut two) = ([0; 32], [0; 64]);
+    let mut same = |id, error, data| {
+        let one = status::encode(1, StatusError(0x80), b"\xFF\xFF\xFD", &mut one).unwrap();
+        let two = status::encode(id, StatusError(error), data, &mut two).unwrap();
+        Frame::parse(one).unwrap() == Frame::parse(two).unwrap()
+    };
+    assert!(same(1, 0x80, b"\xFF\xFF\xFD"));
+    assert!(!same(2, 0x80, b"\xFF\xFF\xFD"));
+    assert!(!same(1, 0x00, b"\xFF\xFF\xFD"));
+    assert!(!same(1, 0x80, b"\xFF\xFF\xFE"));
+}
+
+#[test]
+fn a_wrong_size_is_told_with_its_place() {
+    // Two bytes of model number, one of firmware version.
+    let offset = |data| PingStatus::parse(data).map_err(|error| error.offset());
+    assert_eq!(offset(&[0]), Err(0));
+    assert_eq!(offset(&[0; 2]), Err(2));
+    assert_eq!(offset(&[0; 4]), Err(3));
+}
+
 /// Data of a status packet, those of byte stuffing among them.
 fn data() -> impl Strategy<Value = Vec<u8>> {
     prop::collection::vec(prop_oneof![3 => Just(0xFF_u8), 2 => Just(0xFD), 1 => any::<u8>()], 0..12)
 }
 
 proptest! {
+    #[test]
+    fn the_highest_bit_is_the_alert(byte in any::<u8>()) {
+        let error = StatusError(byte);
+        prop_assert_eq!(error.alert(), byte >= 128);
+        prop_assert_eq!(error.number().code(), byte % 128);
+    }
+
     #[test]
     fn the_answer_to_a_ping_comes_back(
         model_number in any::<u16>(), firmware_version in any::<u8>(), error in any::<u8>(),
