@@ -12,11 +12,8 @@ cp fuzz/dictionaries/*.dict fuzz/options/*.options "$OUT"
 for options in fuzz/options/*.options; do
     target=$(basename "$options" .options)
     cp "$bin/$target" "$OUT"
-    family=$(sed -n 's/^dict = \(.*\)\.dict/\1/p' "$options")
-    inputs=("fuzz/seeds/$family"/* "fuzz/corpus/$target"/*)
-    for regression in "fuzz/regressions/$target"/*; do
-        [[ ! -f $regression ]] || inputs+=("$regression")
-    done
+    mapfile -t folders < <(fuzz/inputs "$target")
+    mapfile -t inputs < <(find "${folders[@]/#/fuzz/}" -type f)
     rm -f "$OUT/${target}_seed_corpus.zip"
     python3 -m zipfile -c "$OUT/${target}_seed_corpus.zip" "${inputs[@]}"
 done

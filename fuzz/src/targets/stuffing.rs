@@ -38,14 +38,14 @@ pub fn check(body: &[u8]) {
     at_every_split(body, &expected);
 }
 
-/// A packet's parameters may come in parts, and a pattern across them; and the buffer, drawn from
-/// the body's bytes, may have room for much more.
+/// A packet's parameters may come in parts, and a pattern across them; and the buffer may have room
+/// for much more, or not, as is drawn from the body's bytes.
 fn at_every_split(body: &[u8], stuffed: &[u8]) {
     let Some((code, params)) = body.split_first() else { return };
     let packet = reference::frame(1, stuffed);
     let instruction = Instruction::from_code(*code);
     let mut buffer = vec![0; packet.len() + ROOM];
-    // Of a long body a few, drawn too.
+    // Of a long body a few splits, drawn too.
     let mut draw = Draw::of(body);
     let every = params.len() < 12;
     for split in 0..if every { params.len() + 1 } else { 2 } {
