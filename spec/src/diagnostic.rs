@@ -1,6 +1,8 @@
 //! What is wrong with a spec, and where.
 
 use std::fmt;
+use std::ops::Range;
+use std::sync::Arc;
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
@@ -18,46 +20,41 @@ pub struct Diagnostic {
     pub column: usize,
     /// What is wrong, and what would be right.
     pub message: String,
-    text: String,
+    text: Arc<str>,
 }
 
 impl Diagnostic {
     pub(crate) fn new(
         path: &str,
-        text: &str,
+        text: &Arc<str>,
         (line, column): (usize, usize),
         message: String,
     ) -> Self {
-        Self { path: path.to_owned(), line, column, message, text: text.to_owned() }
+        Self { path: path.to_owned(), line, column, message, text: text.clone() }
     }
 
     /// The message with the line that it is about and a caret, over several lines and without
     /// colour.
     #[must_use]
     pub fn excerpt(&self) -> String {
-        let span = self.span();
-        let snippet = Snippet::source(&self.text)
+        let line = self.text.lines().nth(self.line.saturating_sub(1)).unwrap_or_default();
+        let snippet = Snippet::source(line)
+            .line_start(self.line)
             .path(&self.path)
-            .annotation(AnnotationKind::Primary.span(span));
+            .annotation(AnnotationKind::Primary.span(self.span(line)));
         let report = [Level::ERROR.primary_title(&self.message).element(snippet)];
         Renderer::plain().render(&report)
     }
 
     /// The bytes of the node at the column: to the end of its line, or of its row's field.
-    fn span(&self) -> std::ops::Range<usize> {
-        let mut start = 0;
-        for (number, line) in self.text.split_inclusive('\n').enumerate() {
-            if number + 1 == self.line {
-                let before: usize = line.chars().take(self.column - 1).map(char::len_utf8).sum();
-                let before = planted!("spec.column-of-bytes", self.column - 1, before);
-                let node = line.get(before..).unwrap_or_default().trim_end();
-                let nested = node.starts_with(['[', '{']);
-                let end = node.find([',', '}', ']']).filter(|_| !nested).unwrap_or(node.len());
-                return start + before..start + before + end;
-            }
-            start += line.len();
-        }
-        self.text.len()..self.text.len()
+    fn span(&self, line: &str) -> Range<usize> {
+        let before: usize =
+            line.chars().take(self.column.saturating_sub(1)).map(char::len_utf8).sum();
+        let before = planted!("spec.column-of-bytes", self.column - 1, before);
+        let node = line.get(before..).unwrap_or_default().trim_end();
+        let nested = node.starts_with(['[', '{']);
+        let end = node.find([',', '}', ']']).filter(|_| !nested).unwrap_or(node.len());
+        before..before + end
     }
 }
 

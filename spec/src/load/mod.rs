@@ -1,7 +1,11 @@
 //! Reads the YAML into the model. Errors carry file, line and column.
 
+mod bounds;
 mod position;
 
+use std::sync::{Arc, OnceLock};
+
+use position::Places;
 use serde::de::DeserializeOwned;
 
 use crate::Diagnostic;
@@ -45,18 +49,21 @@ const INNFOS: &str = "protocols/innfos.yaml";
 /// What one YAML file says, with the text that it was read from.
 #[derive(Clone, Debug)]
 pub struct File<T> {
-    source: Source,
+    path: String,
+    text: Arc<str>,
+    /// Looked up for the first defect.
+    places: OnceLock<Places>,
     /// What the file says.
     pub content: T,
 }
 
 impl<T: DeserializeOwned> File<T> {
     fn read(source: &Source) -> Result<Self, Diagnostic> {
-        let content = serde_yaml::from_str(&source.text).map_err(|error| {
-            let place = error.location().map_or((1, 1), |at| (at.line(), at.column()));
-            Diagnostic::new(&source.path, &source.text, place, plain_message(&error))
-        })?;
-        Ok(Self { source: source.clone(), content })
+        let (path, text) = (source.path.clone(), Arc::from(&source.text[..]));
+        let content = bounds::check(&text)
+            .and_then(|()| serde_yaml::from_str(&text).map_err(|error| defect(&error)))
+            .map_err(|(place, message)| Diagnostic::new(&path, &text, place, message))?;
+        Ok(Self { path, text, places: OnceLock::new(), content })
     }
 }
 
@@ -64,25 +71,27 @@ impl<T> File<T> {
     /// Path relative to the workspace.
     #[must_use]
     pub fn path(&self) -> &str {
-        &self.source.path
+        &self.path
     }
 
     /// A defect at the node that `node` names, such as `registers[3].range.min`; at the nearest
     /// node around it if there is no such node.
     #[must_use]
     pub fn diagnostic(&self, node: &str, message: String) -> Diagnostic {
-        let place = position::find(&self.source.text, node);
-        Diagnostic::new(&self.source.path, &self.source.text, place, message)
+        let places = self.places.get_or_init(|| Places::of(&self.text));
+        Diagnostic::new(&self.path, &self.text, places.find(node), message)
     }
 }
 
-/// The reader ends its messages with the place, which the diagnostic has as fields.
-fn plain_message(error: &serde_yaml::Error) -> String {
-    let message = error.to_string();
-    match message.rfind(" at line ") {
-        Some(end) => message.get(..end).unwrap_or(&message).to_owned(),
-        None => message,
-    }
+/// Line and column, both from 1, and what is wrong there.
+type Defect = ((usize, usize), String);
+
+/// What the reader says. It ends its messages with the place.
+fn defect(error: &serde_yaml::Error) -> Defect {
+    let place = error.location().map_or((1, 1), |at| (at.line(), at.column()));
+    let mut message = error.to_string();
+    message.truncate(message.rfind(" at line ").unwrap_or(message.len()));
+    (place, message)
 }
 
 /// Everything that the spec folder says, read and checked.
@@ -207,7 +216,12 @@ impl Reader<'_> {
         let files = self.folder(name);
         if files.is_empty() && self.defects.is_empty() {
             let message = format!("the file {name} is missing from the spec folder");
-            self.defects.push(Diagnostic::new(&format!("spec/{name}"), "", (1, 1), message));
+            self.defects.push(Diagnostic::new(
+                &format!("spec/{name}"),
+                &"".into(),
+                (1, 1),
+                message,
+            ));
         }
         files.into_iter().next()
     }

@@ -1,21 +1,39 @@
-//! Where a node of a YAML text stands. The deserialiser tells places only while it reads, so a
-//! rule that finds a defect later asks here, and only then.
+//! Where the nodes of a YAML text stand. The deserialiser tells places only while it reads, so
+//! rules that find a defect later ask here, and only then.
+
+use std::collections::BTreeMap;
 
 use saphyr_parser::{Event, Parser, Span};
 
-/// Line and column, both from 1, of the node that `path` names (`registers[3].range.min`), or of
-/// the nearest node around it.
-pub(super) fn find(text: &str, path: &str) -> (usize, usize) {
-    let mut walk = Walk { parser: Parser::new_from_str(text), wanted: path, best: (0, (1, 1)) };
-    walk.document();
-    walk.best.1
+/// Line and column, both from 1, of each node by its path (`registers[3].range.min`).
+#[derive(Clone, Debug)]
+pub(super) struct Places(BTreeMap<String, (usize, usize)>);
+
+impl Places {
+    /// The nodes of a text, as far as it is YAML.
+    pub(super) fn of(text: &str) -> Self {
+        let mut walk = Walk { parser: Parser::new_from_str(text), places: BTreeMap::new() };
+        walk.document();
+        Self(walk.places)
+    }
+
+    /// The place of the node that `path` names, or of the nearest node around it.
+    pub(super) fn find(&self, mut path: &str) -> (usize, usize) {
+        loop {
+            if let Some(place) = self.0.get(path) {
+                return *place;
+            }
+            match path.rfind(['.', '[']).and_then(|end| path.get(..end)) {
+                Some(around) => path = around,
+                None => return self.0.get("").copied().unwrap_or((1, 1)),
+            }
+        }
+    }
 }
 
 struct Walk<'a> {
     parser: Parser<'a, saphyr_parser::StrInput<'a>>,
-    wanted: &'a str,
-    /// Length of the longest path found so far that leads to the wanted node, and its place.
-    best: (usize, (usize, usize)),
+    places: BTreeMap<String, (usize, usize)>,
 }
 
 impl<'a> Walk<'a> {
@@ -33,7 +51,7 @@ impl<'a> Walk<'a> {
 
     /// Walks one node; `None` when the text ends early.
     fn node(&mut self, event: &Event<'a>, span: Span, path: &str) -> Option<()> {
-        self.offer(path, span);
+        self.places.insert(path.to_owned(), (span.start.line(), span.start.col() + 1));
         match event {
             Event::MappingStart(..) => loop {
                 let (key, key_span) = self.next()?;
@@ -62,34 +80,28 @@ impl<'a> Walk<'a> {
         }
         Some(())
     }
-
-    fn offer(&mut self, path: &str, span: Span) {
-        let leads = self
-            .wanted
-            .strip_prefix(path)
-            .is_some_and(|rest| path.is_empty() || rest.is_empty() || rest.starts_with(['.', '[']));
-        if leads && path.len() >= self.best.0 {
-            self.best = (path.len(), (span.start.line(), span.start.col() + 1));
-        }
-    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::find;
+    use super::Places;
 
     const TEXT: &str = "registers:\n  - address: 0\n    range: {min: 1, max: 2}\n  - address: 7\n";
 
+    fn find(path: &str) -> (usize, usize) {
+        Places::of(TEXT).find(path)
+    }
+
     #[test]
     fn a_node_is_found_by_its_path() {
-        assert_eq!(find(TEXT, "registers[0].address"), (2, 14));
-        assert_eq!(find(TEXT, "registers[0].range.max"), (3, 26));
-        assert_eq!(find(TEXT, "registers[1].address"), (4, 14));
+        assert_eq!(find("registers[0].address"), (2, 14));
+        assert_eq!(find("registers[0].range.max"), (3, 26));
+        assert_eq!(find("registers[1].address"), (4, 14));
     }
 
     #[test]
     fn a_missing_node_falls_back_to_the_one_around_it() {
-        assert_eq!(find(TEXT, "registers[1].range.min"), find(TEXT, "registers[1]"));
-        assert_eq!(find(TEXT, "registers[10]"), find(TEXT, "registers"));
+        assert_eq!(find("registers[1].range.min"), find("registers[1]"));
+        assert_eq!(find("registers[10]"), find("registers"));
     }
 }
