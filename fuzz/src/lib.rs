@@ -80,7 +80,7 @@ table! {
     crc: Dynamixel2, 128;
     stream_raw, repair: Dynamixel2, 1500;
     stream_scenario: Dynamixel2, 1000;
-    stream_cost: Dynamixel2, 2000;
+    stream_cost, repair: Dynamixel2, 2000;
     packet, repair: Dynamixel2, 160;
     register: Dynamixel2, 64;
     fast_status, repair: Dynamixel2, 160;

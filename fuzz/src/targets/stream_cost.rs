@@ -3,6 +3,7 @@
 use actucheck_codec::stream::{DEFAULT_MAX_PACKET, Parser, meter};
 
 use crate::draw::Draw;
+pub use crate::targets::stream_raw::repair;
 
 /// A byte of the stream is looked at so often at most: twice a checkpoint's block for each false
 /// header of a fast status packet, which has 8 bytes, and the search for headers.
