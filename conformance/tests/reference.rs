@@ -6,6 +6,7 @@
 use std::ops::ControlFlow;
 
 use actucheck::cases;
+use actucheck::check::Demand;
 use actucheck::protocol::{Fast, Hello, Op, Output, Rejection, Wire};
 use actucheck::reference::{self, innfos};
 use actucheck::run::run;
@@ -77,6 +78,46 @@ fn the_reference_finds_packets_among_noise() {
     let cut = &one[..one.len() - 3];
     let stream = [&[0xFF, 0xFF, 0xFD], cut, &one, &[0xFF, 0xFF, 0xFD, 0x00, 0x01], &two].concat();
     assert_eq!(reference::packets(&stream), [status(1), status(2)]);
+}
+
+/// A bad packet behind which each receiver goes on as it likes, and one that leads some astray.
+#[test]
+fn the_reference_knows_which_packets_every_receiver_finds() {
+    let good =
+        reference::encode(&Packet::Status { id: 1, error: 0, params: vec![7].into() }).unwrap();
+    let header = |length: u8| [0xFF, 0xFF, 0xFD, 0x00, 0x01, length, 0x00];
+    for (before, certain) in [
+        (vec![], true),
+        (vec![0xFF, 0xFF, 0xFD, 0x00], false),
+        ([&header(4)[..], &[0x55, 0, 0, 0]].concat(), true),
+        ([&header(5)[..], &[0x55, 0, 0, 0]].concat(), false),
+        // Shorter than any status packet.
+        (header(0).to_vec(), false),
+        // Its bytes are all there, but another header among them claims more.
+        ([&header(11)[..], &header(11), &[0x55, 0, 0, 0]].concat(), false),
+    ] {
+        let stream = [&before[..], &good].concat();
+        assert_eq!(reference::packets(&stream).len(), 1, "{before:02x?}");
+        assert_eq!(reference::is_certain(&stream), certain, "{before:02x?}");
+        assert!(reference::is_certain(&[&good[..], &before].concat()), "{before:02x?}");
+    }
+}
+
+/// What is demanded of a stream is what every receiver finds that keeps to the documents.
+#[test]
+fn no_check_judges_where_a_search_goes_on() {
+    let spec = Spec::embedded().unwrap();
+    let options = cases::Options { cases: 1000, ..cases::Options::new(Wire::Dynamixel2) };
+    let mut streams = 0;
+    for check in cases::all(&spec, &options) {
+        let (Op::Stream { chunks, .. }, Demand::Yield(_)) = (&check.op, &check.demand) else {
+            continue;
+        };
+        let stream: Vec<_> = chunks.iter().flat_map(|chunk| chunk.0.clone()).collect();
+        assert!(reference::is_certain(&stream), "{}", check.id);
+        streams += 1;
+    }
+    assert!(streams > 1000, "{streams} streams");
 }
 
 /// The reference model as an implementation.

@@ -8,7 +8,7 @@ mod packet;
 mod stream;
 
 pub use packet::{crc, decode, decode_fast, encode, frame, stuff, unstuff};
-pub use stream::{packets, packets_behind_lengths};
+pub use stream::{is_certain, packets, packets_behind_lengths};
 
 /// What every packet begins with.
 pub const HEADER: [u8; 4] = [0xFF, 0xFF, 0xFD, 0x00];

@@ -4,6 +4,9 @@ use actucheck_spec::model::{Fault, Packet};
 
 use super::{HEADER, PREFIX, decode};
 
+/// The shortest status packet. A receiver may take so many bytes before it looks at their length.
+const SHORTEST: usize = 11;
+
 /// The packets of a stream, however it was cut into chunks. Where no packet begins, the search
 /// goes on one byte further; behind a packet, it goes on at its end. What is incomplete at the end
 /// of the stream is none, and what begins within it is searched for too.
@@ -37,6 +40,27 @@ pub fn packets_behind_lengths(stream: &[u8]) -> Vec<Packet> {
         rest = rest.get(covered.unwrap_or(1)..).unwrap_or_default();
     }
     packets
+}
+
+/// Whether every receiver finds the packets of a stream, wherever it goes on behind what is none:
+/// no false header claims a byte of them.
+#[must_use]
+pub fn is_certain(stream: &[u8]) -> bool {
+    let (mut at, mut claimed) = (0, 0);
+    while let Some(rest) = stream.get(at..).filter(|rest| !rest.is_empty()) {
+        if let Some((_, size)) = first(rest) {
+            if claimed > at {
+                return false;
+            }
+            at += size;
+            continue;
+        }
+        if rest.starts_with(&HEADER) {
+            claimed = claimed.max(at + size(rest).unwrap_or_default().max(SHORTEST));
+        }
+        at += 1;
+    }
+    true
 }
 
 /// The packet that begins here, and its size.
