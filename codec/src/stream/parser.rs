@@ -16,7 +16,12 @@ const BLOCKS: usize = 16;
 ///
 /// A parser takes packets of up to 64 times `BLOCKS` bytes and is little more than twice that
 /// large. 1025 blocks are enough for every packet; such a parser is better kept in a `static` or
-/// a `Box` than on the stack.
+/// a `Box` than on the stack. One of no blocks does not compile:
+///
+/// ```compile_fail,E0080
+/// use actucheck_codec::stream::Parser;
+/// let none = Parser::<0>::default();
+/// ```
 #[derive(Clone, Debug)]
 pub struct Parser<const BLOCKS: usize = 16> {
     /// Twice the longest packet, so that the bytes of an incomplete one are moved to the front
@@ -70,6 +75,7 @@ impl<const BLOCKS: usize> Parser<BLOCKS> {
     /// ```
     #[must_use]
     pub const fn with_max_packet(max_packet: usize) -> Self {
+        const { assert!(BLOCKS > 0, "a parser of no blocks takes no byte") };
         let room = BLOCK * BLOCKS;
         Self {
             buffer: [[[0; BLOCK]; BLOCKS]; 2],
