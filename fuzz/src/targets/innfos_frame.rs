@@ -14,6 +14,9 @@ use crate::targets::shown;
 use crate::yaml;
 
 static INNFOS: LazyLock<Innfos> = LazyLock::new(|| yaml::read("protocols/innfos.yaml"));
+/// Of each code and [way](WAYS), the sizes that the data may have; `None` if it does not go this way.
+static SIZES: LazyLock<Vec<[Option<&[u16]>; 2]>> =
+    LazyLock::new(|| (0..=0xFF).map(|code| WAYS.map(|(kind, _)| sizes(kind, code))).collect());
 
 /// Both ways that a frame can go.
 pub(super) const WAYS: [(Kind, FrameKind); 2] =
@@ -71,7 +74,8 @@ const fn fault(error: FrameError) -> Fault {
 /// A message is what a row of the YAML allows, and says again what it was read from.
 fn understood(frame: &Frame<'_>) {
     let message = Message::parse(frame).inspect_err(shown);
-    let sizes = sizes(frame.kind(), frame.command().code()).unwrap_or_default();
+    let way = usize::from(frame.kind() == Kind::Reply);
+    let sizes = SIZES[usize::from(frame.command().code())][way].unwrap_or_default();
     let allowed = sizes.iter().any(|size| usize::from(*size) == frame.data().len());
     assert_eq!(message.is_ok(), allowed, "{frame:?}");
     let Ok(message) = message else { return };
@@ -81,7 +85,7 @@ fn understood(frame: &Frame<'_>) {
     assert_eq!(message.encode(two).unwrap(), again.unwrap(), "{message:?}");
 }
 
-/// The sizes that the data of a command may have this way; `None` if it does not go this way.
+/// See [`SIZES`].
 fn sizes(kind: Kind, code: u8) -> Option<&'static [u16]> {
     let innfos = &*INNFOS;
     let command = innfos.command(code)?;
