@@ -7,18 +7,29 @@
 
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "suite")]
 pub mod adapter;
 pub mod call;
+#[cfg(feature = "suite")]
 pub mod cases;
+#[cfg(feature = "suite")]
 pub mod check;
+#[cfg(feature = "suite")]
 pub mod expect;
+#[cfg(feature = "suite")]
 pub mod explain;
+#[cfg(feature = "suite")]
 pub mod fuzz;
 pub mod protocol;
+#[cfg(feature = "suite")]
 pub mod record;
 pub mod reference;
+#[cfg(feature = "suite")]
 pub mod report;
+#[cfg(feature = "suite")]
 pub mod run;
+#[cfg(feature = "suite")]
 pub mod select;
 pub mod testee;
+#[cfg(feature = "suite")]
 pub mod verdict;

@@ -14,9 +14,8 @@ use crate::call::Call;
 pub const VERSION: u32 = 1;
 
 /// A protocol whose packets are checked.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema, clap::ValueEnum,
-)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[cfg_attr(feature = "suite", derive(clap::ValueEnum))]
 #[serde(rename_all = "lowercase")]
 pub enum Wire {
     /// DYNAMIXEL Protocol 2.0 and its JA dialect.

@@ -1,12 +1,15 @@
 //! The implementation under test: the built-in codec, or a library behind an adapter.
 
 mod builtin;
+#[cfg(feature = "suite")]
 mod process;
 
 use crate::protocol::{Hello, Op, Output, Rejection};
 
 pub use builtin::{Builtin, fault};
+#[cfg(feature = "suite")]
 pub(crate) use process::{Line, Running};
+#[cfg(feature = "suite")]
 pub use process::{Process, Settings, StartError, Timeouts, Trace};
 
 /// Something that can be asked.
