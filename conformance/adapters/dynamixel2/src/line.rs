@@ -16,9 +16,9 @@ pub(crate) const BUFFER: usize = 4096;
 
 /// How long the library waits for what has arrived already.
 const ARRIVED: Duration = Duration::from_millis(1);
-/// How long the library may wait for the line's end.
+/// How long either end may wait for the other.
 const PATIENCE: Duration = Duration::from_millis(500);
-/// How long a line is quiet when a packet has been sent.
+/// How long a line is quiet behind a packet.
 const QUIET: Duration = Duration::from_millis(1);
 
 /// The library's bus.
@@ -69,19 +69,25 @@ pub(crate) fn sent(
     heard.map_err(broken)
 }
 
-/// Hears one packet, then hangs up.
+/// Hears one packet, then hangs up. A packet may come in pieces, and on a busy machine they come far
+/// from each other: only when all is there that its length tells, quiet is the end.
 fn listen(mut device: SerialPort) -> io::Result<Vec<u8>> {
     let mut heard = Vec::new();
     let mut chunk = [0; BUFFER];
-    device.set_read_timeout(PATIENCE)?;
     loop {
+        device.set_read_timeout(if is_whole(&heard) { QUIET } else { PATIENCE })?;
         match device.read(&mut chunk) {
             Ok(count) => heard.extend(chunk.iter().take(count)),
             Err(error) if error.kind() == io::ErrorKind::TimedOut => return Ok(heard),
             Err(error) => return Err(error),
         }
-        device.set_read_timeout(QUIET)?;
     }
+}
+
+/// Whether as many bytes are there as the length tells.
+fn is_whole(packet: &[u8]) -> bool {
+    let [_, _, _, _, _, low, high, rest @ ..] = packet else { return false };
+    rest.len() >= usize::from(u16::from_le_bytes([*low, *high]))
 }
 
 fn pair() -> Result<(Buffered, SerialPort), Refusal> {
