@@ -4,6 +4,9 @@
 //! answers, and [`report`] tells a person or a program what came out. [`mod@fuzz`] looks for questions
 //! of which no check thought, and [`record`] keeps those that it found. [`adapter`] checks the adapter
 //! itself, before what it says of a library counts.
+//!
+//! The feature `suite`, on by default, has all of this. Without it a model for others' tests is left:
+//! [`mod@reference`], and in [`protocol`] and [`testee`] what it says and is asked.
 
 #![forbid(unsafe_code)]
 
