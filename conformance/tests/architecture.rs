@@ -5,21 +5,27 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 /// A member's dependencies of one kind, by name.
 type Dependencies = BTreeMap<String, BTreeSet<String>>;
 
-/// For each member its dependencies of a kind: `null` is a normal one.
-fn dependencies(kind: &Value) -> Dependencies {
+/// What cargo says of each member.
+fn packages() -> Vec<Value> {
     let output = Command::new(env!("CARGO"))
         .args(["metadata", "--format-version", "1", "--no-deps", "--offline"])
         .args(["--manifest-path", concat!(env!("CARGO_MANIFEST_DIR"), "/../Cargo.toml")])
         .output()
         .unwrap();
     let metadata: Value = serde_json::from_slice(&output.stdout).unwrap();
+    metadata["packages"].as_array().unwrap().clone()
+}
+
+/// For each member its dependencies of a kind: `null` is a normal one.
+fn dependencies(kind: &Value) -> Dependencies {
     let name = |value: &Value| value["name"].as_str().unwrap().to_owned();
-    let members = metadata["packages"].as_array().unwrap().iter().map(|package| {
+    let packages = packages();
+    let members = packages.iter().map(|package| {
         let all = package["dependencies"].as_array().unwrap();
         let of_kind = all.iter().filter(|dependency| dependency["kind"] == *kind);
         (name(package), of_kind.map(name).collect())
@@ -41,6 +47,16 @@ fn data_flows_one_way() {
         let on_the_suite = dependencies.contains("actucheck");
         assert!(!on_the_suite || member == "actucheck-fuzz", "{member} depends on the suite");
     }
+}
+
+#[test]
+fn fuzzing_needs_no_suite() {
+    let of_fuzz =
+        packages().into_iter().find(|package| package["name"] == "actucheck-fuzz").unwrap();
+    let all = of_fuzz["dependencies"].as_array().unwrap();
+    let on_conformance = all.iter().find(|dependency| dependency["name"] == "actucheck").unwrap();
+    assert_eq!(on_conformance["uses_default_features"], false);
+    assert_eq!(on_conformance["features"], json!([]));
 }
 
 #[test]
