@@ -29,11 +29,8 @@
 
 #![cfg_attr(not(test), no_std)]
 
-#[cfg(any(feature = "std", planted))]
+#[cfg(feature = "std")]
 extern crate std;
-
-#[macro_use]
-mod planted;
 
 pub mod crc;
 mod error;

@@ -50,7 +50,6 @@ impl Diagnostic {
     fn span(&self, line: &str) -> Range<usize> {
         let before: usize =
             line.chars().take(self.column.saturating_sub(1)).map(char::len_utf8).sum();
-        let before = planted!("spec.column-of-bytes", self.column - 1, before);
         let node = line.get(before..).unwrap_or_default().trim_end();
         let nested = node.starts_with(['[', '{']);
         let end = node.find([',', '}', ']']).filter(|_| !nested).unwrap_or(node.len());

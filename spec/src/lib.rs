@@ -7,10 +7,6 @@
 
 #![forbid(unsafe_code)]
 
-#[macro_use]
-#[path = "../../codec/src/planted.rs"]
-mod planted;
-
 pub mod check;
 pub mod coverage;
 pub mod diagnostic;

@@ -98,7 +98,6 @@ fn encode_stuffed(
     let mut whole = [0; 2 * WINDOW];
     copy(tail, whole.get_mut(..tail.len())?);
     let count = patterns.count_ones();
-    let count = planted!("packet.length-of-one-stuffing", count.min(1), count);
     // So short a length is all in its low byte.
     let prefix = prefix + (u64::from(count) << 40);
     let target = put_front(Pieces { prefix, ..pieces }, buffer)?;

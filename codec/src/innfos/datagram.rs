@@ -34,11 +34,6 @@ impl<'a> Iterator for Frames<'a> {
         }
         let first = Frame::first(self.kind, self.rest);
         self.rest = first.map_or(&[], |(_, rest)| rest);
-        self.rest = planted!(
-            "innfos.two-ends",
-            self.rest.strip_prefix(&[0xED]).unwrap_or(self.rest),
-            self.rest
-        );
         Some(first.map(|(frame, _)| frame))
     }
 }

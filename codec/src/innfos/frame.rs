@@ -90,7 +90,6 @@ impl<'a> Parts<'a> {
         }
         let (prefix, rest) = bytes.split_first_chunk::<PREFIX>().ok_or(truncated(PREFIX + 1))?;
         let [_, address, command, high, low] = *prefix;
-        let high = planted!("innfos.length-of-a-byte", 0, high);
         let length = usize::from(u16::from_be_bytes([high, low]));
         let crc_len = crc_len(kind, command, length, rest);
         let tail = PREFIX + length + crc_len;
@@ -127,7 +126,7 @@ fn crc_len(kind: Kind, command: u8, length: usize, rest: &[u8]) -> usize {
         [low, high, TAIL, ..] => {
             let crc = u16::from_le_bytes([low, high]);
             let right = crc == 0 || crc == crc::modbus(data);
-            if planted!("innfos.any-crc", true, right) { 2 } else { 0 }
+            if right { 2 } else { 0 }
         }
         _ => 0,
     }

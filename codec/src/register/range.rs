@@ -59,7 +59,6 @@ impl Row {
             Range::OneOf(values) => (values.iter().min().copied(), values.iter().max().copied()),
         };
         let min = min.map_or(smallest, |min| min.max(smallest));
-        let max = planted!("register.end-excluded", max.map(|max| max - 1), max);
         let max = max.map_or(largest, |max| max.min(largest));
         (min, max)
     }

@@ -40,10 +40,7 @@ impl Row {
             (Kind::U8, &[byte]) => byte.into(),
             (Kind::I8, &[byte]) => i8::from_le_bytes([byte]).into(),
             (Kind::U16, &[low, high]) => u16::from_le_bytes([low, high]).into(),
-            (Kind::I16, &[low, high]) => {
-                let value = i16::from_le_bytes([low, high]).into();
-                planted!("register.sign-lost", value & 0xFFFF, value)
-            }
+            (Kind::I16, &[low, high]) => i16::from_le_bytes([low, high]).into(),
             (Kind::U32, &[a, b, c, d]) => u32::from_le_bytes([a, b, c, d]).into(),
             (Kind::I32, &[a, b, c, d]) => i32::from_le_bytes([a, b, c, d]).into(),
             _ => return None,

@@ -197,18 +197,8 @@ impl<const BLOCKS: usize> Parser<BLOCKS> {
             Verdict::Whole(whole) if self.crc_matches(whole) => return Some(whole),
             Verdict::Whole(_) => self.begin_run(Reason::Crc),
             Verdict::False(reason) => self.begin_run(reason),
-            Verdict::Open
-                if planted!(
-                    "stream.short-before-quiet",
-                    self.quiet && self.ahead().len() > 9,
-                    self.quiet
-                ) =>
-            {
-                self.begin_run(Reason::Truncated);
-            }
-            Verdict::Open => {
-                self.progress = planted!("stream.looks-again", Progress::new(), progress);
-            }
+            Verdict::Open if self.quiet => self.begin_run(Reason::Truncated),
+            Verdict::Open => self.progress = progress,
         }
         None
     }
@@ -219,14 +209,13 @@ impl<const BLOCKS: usize> Parser<BLOCKS> {
         let buffer = self.buffer.as_flattened().as_flattened();
         let found = buffer.get(end..).and_then(<[u8]>::first_chunk);
         // Other packets can't overlap but for a few bytes, so that reading them all is no harm.
-        let computed =
-            if whole.fast && whole.len > planted!("stream.no-checkpoints", usize::MAX, 2 * BLOCK) {
-                self.checkpoints.range(buffer, self.start, end)
-            } else {
-                let bytes = buffer.get(self.start..end).unwrap_or_default();
-                meter::add(bytes.len());
-                crc::umts(bytes)
-            };
+        let computed = if whole.fast && whole.len > 2 * BLOCK {
+            self.checkpoints.range(buffer, self.start, end)
+        } else {
+            let bytes = buffer.get(self.start..end).unwrap_or_default();
+            meter::add(bytes.len());
+            crc::umts(bytes)
+        };
         found.is_some_and(|found| computed == u16::from_le_bytes(*found))
     }
 

@@ -128,8 +128,7 @@ fn len(bytes: &[u8]) -> Option<usize> {
 /// belongs behind it.
 #[inline]
 fn patterns(places: Places, len: usize) -> Option<usize> {
-    let in_body = planted!("stream.pattern-at-the-end", in_body(len) >> 1, in_body(len));
-    let patterns = places.patterns & in_body;
+    let patterns = places.patterns & in_body(len);
     // And so must be its stuffing.
     let stuffed = (places.stuffing & u64::MAX >> CRC) >> STUFFING_PATTERN.len();
     (patterns & !stuffed == 0).then_some(patterns.count_ones() as usize)

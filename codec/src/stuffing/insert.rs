@@ -50,7 +50,7 @@ impl Task for Insert<'_> {
         let (mut missing, mut at) = (0, start);
         while at < end {
             missing += patterns(backend, buffer, at, end).count_ones() as usize;
-            at += planted!("stuffing.between-windows", PLACES + 1, PLACES);
+            at += PLACES;
         }
         let stuffed_end = end + missing;
         if stuffed_end > buffer.len() {

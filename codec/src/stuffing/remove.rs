@@ -57,7 +57,7 @@ impl Task for Short<'_> {
         // Where there is no stuffing, that of a body that ends there.
         let stuffing = |patterns: u64| (patterns.trailing_zeros() as usize + 3).min(stuffed);
         let first = stuffing(patterns);
-        let second = planted!("stream.second-stays", stuffed, stuffing(others));
+        let second = stuffing(others);
         let after = |at: usize| bytes.get(at + 1..)?.first_chunk::<WINDOW>();
         *whole.first_chunk_mut()? = *after(0)?;
         *whole.get_mut(first - 1..)?.first_chunk_mut()? = *after(first)?;
@@ -137,13 +137,12 @@ impl Task for Checked<'_> {
             let (mut left, mut done) = (patterns & ((1 << decided) - 1), 0);
             while left != 0 {
                 let behind = left.trailing_zeros() as usize + STUFFING_PATTERN.len();
-                let bare = stuffing >> behind & 1 == 0;
-                if planted!("stuffing.bare-at-the-end", bare && behind < rest.len(), bare) {
+                if stuffing >> behind & 1 == 0 {
                     return Err(read + behind);
                 }
                 keep(done, behind);
                 done = behind + 1;
-                left &= planted!("stuffing.one-a-window", 0, left - 1);
+                left &= left - 1;
             }
             if done < decided {
                 keep(done, decided);
