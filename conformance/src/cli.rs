@@ -8,8 +8,8 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use actucheck::cases::Options;
-use actucheck::protocol::{Fast, Wire};
+use actucheck::adapter::{Fast, Wire};
+use actucheck::suite::Options;
 use clap::{Args, Parser, Subcommand};
 
 /// Checks implementations of robot actuators' protocols against the documents.

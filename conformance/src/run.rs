@@ -8,40 +8,40 @@ use std::thread;
 
 use actucheck_spec::model::Level;
 
-use crate::check::Check;
-use crate::protocol::{Hello, Op};
-use crate::testee::{Answer, Testee};
+use crate::adapter::{Hello, Op};
+use crate::subject::{Answer, Subject};
+use crate::suite::check::Check;
 use crate::verdict::{Outcome, Verdict};
 
-/// Asks all `checks` of some testees that are the same implementation, each of which works through
+/// Asks all `checks` of some subjects that are the same implementation, each of which works through
 /// them beside the others. `watch` hears of each outcome as it comes and may end the run; what is
 /// outstanding then is still waited for. Outcomes are in the order of the checks, those of checks
 /// that were not asked are missing. An adapter that answers an op that does not exist is shown as
 /// a fault before all else.
 pub fn run(
-    testees: &mut [Box<dyn Testee + Send>],
+    subjects: &mut [Box<dyn Subject + Send>],
     checks: &[Check],
     watch: impl FnMut(&Outcome) -> ControlFlow<()> + Send,
 ) -> Vec<Outcome> {
-    let fault = testees.first_mut().and_then(|testee| invented_op(testee.as_mut()));
-    let (presuming, others): (Vec<_>, Vec<_>) = checks
+    let fault = subjects.first_mut().and_then(|subject| invented_op(subject.as_mut()));
+    let (requiring, others): (Vec<_>, Vec<_>) = checks
         .iter()
         .enumerate()
         .map(|(place, _)| place)
-        .partition(|place| checks.get(*place).is_some_and(|check| check.presumes.is_some()));
+        .partition(|place| checks.get(*place).is_some_and(|check| check.requires.is_some()));
     let ledger = Mutex::new(Ledger {
         outcomes: checks.iter().map(|_| None).collect(),
         skipped: BTreeSet::new(),
         watch,
     });
     let stopped = AtomicBool::new(false);
-    // Whether a check makes sense is known only when the one that it presumes is answered.
-    for places in [others, presuming] {
+    // Whether a check makes sense is known only when the one that it requires is answered.
+    for places in [others, requiring] {
         let next = AtomicUsize::new(0);
         let round = Round { checks, places, next, stopped: &stopped, ledger: &ledger };
         thread::scope(|scope| {
-            for testee in &mut *testees {
-                scope.spawn(|| round.ask(testee.as_mut()));
+            for subject in &mut *subjects {
+                scope.spawn(|| round.ask(subject.as_mut()));
             }
         });
     }
@@ -70,9 +70,9 @@ struct Round<'a, W> {
 }
 
 impl<W: FnMut(&Outcome) -> ControlFlow<()>> Round<'_, W> {
-    /// Asks one testee until no check is left.
-    fn ask(&self, testee: &mut (dyn Testee + Send)) {
-        let hello = testee.hello().clone();
+    /// Asks one subject until no check is left.
+    fn ask(&self, subject: &mut (dyn Subject + Send)) {
+        let hello = subject.hello().clone();
         let mut questions = std::iter::from_fn(|| {
             loop {
                 let (place, check) = self.take()?;
@@ -82,7 +82,7 @@ impl<W: FnMut(&Outcome) -> ControlFlow<()>> Round<'_, W> {
                 }
             }
         });
-        testee.ask_all(&mut questions, &mut |place, answer| self.enter(place, answer));
+        subject.ask_all(&mut questions, &mut |place, answer| self.enter(place, answer));
     }
 
     fn take(&self) -> Option<(usize, &Check)> {
@@ -95,9 +95,9 @@ impl<W: FnMut(&Outcome) -> ControlFlow<()>> Round<'_, W> {
 
     /// Why a check is not even asked.
     fn not_asked(&self, hello: &Hello, check: &Check) -> Option<String> {
-        let presumed = check.presumes.as_ref();
-        if presumed.is_some_and(|id| self.ledger().skipped.contains(id.as_str())) {
-            return Some("the check that it presumes is skipped too".to_owned());
+        let required = check.requires.as_ref();
+        if required.is_some_and(|id| self.ledger().skipped.contains(id.as_str())) {
+            return Some("the check that it requires is skipped too".to_owned());
         }
         not_offered(hello, check)
     }
@@ -123,8 +123,8 @@ impl<W: FnMut(&Outcome) -> ControlFlow<()>> Round<'_, W> {
 }
 
 /// What a good adapter skips, so that it can skip what a later suite asks.
-fn invented_op(testee: &mut dyn Testee) -> Option<Outcome> {
-    let (verdict, detail) = match testee.ask(&Op::Invented) {
+fn invented_op(subject: &mut dyn Subject) -> Option<Outcome> {
+    let (verdict, detail) = match subject.ask(&Op::Invented) {
         Answer::Skipped(_) => return None,
         Answer::TimedOut(detail) => (Verdict::Timeout, detail),
         Answer::Crashed(detail) => (Verdict::Crash, detail),

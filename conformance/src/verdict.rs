@@ -7,7 +7,7 @@ use actucheck_spec::model::{HexBytes, Level, Packet};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::protocol::{Op, Output};
+use crate::adapter::{Op, Output};
 
 /// What came out of a check, in one word.
 #[derive(

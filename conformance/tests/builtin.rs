@@ -6,19 +6,19 @@
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
-use actucheck::cases;
-use actucheck::check::Check;
-use actucheck::protocol::{Hello, Op, Output, Wire};
+use actucheck::adapter::{Hello, Op, Output, Wire};
 use actucheck::run::run;
-use actucheck::testee::{Answer, Builtin, Testee};
+use actucheck::subject::{Answer, Builtin, Subject};
+use actucheck::suite;
+use actucheck::suite::check::{Check, Demand};
 use actucheck::verdict::{Outcome, Totals, Verdict};
 use actucheck_spec::Spec;
 use actucheck_spec::coverage::{self, CheckName, Cover};
 use actucheck_spec::model::{CheckedBy, Fault, Packet, Role};
 
 fn checks() -> Vec<Check> {
-    let options = cases::Options { cases: 100, ..cases::Options::new(Wire::Dynamixel2) };
-    cases::all(&Spec::embedded().unwrap(), &options)
+    let options = suite::Options { cases: 100, ..suite::Options::new(Wire::Dynamixel2) };
+    suite::all(&Spec::embedded().unwrap(), &options)
 }
 
 /// The built-in codec with its answers to one op bent.
@@ -27,7 +27,7 @@ struct Bent<F> {
     bend: F,
 }
 
-impl<F: Fn(&Op, Answer) -> Answer + Send> Testee for Bent<F> {
+impl<F: Fn(&Op, Answer) -> Answer + Send> Subject for Bent<F> {
     fn hello(&self) -> &Hello {
         self.codec.hello()
     }
@@ -39,8 +39,8 @@ impl<F: Fn(&Op, Answer) -> Answer + Send> Testee for Bent<F> {
 }
 
 fn outcomes(bend: impl Fn(&Op, Answer) -> Answer + Send + 'static) -> Vec<Outcome> {
-    let testee = Bent { codec: Builtin::default(), bend };
-    run(&mut [Box::new(testee)], &checks(), |_| ControlFlow::Continue(()))
+    let subject = Bent { codec: Builtin::default(), bend };
+    run(&mut [Box::new(subject)], &checks(), |_| ControlFlow::Continue(()))
 }
 
 /// The ops whose checks failed.
@@ -124,9 +124,7 @@ fn accepting_damaged_packets_fails_each_negative_check() {
     });
     let failed: Vec<_> =
         outcomes.iter().filter(|outcome| outcome.verdict == Verdict::Fail).collect();
-    let negative = checks()
-        .into_iter()
-        .filter(|check| matches!(check.demand, actucheck::check::Demand::Reject(_)));
+    let negative = checks().into_iter().filter(|check| matches!(check.demand, Demand::Reject(_)));
     assert_eq!(failed.len(), negative.count());
 }
 
@@ -155,7 +153,7 @@ fn rejecting_everything_fails_all_that_is_valid_but_not_what_is_open() {
     let outcomes = outcomes(|op, answer| match answer {
         Answer::Ok(_) if matches!(op, Op::Decode { .. }) => {
             let detail = String::new();
-            Answer::Rejected(actucheck::protocol::Rejection { class: Fault::Crc, detail })
+            Answer::Rejected(actucheck::adapter::Rejection { class: Fault::Crc, detail })
         }
         answer => answer,
     });
@@ -169,7 +167,7 @@ fn rejecting_everything_fails_all_that_is_valid_but_not_what_is_open() {
 #[test]
 fn requirements_say_whether_the_suite_checks_them() {
     let spec = Spec::embedded().unwrap();
-    let all = Wire::ALL.into_iter().flat_map(|wire| cases::all(&spec, &cases::Options::new(wire)));
+    let all = Wire::ALL.into_iter().flat_map(|wire| suite::all(&spec, &suite::Options::new(wire)));
     let named: BTreeSet<_> = all.map(|check| check.requirement).collect();
     for row in spec.requirements.iter().flat_map(|file| &file.content.requirements) {
         let said = match row.checked_by {
@@ -186,7 +184,7 @@ fn no_requirement_on_a_codec_is_left_uncovered() {
     let spec = Spec::embedded().unwrap();
     let all: Vec<_> = Wire::ALL
         .into_iter()
-        .flat_map(|wire| cases::all(&spec, &cases::Options::new(wire)))
+        .flat_map(|wire| suite::all(&spec, &suite::Options::new(wire)))
         .collect();
     let names = all.iter().map(|check| CheckName {
         id: &check.id,

@@ -5,12 +5,12 @@
 
 use std::ops::ControlFlow;
 
-use actucheck::cases;
-use actucheck::check::Demand;
-use actucheck::protocol::{Fast, Hello, Op, Output, Rejection, Wire};
+use actucheck::adapter::{Fast, Hello, Op, Output, Rejection, Wire};
 use actucheck::reference::{self, innfos};
 use actucheck::run::run;
-use actucheck::testee::{Answer, Builtin, Testee};
+use actucheck::subject::{Answer, Builtin, Subject};
+use actucheck::suite;
+use actucheck::suite::check::Demand;
 use actucheck::verdict::Verdict;
 use actucheck_spec::Spec;
 use actucheck_spec::model::{Fault, FrameKind, Outcome, Packet};
@@ -107,9 +107,9 @@ fn the_reference_knows_which_packets_every_receiver_finds() {
 #[test]
 fn no_check_judges_where_a_search_goes_on() {
     let spec = Spec::embedded().unwrap();
-    let options = cases::Options { cases: 1000, ..cases::Options::new(Wire::Dynamixel2) };
+    let options = suite::Options { cases: 1000, ..suite::Options::new(Wire::Dynamixel2) };
     let mut streams = 0;
-    for check in cases::all(&spec, &options) {
+    for check in suite::all(&spec, &options) {
         let (Op::Stream { chunks, .. }, Demand::Yield(_)) = (&check.op, &check.demand) else {
             continue;
         };
@@ -123,7 +123,7 @@ fn no_check_judges_where_a_search_goes_on() {
 /// The reference model as an implementation.
 struct Model(Builtin);
 
-impl Testee for Model {
+impl Subject for Model {
     fn hello(&self) -> &Hello {
         self.0.hello()
     }
@@ -171,8 +171,8 @@ impl Testee for Model {
 fn the_reference_passes_every_check() {
     let spec = Spec::embedded().unwrap();
     for wire in Wire::ALL {
-        let options = cases::Options { cases: 100, ..cases::Options::new(wire) };
-        let checks = cases::all(&spec, &options);
+        let options = suite::Options { cases: 100, ..suite::Options::new(wire) };
+        let checks = suite::all(&spec, &options);
         let model = Model(Builtin::default());
         let outcomes = run(&mut [Box::new(model)], &checks, |_| ControlFlow::Continue(()));
         let bad = outcomes

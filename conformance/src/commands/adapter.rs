@@ -3,9 +3,9 @@
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-use actucheck::adapter::{self, Point, Report, Said};
-use actucheck::cases::{self, Options};
-use actucheck::protocol::Wire;
+use actucheck::adapter::Wire;
+use actucheck::adapter::lint::{self, Point, Report, Said};
+use actucheck::suite::{self, Options};
 use anstyle::AnsiColor;
 
 use super::Failure;
@@ -38,11 +38,11 @@ fn template(options: &Template) -> ExitCode {
 fn check(options: &Check) -> Result<ExitCode, Failure> {
     let spec = super::spec()?;
     // The questions are the documents'; none is generated.
-    let of = |wire| cases::all(&spec, &Options { cases: 0, ..Options::new(wire) });
+    let of = |wire| suite::all(&spec, &Options { cases: 0, ..Options::new(wire) });
     let checks: Vec<_> = Wire::ALL.into_iter().flat_map(of).collect();
     let settings = super::settings(&options.exchange)?;
     let command = options.command.join(" ");
-    let report = adapter::check(&options.command, &settings, &checks).map_err(|error| {
+    let report = lint::check(&options.command, &settings, &checks).map_err(|error| {
         let message = format!("cannot run `{command}`: {error}; give the command after `--`");
         Failure::new(Failure::NOT_STARTED, message)
     })?;

@@ -8,11 +8,11 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use actucheck::expect::Expectations;
-use actucheck::protocol::Op;
-use actucheck::record;
+use actucheck::adapter::Op;
 use actucheck::report::{Report, Run, Stopped, text};
 use actucheck::run;
+use actucheck::suite::expect::Expectations;
+use actucheck::suite::saved;
 use actucheck::verdict::Outcome;
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -25,12 +25,12 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     let spec = super::spec()?;
     let selection = &options.selection;
     let outputs = Outputs::open(&options.reports)?;
-    let mut testees = super::testees(&options.adapter, options.jobs)?;
-    let hello = testees.hello.clone();
+    let mut subjects = super::subjects(&options.adapter, options.jobs)?;
+    let hello = subjects.hello.clone();
     let mut all = super::checks(&spec, selection.wire, &selection.growth, Some(&hello));
     let mut records = BTreeMap::new();
     for path in &options.also {
-        let more = record::read(path).map_err(|error| Failure::new(Failure::USAGE, error))?;
+        let more = saved::read(path).map_err(|error| Failure::new(Failure::USAGE, error))?;
         for (_, check) in more.into_iter().filter(|(wire, _)| *wire == selection.wire) {
             records.insert(check.id.clone(), path.clone());
             all.push(check);
@@ -47,7 +47,7 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     let progress = progress(checks.len());
     let started = Instant::now();
     let mut limit = Limit::new(options.max_fail, super::interrupted()?);
-    let mut outcomes = run::run(&mut testees.all, &checks, |outcome| {
+    let mut outcomes = run::run(&mut subjects.all, &checks, |outcome| {
         progress.inc(1);
         limit.after(outcome, &expectations)
     });
@@ -67,7 +67,7 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
         outcomes,
         stopped: limit.stopped,
         seconds,
-        log: testees.end()?,
+        log: subjects.end()?,
     });
     outputs.write(|format, out| format.write(&report, out), |out| text::write(&report, out))?;
     Ok(ExitCode::from(report.exit_status()))

@@ -4,10 +4,10 @@ use std::fmt;
 use std::io::{self, Read as _, Write as _};
 use std::process::ExitCode;
 
+use actucheck::adapter::{Op, Output, Wire};
 use actucheck::explain::frame::{explain, explain_fast};
 use actucheck::explain::{Explanation, innfos};
-use actucheck::protocol::{Op, Output, Wire};
-use actucheck::testee::{Answer, Builtin, Testee as _};
+use actucheck::subject::{Answer, Builtin, Subject as _};
 use actucheck_codec::dynamixel2::Instruction;
 use actucheck_codec::register::Device;
 use actucheck_codec::{ja_variant, ja40, xm430_w210};

@@ -7,10 +7,10 @@ use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
-use actucheck::cases::Options;
-use actucheck::fuzz::{Finding, Fuzzed, fuzz};
-use actucheck::record;
+use actucheck::blackbox::{Finding, Fuzzed, fuzz};
 use actucheck::report::{Report, Run, text};
+use actucheck::suite::Options;
+use actucheck::suite::saved;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::Failure;
@@ -25,8 +25,8 @@ const RESTARTS: u32 = 1000;
 /// Fuzzes, and shows and keeps what was found.
 pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
     let spec = super::spec()?;
-    let mut testees = super::testees_with(&options.adapter, 1, RESTARTS)?;
-    let hello = testees.hello.clone();
+    let mut subjects = super::subjects_with(&options.adapter, 1, RESTARTS)?;
+    let hello = subjects.hello.clone();
     let seed = options.seed.unwrap_or_else(|| RandomState::new().hash_one(()));
     let cases = options.cases.unwrap_or(u64::MAX);
     let time = options.time.or_else(|| options.cases.is_none().then_some(MINUTE));
@@ -34,8 +34,8 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
     let started = Instant::now();
     let interrupted = super::interrupted()?;
     let progress = progress(options.cases);
-    let Some(testee) = testees.all.first_mut() else { return Ok(ExitCode::SUCCESS) };
-    let fuzzed = fuzz(&spec, options.wire, seed, cases, testee.as_mut(), |asked, found| {
+    let Some(subject) = subjects.all.first_mut() else { return Ok(ExitCode::SUCCESS) };
+    let fuzzed = fuzz(&spec, options.wire, seed, cases, subject.as_mut(), |asked, found| {
         progress.set_position(asked);
         progress.set_message(format!("{found} kinds of failure"));
         let over = time.is_some_and(|time| started.elapsed() >= time);
@@ -45,7 +45,7 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
         ControlFlow::Continue(())
     });
     progress.finish_and_clear();
-    let log = testees.end()?;
+    let log = subjects.end()?;
 
     keep(options, &fuzzed.findings)?;
     let outcomes: Vec<_> = fuzzed.findings.iter().map(|finding| finding.outcome.clone()).collect();
@@ -87,7 +87,7 @@ fn keep(options: &Fuzz, findings: &[Finding]) -> Result<(), Failure> {
         let path = options.out.display();
         Failure::new(Failure::INCOMPLETE, format!("cannot write {path}: {error}"))
     };
-    let text = record::write(&checks).map_err(|error| cannot_write(&error))?;
+    let text = saved::write(&checks).map_err(|error| cannot_write(&error))?;
     std::fs::write(&options.out, text).map_err(|error| cannot_write(&error))
 }
 

@@ -19,11 +19,11 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use actucheck::cases;
-use actucheck::check::Check;
-use actucheck::protocol::{Hello, Wire};
-use actucheck::select::select;
-use actucheck::testee::{Builtin, Process, Settings, Testee, Timeouts, Trace};
+use actucheck::adapter::{Hello, Settings, Timeouts, Trace, Wire};
+use actucheck::subject::{Builtin, Process, Subject};
+use actucheck::suite;
+use actucheck::suite::check::Check;
+use actucheck::suite::select::select;
 use actucheck_spec::Spec;
 use actucheck_spec::model::Level;
 
@@ -69,14 +69,14 @@ fn spec() -> Result<Spec, Failure> {
 
 /// Every check of a wire; with the lengths around its limit for an implementation that says one.
 fn checks(spec: &Spec, wire: Wire, growth: &Growth, hello: Option<&Hello>) -> Vec<Check> {
-    cases::all(spec, &options(wire, growth, hello))
+    suite::all(spec, &options(wire, growth, hello))
 }
 
 /// What decides which checks a wire has.
-fn options(wire: Wire, growth: &Growth, hello: Option<&Hello>) -> cases::Options {
+fn options(wire: Wire, growth: &Growth, hello: Option<&Hello>) -> suite::Options {
     let max_packet = hello.and_then(|hello| hello.limits.max_packet);
     let Growth { seed, cases, body_length } = *growth;
-    cases::Options { wire, seed, cases, body_length, max_packet }
+    suite::Options { wire, seed, cases, body_length, max_packet }
 }
 
 /// The checks that the user means.
@@ -105,7 +105,7 @@ fn named(
             Some((wire, check))
         })
     };
-    let longest = Growth { body_length: cases::Options::LONGEST_BODY, ..*growth };
+    let longest = Growth { body_length: suite::Options::LONGEST_BODY, ..*growth };
     all(*growth).or_else(|| all(longest)).ok_or_else(|| {
         let message = format!("no check has the id `{id}`; `actucheck list` has them all");
         Failure::new(Failure::USAGE, message)
@@ -113,32 +113,32 @@ fn named(
 }
 
 /// What is to be asked: `jobs` processes of the adapter, or the built-in codec without one.
-fn testees(adapter: &Adapter, jobs: u8) -> Result<Testees, Failure> {
-    testees_with(adapter, jobs, Settings::default().restarts)
+fn subjects(adapter: &Adapter, jobs: u8) -> Result<Subjects, Failure> {
+    subjects_with(adapter, jobs, Settings::default().restarts)
 }
 
 /// The same, with another limit to how often each process is started again.
-fn testees_with(adapter: &Adapter, jobs: u8, restarts: u32) -> Result<Testees, Failure> {
+fn subjects_with(adapter: &Adapter, jobs: u8, restarts: u32) -> Result<Subjects, Failure> {
     if adapter.command.is_empty() {
         // clap does not tell `--` with nothing behind it from no `--` at all.
         if std::env::args_os().next_back().is_some_and(|last| last == "--") {
             let message = "no command behind `--`; give the adapter's, such as python3 adapter.py";
             return Err(Failure::new(Failure::USAGE, message));
         }
-        let mut testees = Testees::of(Builtin::default());
-        testees.all.resize_with(jobs.into(), || Box::new(Builtin::default()));
-        return Ok(testees);
+        let mut subjects = Subjects::of(Builtin::default());
+        subjects.all.resize_with(jobs.into(), || Box::new(Builtin::default()));
+        return Ok(subjects);
     }
     let settings = settings(&adapter.exchange)?;
     let start = |number| {
         Process::start(&adapter.command, Settings { restarts, number, ..settings.clone() })
             .map_err(|error| Failure::new(Failure::NOT_STARTED, error))
     };
-    let mut testees = Testees::of(start(1)?);
+    let mut subjects = Subjects::of(start(1)?);
     for number in 2..=u32::from(jobs) {
-        testees.all.push(Box::new(start(number)?));
+        subjects.all.push(Box::new(start(number)?));
     }
-    Ok(Testees { trace: settings.trace, ..testees })
+    Ok(Subjects { trace: settings.trace, ..subjects })
 }
 
 /// How an adapter is run, the first of its kind.
@@ -159,21 +159,21 @@ fn interrupted() -> Result<Arc<AtomicBool>, Failure> {
 }
 
 /// One implementation, once or several times.
-struct Testees {
+struct Subjects {
     /// What it says of itself.
     hello: Hello,
-    all: Vec<Box<dyn Testee + Send>>,
+    all: Vec<Box<dyn Subject + Send>>,
     trace: Option<Trace>,
 }
 
-impl Testees {
-    fn of(testee: impl Testee + Send + 'static) -> Self {
-        Self { hello: testee.hello().clone(), all: vec![Box::new(testee)], trace: None }
+impl Subjects {
+    fn of(subject: impl Subject + Send + 'static) -> Self {
+        Self { hello: subject.hello().clone(), all: vec![Box::new(subject)], trace: None }
     }
 
     /// Ends it; the last lines that it logged.
     fn end(self) -> Result<String, Failure> {
-        let logs = self.all.iter().map(|testee| testee.log());
+        let logs = self.all.iter().map(|subject| subject.log());
         let log = logs.filter(|log| !log.is_empty()).collect::<Vec<_>>().join("\n");
         drop(self.all);
         if let Some(trace) = self.trace {

@@ -4,11 +4,11 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::process::ExitCode;
 
-use actucheck::check::Check;
-use actucheck::protocol::{Hello, Wire};
-use actucheck::record;
+use actucheck::adapter::{Hello, Wire};
 use actucheck::report::{Report, Run, text};
 use actucheck::run;
+use actucheck::suite::check::Check;
+use actucheck::suite::saved;
 use actucheck_spec::Spec;
 
 use super::Failure;
@@ -17,13 +17,13 @@ use crate::cli::Replay;
 /// Asks one check, or those of a file, and prints the whole report on them.
 pub(crate) fn run(options: &Replay) -> Result<ExitCode, Failure> {
     let spec = super::spec()?;
-    let mut testees = super::testees(&options.adapter, 1)?;
-    let hello = testees.hello.clone();
+    let mut subjects = super::subjects(&options.adapter, 1)?;
+    let hello = subjects.hello.clone();
     let (wire, checks) = meant(options, &spec, &hello)?;
     let path = Path::new(&options.what);
     let ids = checks.iter().filter(|_| path.is_file()).map(|check| check.id.clone());
     let records = ids.map(|id| (id, path.to_owned())).collect();
-    let outcomes = run::run(&mut testees.all, &checks, |_| ControlFlow::Continue(()));
+    let outcomes = run::run(&mut subjects.all, &checks, |_| ControlFlow::Continue(()));
     let report = Report::from(Run {
         spec: &spec,
         implementation: &hello.implementation,
@@ -34,7 +34,7 @@ pub(crate) fn run(options: &Replay) -> Result<ExitCode, Failure> {
         stopped: None,
         left: 0,
         seconds: 0.0,
-        log: testees.end()?,
+        log: subjects.end()?,
     });
     let mut out = anstream::stdout();
     checks
@@ -52,7 +52,7 @@ fn meant(options: &Replay, spec: &Spec, hello: &Hello) -> Result<(Wire, Vec<Chec
         let (wire, check) = super::named(spec, &options.what, &options.growth, Some(hello))?;
         return Ok((wire, vec![check]));
     }
-    let checks = record::read(path).map_err(|error| Failure::new(Failure::USAGE, error))?;
+    let checks = saved::read(path).map_err(|error| Failure::new(Failure::USAGE, error))?;
     let wire = checks.first().map_or(Wire::Dynamixel2, |(wire, _)| *wire);
     Ok((wire, checks.into_iter().map(|(_, check)| check).collect()))
 }

@@ -8,7 +8,7 @@ use actucheck_codec::register::{Device, NamedValue, Row as Register};
 use actucheck_codec::{FastStatus, Frame, FrameError, StatusError};
 
 use super::table::{Explanation, Table, low_first, rounded};
-use crate::protocol::Fast;
+use crate::adapter::Fast;
 
 /// Bytes of header, ID and length.
 const PREFIX: usize = 7;

@@ -3,7 +3,7 @@
 use actucheck_spec::model::{Block, Fault, HexBytes, Packet};
 
 use super::{BROADCAST, HEADER, PATTERN, PREFIX, STATUS};
-use crate::protocol::Fast;
+use crate::adapter::Fast;
 
 /// CRC-16/UMTS: the remainder of the message times x^16 by x^16 + x^15 + x^2 + 1, bit by bit.
 #[must_use]

@@ -10,9 +10,9 @@ use indexmap::{IndexMap, IndexSet};
 use super::model::{
     CheckResult, Question, Report, RequirementResult, Statement, Stopped, Tally, VERSION,
 };
-use crate::cases::Options;
+use crate::adapter::{Implementation, Op, Wire};
 use crate::explain::diff;
-use crate::protocol::{Implementation, Op, Wire};
+use crate::suite::Options;
 use crate::verdict::{Outcome, Totals, Verdict};
 
 /// A finished run.

@@ -6,8 +6,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::words;
+use crate::adapter::{Implementation, Wire};
 use crate::explain::diff::Diff;
-use crate::protocol::{Implementation, Wire};
 use crate::verdict::{Outcome, Totals, Verdict};
 
 /// Version of the report's form. It changes when a field goes or takes another meaning.

@@ -9,7 +9,7 @@ use anstyle::{AnsiColor, Style};
 use super::model::{CheckResult, Report, Statement};
 use super::view::Group;
 use super::words;
-use crate::check::{Check, Demand, Open};
+use crate::suite::check::{Check, Demand, Unspecified};
 use crate::verdict::{Totals, Verdict};
 
 /// How many checks of a group are shown with their evidence, and how many more by their ids.
@@ -73,7 +73,7 @@ pub fn check(spec: &Spec, check: &Check, out: &mut dyn Write) -> io::Result<()> 
 }
 
 /// A question that the documents leave open, and the ways that are foreseen.
-fn question(open: &Open, out: &mut dyn Write) -> io::Result<()> {
+fn question(open: &Unspecified, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "  {:9} {}", "recorded", open.question)?;
     for way in &open.ways {
         writeln!(out, "  {:9} {}: {}", "", way.name, way.output)?;

@@ -5,8 +5,8 @@ use std::fmt;
 use indexmap::IndexMap;
 
 use super::model::{CheckResult, Report, RequirementResult};
+use crate::adapter::Output;
 use crate::explain::diff::Row;
-use crate::protocol::Output;
 use crate::verdict::{Outcome, Verdict};
 
 impl Report {

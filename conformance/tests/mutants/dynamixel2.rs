@@ -1,6 +1,6 @@
 //! Implementations of DYNAMIXEL Protocol 2.0 that are wrong in one way each.
 
-use actucheck::protocol::{Op, Output};
+use actucheck::adapter::{Op, Output};
 use actucheck::reference::{self, HEADER};
 use actucheck_spec::model::Packet;
 

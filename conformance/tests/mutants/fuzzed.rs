@@ -2,20 +2,20 @@
 
 use std::ops::ControlFlow;
 
-use actucheck::fuzz::{Fuzzed, Symptom, fuzz};
-use actucheck::protocol::{Op, Wire};
-use actucheck::record;
+use actucheck::adapter::{Op, Wire};
+use actucheck::blackbox::{Fuzzed, Symptom, fuzz};
 use actucheck::run::run;
-use actucheck::testee::{Answer, Builtin, Testee};
+use actucheck::subject::{Answer, Builtin, Subject};
+use actucheck::suite::saved;
 use actucheck::verdict::Verdict;
 use actucheck_spec::Spec;
 
 use super::Mutated;
 use super::dynamixel2::MUTANTS;
 
-fn fuzzed(testee: &mut dyn Testee, seed: u64, cases: u64) -> Fuzzed {
+fn fuzzed(subject: &mut dyn Subject, seed: u64, cases: u64) -> Fuzzed {
     let spec = Spec::embedded().unwrap();
-    fuzz(&spec, Wire::Dynamixel2, seed, cases, testee, |_, _| ControlFlow::Continue(()))
+    fuzz(&spec, Wire::Dynamixel2, seed, cases, subject, |_, _| ControlFlow::Continue(()))
 }
 
 /// How large a question is.
@@ -62,11 +62,11 @@ fn what_was_found_is_kept_and_fails_again() {
     let checks: Vec<_> = findings.iter().map(|finding| finding.check.clone()).collect();
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("findings.yaml");
-    std::fs::write(&file, record::write(&checks).unwrap()).unwrap();
-    let read: Vec<_> = record::read(&file).unwrap().into_iter().map(|(_, check)| check).collect();
+    std::fs::write(&file, saved::write(&checks).unwrap()).unwrap();
+    let read: Vec<_> = saved::read(&file).unwrap().into_iter().map(|(_, check)| check).collect();
     assert_eq!(read, checks);
-    let verdicts = |testee: Box<dyn Testee + Send>| -> Vec<_> {
-        let outcomes = run(&mut [testee], &read, |_| ControlFlow::Continue(()));
+    let verdicts = |subject: Box<dyn Subject + Send>| -> Vec<_> {
+        let outcomes = run(&mut [subject], &read, |_| ControlFlow::Continue(()));
         outcomes.into_iter().map(|outcome| outcome.verdict).collect()
     };
     assert!(
@@ -79,8 +79,8 @@ fn what_was_found_is_kept_and_fails_again() {
 /// Ends at every packet with a certain byte.
 struct Ending(Builtin);
 
-impl Testee for Ending {
-    fn hello(&self) -> &actucheck::protocol::Hello {
+impl Subject for Ending {
+    fn hello(&self) -> &actucheck::adapter::Hello {
         self.0.hello()
     }
 

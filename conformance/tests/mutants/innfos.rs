@@ -1,6 +1,6 @@
 //! Implementations of the INNFOS Ethernet protocol that are wrong in one way each.
 
-use actucheck::protocol::{Op, Output};
+use actucheck::adapter::{Op, Output};
 use actucheck::reference::innfos as reference;
 use actucheck_spec::model::{FrameKind, Packet};
 

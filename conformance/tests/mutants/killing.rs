@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use actucheck::protocol::Wire;
-use actucheck::testee::Builtin;
+use actucheck::adapter::Wire;
+use actucheck::subject::Builtin;
 use actucheck::verdict::{Outcome, Verdict};
 use actucheck_spec::Spec;
 use actucheck_spec::model::Level;

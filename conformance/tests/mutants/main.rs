@@ -11,11 +11,11 @@ mod stubs;
 
 use std::ops::ControlFlow;
 
-use actucheck::cases;
-use actucheck::check::Check;
-use actucheck::protocol::{Hello, Op, Output, Rejection, Wire};
+use actucheck::adapter::{Hello, Op, Output, Rejection, Wire};
 use actucheck::run::run;
-use actucheck::testee::{Answer, Builtin, Testee};
+use actucheck::subject::{Answer, Builtin, Subject};
+use actucheck::suite;
+use actucheck::suite::check::Check;
 use actucheck::verdict::Outcome;
 use actucheck_spec::Spec;
 use actucheck_spec::model::{Fault, HexBytes};
@@ -57,7 +57,7 @@ impl Mutated {
     }
 }
 
-impl Testee for Mutated {
+impl Subject for Mutated {
     fn hello(&self) -> &Hello {
         self.codec.hello()
     }
@@ -75,10 +75,10 @@ impl Testee for Mutated {
 }
 
 fn checks(wire: Wire) -> Vec<Check> {
-    let options = cases::Options { cases: 50, ..cases::Options::new(wire) };
-    cases::all(&Spec::embedded().unwrap(), &options)
+    let options = suite::Options { cases: 50, ..suite::Options::new(wire) };
+    suite::all(&Spec::embedded().unwrap(), &options)
 }
 
-fn outcomes(testee: impl Testee + Send + 'static, checks: &[Check]) -> Vec<Outcome> {
-    run(&mut [Box::new(testee)], checks, |_| ControlFlow::Continue(()))
+fn outcomes(subject: impl Subject + Send + 'static, checks: &[Check]) -> Vec<Outcome> {
+    run(&mut [Box::new(subject)], checks, |_| ControlFlow::Continue(()))
 }

@@ -1,7 +1,7 @@
 //! Implementations that are hardly there: a check that passes on all of them, and on every other
 //! mutant, could not fail.
 
-use actucheck::protocol::{Op, Output, Wire};
+use actucheck::adapter::{Op, Output, Wire};
 use actucheck::reference;
 use actucheck_spec::model::{HexBytes, Packet};
 

@@ -1,4 +1,4 @@
-use actucheck::protocol::Wire;
+use actucheck::adapter::Wire;
 use actucheck::report::Report;
 use actucheck::report::compare::{Cell, Comparison, Standing};
 use actucheck::verdict::Verdict;

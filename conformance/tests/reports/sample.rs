@@ -4,15 +4,15 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::sync::LazyLock;
 
-use actucheck::cases::{self, Options};
-use actucheck::check::Check;
-use actucheck::expect::Expectations;
-use actucheck::protocol::{Hello, Implementation, Op, Output, Rejection, Wire};
+use actucheck::adapter::{Hello, Implementation, Op, Output, Rejection, Wire};
 use actucheck::reference;
 use actucheck::report::{Report, Run, Stopped};
 use actucheck::run::run;
-use actucheck::select::select;
-use actucheck::testee::{Answer, Builtin, Testee};
+use actucheck::subject::{Answer, Builtin, Subject};
+use actucheck::suite::check::Check;
+use actucheck::suite::expect::Expectations;
+use actucheck::suite::select::select;
+use actucheck::suite::{self, Options};
 use actucheck_spec::Spec;
 use actucheck_spec::model::{Fault, Packet};
 
@@ -26,7 +26,7 @@ struct Odd {
     bend: fn(&Op, Answer) -> Answer,
 }
 
-impl Testee for Odd {
+impl Subject for Odd {
     fn hello(&self) -> &Hello {
         &self.hello
     }
@@ -72,7 +72,7 @@ fn odd(op: &Op, answer: Answer) -> Answer {
 /// What every sample is taken from; it takes a while to make.
 static SPEC: LazyLock<Spec> = LazyLock::new(|| Spec::embedded().unwrap());
 static CHECKS: LazyLock<Vec<Check>> = LazyLock::new(|| {
-    let checks = cases::all(&SPEC, &OPTIONS);
+    let checks = suite::all(&SPEC, &OPTIONS);
     select(checks, &[], &["*.stuffing.body.*".to_owned()]).unwrap()
 });
 const OPTIONS: Options = Options { cases: 10, ..Options::new(Wire::Dynamixel2) };
@@ -99,8 +99,8 @@ fn report(name: &str, only: &str, bend: fn(&Op, Answer) -> Answer, expect: &str)
         url: None,
     };
     let implementation = hello.implementation.clone();
-    let testee = Odd { codec, hello, bend };
-    let mut outcomes = run(&mut [Box::new(testee)], &checks, |_| ControlFlow::Continue(()));
+    let subject = Odd { codec, hello, bend };
+    let mut outcomes = run(&mut [Box::new(subject)], &checks, |_| ControlFlow::Continue(()));
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("expected-failures.yaml");
     std::fs::write(&file, format!("expected_failures: {expect}\n")).unwrap();

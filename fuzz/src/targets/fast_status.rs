@@ -1,9 +1,9 @@
 //! Fast status packets: there and back, against the reference, for the request that fits and for
 //! any other.
 
-use actucheck::protocol::Fast;
+use actucheck::adapter::Fast;
 use actucheck::reference::{self, BROADCAST, HEADER, PREFIX, STATUS};
-use actucheck::testee::fault;
+use actucheck::subject::fault;
 use actucheck_codec::fast_status::{self, Block};
 use actucheck_codec::status::StatusError;
 use actucheck_codec::{BufferTooSmall, EncodeError, FastStatus};

@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use actucheck::cases::{self, Options};
-use actucheck::protocol::Wire;
+use actucheck::adapter::Wire;
+use actucheck::suite::{self, Options};
 use actucheck_spec::Spec;
 use actucheck_spec::coverage::{self, CheckName, Cover, Row};
 use actucheck_spec::model::{Level, Requirement, Role};
@@ -22,7 +22,7 @@ pub(super) fn text(spec: &Spec, options: &spec::Coverage) -> Result<String, Fail
     let role = options.role.map(role);
     let checks: Vec<_> = Wire::value_variants()
         .iter()
-        .flat_map(|wire| cases::all(spec, &Options::new(*wire)))
+        .flat_map(|wire| suite::all(spec, &Options::new(*wire)))
         .collect();
     // What the suite asks, it asks of codecs.
     let names = checks.iter().map(|check| CheckName {

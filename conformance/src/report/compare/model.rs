@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::protocol::{self, Wire};
+use crate::adapter::{self, Wire};
 use crate::report::model::{
     CheckResult, Question, Report, RequirementResult, Statement, Stopped, Tally,
 };
@@ -39,7 +39,7 @@ pub struct Comparison {
 pub struct Implementation {
     /// What was checked.
     #[serde(flatten)]
-    pub who: protocol::Implementation,
+    pub who: adapter::Implementation,
     /// What the generated checks grew from.
     pub seed: u64,
     /// How many packets were generated.

@@ -5,7 +5,7 @@ mod build;
 mod several;
 
 use actucheck::reference::{self, HEADER, PREFIX};
-use actucheck::testee::fault;
+use actucheck::subject::fault;
 use actucheck_codec::dynamixel2::Instruction;
 use actucheck_codec::status::{PingStatus, Status};
 use actucheck_codec::{Frame, Request, frame, ja40, layout};

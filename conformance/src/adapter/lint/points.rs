@@ -1,0 +1,260 @@
+//! The points of the contract, in order.
+
+use std::io;
+use std::ops::ControlFlow;
+use std::time::Duration;
+
+use super::example::Example;
+use super::talk::{Answer, Heard, Talk, ended};
+use super::{Point, Problem, Report, shape};
+use crate::adapter::Settings;
+use crate::adapter::{Hello, Op, VERSION};
+
+/// Bytes of a line that is longer than a fixed buffer might be.
+const LONG: usize = 70_000;
+/// How many requests are outstanding at the most.
+const MAX_AT_ONCE: usize = 64;
+/// How long a line that nobody asked for is waited for.
+const QUIET: Duration = Duration::from_millis(100);
+
+/// A remark, empty if there is none; or what is wrong.
+type Found = Result<String, Problem>;
+
+/// A question and its answer.
+type Answered<'a> = (&'a Example, Answer);
+
+/// Looks at an adapter from its start to its end.
+pub(super) fn look(
+    command: &[String],
+    settings: &Settings,
+    examples: &[Example],
+) -> io::Result<Report> {
+    let mut points = Points { talk: Talk::start(command, settings)?, points: Vec::new() };
+    let greeting = greet(&mut points.talk, settings);
+    let hello = greeting.as_ref().ok().cloned();
+    points.note("starts and says who it is", greeting.map(|hello| introduction(&hello)));
+    if let Some(hello) = &hello {
+        // That the conversation ended early is told by its last point.
+        let _ = points.look_on(hello, examples, || another(command, settings, hello));
+    }
+    Ok(Report { hello, points: points.points, log: points.talk.log() })
+}
+
+/// The conversation, and what came out so far.
+struct Points {
+    talk: Talk,
+    points: Vec<Point>,
+}
+
+impl Points {
+    fn look_on(
+        &mut self,
+        hello: &Hello,
+        examples: &[Example],
+        another: impl FnOnce() -> Found,
+    ) -> ControlFlow<()> {
+        self.point("skips an op that it does not know", invented_op)?;
+        self.point("skips a wire that it does not know", invented_wire)?;
+        let (offered, others): (Vec<_>, Vec<_>) =
+            examples.iter().partition(|example| example.is_offered(hello));
+        self.point("skips what it does not offer", |talk| not_offered(talk, &others))?;
+
+        let mut answered = Vec::new();
+        for example in offered {
+            self.point(format!("answers {}", example.name), |talk| {
+                let answer = talk.ask(&example.request)?;
+                let remark = example.remark(&answer)?;
+                answered.push((example, answer));
+                Ok(remark)
+            })?;
+        }
+        self.point("answers the same when asked again", |talk| again(talk, &answered))?;
+        self.point("passes over a field that it does not know", |talk| {
+            further_field(talk, &answered)
+        })?;
+        self.point("outlives requests that lack a field", |talk| lacking_fields(talk, &answered))?;
+        self.point("answers as many at once as it says", |talk| {
+            at_once(talk, hello.max_in_flight.min(MAX_AT_ONCE), &answered)
+        })?;
+        self.point("reads a long line", long_line)?;
+        self.point("runs beside another of its kind", |_| another())?;
+        self.point("writes nothing but replies", silence)?;
+        self.point("ends at bye", bye)
+    }
+
+    fn point(
+        &mut self,
+        name: impl Into<String>,
+        look: impl FnOnce(&mut Talk) -> Found,
+    ) -> ControlFlow<()> {
+        let result = look(&mut self.talk);
+        let ends = result.as_ref().is_err_and(|problem| problem.ends);
+        self.note(name, result);
+        if ends { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    fn note(&mut self, name: impl Into<String>, result: Found) {
+        self.points.push(Point { name: name.into(), result, said: self.talk.take_said() });
+    }
+}
+
+fn greet(talk: &mut Talk, settings: &Settings) -> Result<Hello, Problem> {
+    let op = Op::Hello { protocol: vec![VERSION] };
+    // Every op can be written as JSON: it has string keys only.
+    talk.send(&serde_json::to_string(&op).unwrap_or_default());
+    match talk.receive(settings.timeouts.start)? {
+        (_, Answer::Ok(ok)) => shape::hello(&ok),
+        _ => Err(Problem::ending(
+            "the reply is no `ok`",
+            "answer `hello` with `ok` and what the adapter is and offers",
+        )),
+    }
+}
+
+fn introduction(hello: &Hello) -> String {
+    let who = &hello.implementation;
+    let offered = |names: &[String]| {
+        if names.is_empty() { "nothing".to_owned() } else { names.join(", ") }
+    };
+    let (wires, ops) = (offered(&hello.wires), offered(&hello.ops));
+    format!("{} {} ({}), {wires}: {ops}", who.name, who.version, who.language)
+}
+
+fn invented_op(talk: &mut Talk) -> Found {
+    let mend = "skip every op that you do not know: a later suite asks more";
+    must_skip(talk, r#"{"op":"no-such-op"}"#, mend)
+}
+
+fn invented_wire(talk: &mut Talk) -> Found {
+    let mend = "look at `wire` first, and skip those that you do not speak";
+    must_skip(talk, r#"{"op":"crc","wire":"no-such-wire","bytes":"00"}"#, mend)
+}
+
+fn not_offered(talk: &mut Talk, others: &[&Example]) -> Found {
+    let mend = "name the op and the wire in your answer to `hello`, or skip it";
+    others.iter().try_fold(String::new(), |_, example| must_skip(talk, &example.request, mend))
+}
+
+fn must_skip(talk: &mut Talk, request: &str, mend: &'static str) -> Found {
+    match talk.ask(request)? {
+        Answer::Skip(_) => Ok(String::new()),
+        Answer::Ok(_) | Answer::Err(_) => Err(Problem::new("the reply is no `skip`", mend)),
+    }
+}
+
+/// The same questions the other way round, behind bytes that leave a parser in the middle.
+fn again(talk: &mut Talk, answered: &[Answered<'_>]) -> Found {
+    for request in answered.iter().filter_map(|(example, _)| example.cut_short()) {
+        talk.ask(&request)?;
+    }
+    for (example, first) in answered.iter().rev() {
+        let answer = talk.ask(&example.request)?;
+        let mend = "begin each request afresh: keep no parser and no buffer for the next one";
+        same(&answer, first, example, mend)?;
+    }
+    Ok(String::new())
+}
+
+fn further_field(talk: &mut Talk, answered: &[Answered<'_>]) -> Found {
+    for (example, first) in answered {
+        let answer = talk.ask(&example.with_another_field())?;
+        let mend = "take the fields that you need out of the request, whatever else it has";
+        same(&answer, first, example, mend)?;
+    }
+    Ok(String::new())
+}
+
+/// Whatever comes, something comes.
+fn lacking_fields(talk: &mut Talk, answered: &[Answered<'_>]) -> Found {
+    for request in answered.iter().flat_map(|(example, _)| example.lacking_fields()) {
+        talk.ask(&request)?;
+    }
+    Ok(String::new())
+}
+
+fn at_once(talk: &mut Talk, count: usize, answered: &[Answered<'_>]) -> Found {
+    if count == 1 {
+        return Ok("max_in_flight is 1".to_owned());
+    }
+    let asked: Vec<_> = answered
+        .iter()
+        .cycle()
+        .take(count)
+        .map(|(example, first)| (talk.send(&example.request), *example, first))
+        .collect();
+    // A reply that is out of form leaves others under way.
+    let answers: Result<Vec<_>, _> = asked
+        .iter()
+        .map(|_| talk.receive(talk.limit).map_err(|problem| Problem { ends: true, ..problem }))
+        .collect();
+    for (id, answer) in answers? {
+        if let Some((_, example, first)) = asked.iter().find(|(asked, ..)| *asked == id) {
+            let mend = "keep requests apart, or leave `max_in_flight` out";
+            same(&answer, first, example, mend)?;
+        }
+    }
+    Ok(format!("{count} of them"))
+}
+
+/// What a library says besides may differ from time to time.
+fn same(
+    answer: &Answer,
+    first: &Answer,
+    example: &Example,
+    mend: &'static str,
+) -> Result<(), Problem> {
+    let same = match (answer, first) {
+        (Answer::Ok(answer), Answer::Ok(first)) => answer == first,
+        (Answer::Err(answer), Answer::Err(first)) => answer.class == first.class,
+        (Answer::Skip(_), Answer::Skip(_)) => true,
+        _ => false,
+    };
+    if same {
+        return Ok(());
+    }
+    Err(Problem::new(format!("{} is answered another way than before", example.name), mend))
+}
+
+fn long_line(talk: &mut Talk) -> Found {
+    let request = format!(r#"{{"op":"no-such-op","padding":"{}"}}"#, "0".repeat(LONG));
+    must_skip(talk, &request, "read whole lines, however long they are")
+}
+
+/// `--jobs` starts several.
+fn another(command: &[String], settings: &Settings, hello: &Hello) -> Found {
+    let mend = "let processes share no file, port or device: `--jobs` starts several";
+    let told = Talk::start(command, settings)
+        .map_err(|error| Problem::new(error, mend))
+        .and_then(|mut talk| greet(&mut talk, settings))
+        .map_err(|problem| Problem::new(format!("the other one: {}", problem.what), mend))?;
+    if told == *hello {
+        Ok(String::new())
+    } else {
+        Err(Problem::new("the other one says other things of itself", mend))
+    }
+}
+
+fn silence(talk: &mut Talk) -> Found {
+    match talk.hear(QUIET)? {
+        Heard::Nothing => Ok(String::new()),
+        Heard::Line(_) => Err(Problem::ending(
+            "it wrote a line that nobody asked for",
+            "write nothing but replies to standard output; messages go to standard error",
+        )),
+        Heard::End(status) => {
+            Err(Problem::ending(format!("it {}", ended(status)), "end at `bye` only"))
+        }
+    }
+}
+
+fn bye(talk: &mut Talk) -> Found {
+    talk.send(r#"{"op":"bye"}"#);
+    let mend = "end the program at `bye`, without a reply";
+    match talk.hear(talk.limit)? {
+        Heard::End(Some(status)) if status.success() => Ok(String::new()),
+        Heard::End(Some(status)) => Ok(format!("with {status}")),
+        Heard::End(None) => Err(Problem::new("it closed its output, but runs on", mend)),
+        Heard::Line(_) => Err(Problem::new("it replied", mend)),
+        Heard::Nothing => Err(Problem::new("it runs on", mend)),
+    }
+}

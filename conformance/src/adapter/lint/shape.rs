@@ -1,0 +1,117 @@
+//! Whether an answer has the form that it must have. Whether it is right is the library's matter.
+
+use actucheck_spec::model::Packet;
+use serde_json::Value;
+
+use super::Problem;
+use crate::adapter::{Hello, Op, Output, VERSION, Wire};
+
+/// The ops that `hello` may name. That there are `hello` and `bye` goes without saying.
+const OPS: [&str; 8] = ["hello", "crc", "stuff", "unstuff", "encode", "decode", "stream", "bye"];
+
+/// Reads the `ok` object of `hello`.
+pub(super) fn hello(ok: &Value) -> Result<Hello, Problem> {
+    let hello: Hello = serde_json::from_value(ok.clone()).map_err(|error| {
+        Problem::ending(
+            format!("`ok` is incomplete: {error}"),
+            "tell `protocol`, `implementation` with `name`, `version` and `language`, `wires` and \
+             `ops`; `max_in_flight` and `limits` if there is something to tell",
+        )
+    })?;
+    if hello.protocol != VERSION {
+        return Err(Problem::ending(
+            format!("it speaks version {} of the adapter protocol", hello.protocol),
+            "answer with one of the versions that the request offers",
+        ));
+    }
+    let wires = Wire::ALL.map(Wire::id);
+    named(&hello.wires, &wires, "wires", "name `dynamixel2`, `innfos` or both in `wires`")?;
+    named(
+        &hello.ops,
+        &OPS,
+        "ops",
+        "name in `ops` what the adapter does of crc, stuff, unstuff, encode, decode and stream",
+    )?;
+    if hello.max_in_flight == 0 {
+        return Err(Problem::new(
+            "`max_in_flight` is 0",
+            "leave it out, or say how many requests may be without a reply at once",
+        ));
+    }
+    if hello.limits.max_packet == Some(0) {
+        return Err(Problem::new(
+            "`limits.max_packet` is 0",
+            "leave it out, or say how many bytes the longest packet has",
+        ));
+    }
+    Ok(hello)
+}
+
+fn named(given: &[String], known: &[&str], field: &str, mend: &'static str) -> Result<(), Problem> {
+    match given.iter().find(|name| !known.contains(&name.as_str())) {
+        Some(name) => Err(Problem::new(format!("`{field}` names `{name}`"), mend)),
+        None => Ok(()),
+    }
+}
+
+/// Reads the `ok` object that answers an op.
+pub(super) fn output(op: &Op, ok: &Value) -> Result<Output, Problem> {
+    let output = Output::read(op, ok.clone()).map_err(|error| {
+        Problem::new(
+            format!("`ok` does not fit {}: {error}", op.name()),
+            "the guide has a table of what `ok` holds",
+        )
+    })?;
+    lowercase(ok)?;
+    let packets = match &output {
+        Output::Crc(crc) if *crc > u64::from(u16::MAX) => {
+            return Err(Problem::new(
+                format!("the CRC {crc} has more than 16 bits"),
+                "answer with the CRC's value as a number, not with its bytes",
+            ));
+        }
+        Output::Packet(packet) => std::slice::from_ref(packet),
+        Output::Packets(packets) => packets,
+        Output::Crc(_) | Output::Bytes(_) => &[],
+    };
+    if packets.iter().any(|packet| Some(wire(packet)) != op.wire()) {
+        return Err(Problem::new(
+            "the packet is of a kind that this wire has not",
+            "on dynamixel2 `kind` is instruction, status or fast_status, on innfos request or reply",
+        ));
+    }
+    Ok(output)
+}
+
+fn wire(packet: &Packet) -> Wire {
+    match packet {
+        Packet::Instruction { .. } | Packet::Status { .. } | Packet::FastStatus { .. } => {
+            Wire::Dynamixel2
+        }
+        Packet::Request { .. } | Packet::Reply { .. } => Wire::Innfos,
+    }
+}
+
+/// Whether the bytes in an object are written as the protocol has them.
+fn lowercase(value: &Value) -> Result<(), Problem> {
+    let bytes = |name: &str| matches!(name, "bytes" | "params" | "data");
+    match value {
+        Value::Object(fields) => fields.iter().try_for_each(|(name, value)| match value {
+            Value::String(text) if bytes(name) => digits(name, text),
+            value => lowercase(value),
+        }),
+        Value::Array(values) => values.iter().try_for_each(lowercase),
+        _ => Ok(()),
+    }
+}
+
+fn digits(name: &str, text: &str) -> Result<(), Problem> {
+    let wrong = |digit: &char| !matches!(digit, '0'..='9' | 'a'..='f');
+    match text.chars().find(wrong) {
+        Some(digit) => Err(Problem::new(
+            format!("`{name}` has a `{digit}` in it"),
+            "write bytes as lowercase hex digits, two a byte, with nothing between them",
+        )),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,176 @@
+//! The check that a probe is, with what the reference has for it. Nothing that the documents leave
+//! open is among them.
+
+use actucheck_spec::model::{Fault, FrameKind, Packet};
+
+use super::probe::{Probe, cut, damaged, joined};
+use crate::adapter::{Called, Op, Output, Wire};
+use crate::call::Call;
+use crate::reference::{self, innfos};
+use crate::suite::check::{Check, Demand};
+use crate::suite::{Author, parameters_of};
+
+impl Probe {
+    /// The check that it is; `None` if the documents leave open what is right.
+    pub(super) fn check(&self, author: &Author<'_>, id: String) -> Option<Check> {
+        let (requirement, op, demand) = match author.wire {
+            Wire::Dynamixel2 => self.dynamixel2(author)?,
+            Wire::Innfos => self.innfos()?,
+        };
+        Some(author.check(id, &requirement, op, demand))
+    }
+
+    fn dynamixel2(&self, author: &Author<'_>) -> Option<(String, Op, Demand)> {
+        let wire = Wire::Dynamixel2;
+        let bytes = |bytes: &[u8]| bytes.to_vec().into();
+        let (requirement, op, demand) = match self {
+            Self::Crc(message) => {
+                let crc = Output::Crc(reference::crc(message).into());
+                let op = Op::Crc { wire, bytes: bytes(message) };
+                ("dynamixel2.crc.value".to_owned(), op, Demand::Yield(crc))
+            }
+            Self::Stuff(body) => {
+                let stuffed = Output::Bytes(reference::stuff(body).into());
+                let op = Op::Stuff { wire, bytes: bytes(body) };
+                ("dynamixel2.stuffing.transmit".to_owned(), op, Demand::Yield(stuffed))
+            }
+            Self::Unstuff(body) => {
+                let op = Op::Unstuff { wire, bytes: reference::stuff(body).into() };
+                let body = Output::Bytes(bytes(body));
+                ("dynamixel2.stuffing.receive".to_owned(), op, Demand::Yield(body))
+            }
+            Self::Encode((name, packet)) => {
+                let frame = reference::encode(packet)?;
+                let requirement = match name {
+                    _ if is_stuffed(packet, &frame) => "dynamixel2.stuffing.transmit".to_owned(),
+                    &"status" => "dynamixel2.status-packet.layout".to_owned(),
+                    name => parameters_of(author.spec, name),
+                };
+                let packet = Called { call: Call::of(packet), packet: packet.clone() };
+                let op = Op::Encode { wire, packet };
+                (requirement, op, Demand::Yield(Output::Bytes(frame.into())))
+            }
+            Self::Decode((_, packet), damage) => {
+                let frame = damaged(wire, reference::encode(packet)?, damage);
+                let (requirement, demand) = match reference::decode(&frame) {
+                    // A bare pattern and an ID that no device may have are open, and so is a status
+                    // packet from the broadcast ID where no fast one is asked for.
+                    Ok(Packet::Status { id: reference::BROADCAST, .. })
+                    | Err(Fault::Stuffing | Fault::Id) => return None,
+                    // A library that reads streams only finds the whole packet that is in it.
+                    Err(_) if !reference::packets(&frame).is_empty() => return None,
+                    Ok(packet) => {
+                        let stuffed = is_stuffed(&packet, &frame);
+                        let id = if stuffed { "stuffing.receive" } else { "packet.layout" };
+                        (id, Demand::Yield(Output::Packet(packet)))
+                    }
+                    Err(Fault::Header) => ("receive.header", Demand::Reject(Fault::Header)),
+                    Err(Fault::Crc) => ("receive.crc", Demand::Reject(Fault::Crc)),
+                    Err(fault) => ("receive.length", Demand::Reject(fault)),
+                };
+                let op = Op::Decode { wire, bytes: frame.into(), fast: None, kind: None };
+                (format!("dynamixel2.{requirement}"), op, demand)
+            }
+            Self::Stream(parts, cuts) => {
+                let stream = joined(wire, parts)?;
+                let packets = reference::packets(&stream);
+                // Where to go on behind a bad length is open, and a host need not read what
+                // hosts send.
+                if !reference::is_certain(&stream)
+                    || !packets.iter().all(|packet| matches!(packet, Packet::Status { .. }))
+                    || holds_open(&stream)
+                {
+                    return None;
+                }
+                let chunks = cut(&stream, cuts);
+                let op = Op::Stream { wire, chunks, kind: None };
+                let found = Demand::Yield(Output::Packets(packets));
+                ("dynamixel2.receive.stream".to_owned(), op, found)
+            }
+        };
+        Some((requirement, op, demand))
+    }
+
+    fn innfos(&self) -> Option<(String, Op, Demand)> {
+        let wire = Wire::Innfos;
+        let (requirement, op, demand) = match self {
+            Self::Crc(message) if !message.is_empty() => {
+                let crc = innfos::crc(message);
+                let numbers = [crc, crc.swap_bytes()].map(|number| Output::Crc(number.into()));
+                let op = Op::Crc { wire, bytes: message.clone().into() };
+                ("innfos.crc.value", op, Demand::YieldOneOf(numbers.into()))
+            }
+            Self::Encode((_, packet)) if !is_open(packet) => {
+                let frame = innfos::encode(packet)?;
+                let op = Op::Encode { wire, packet: Called { packet: packet.clone(), call: None } };
+                ("innfos.frame.layout", op, Demand::Yield(Output::Bytes(frame.into())))
+            }
+            Self::Decode((_, packet), damage) => {
+                let kind = kind_of(packet);
+                let frame = damaged(wire, innfos::encode(packet)?, damage);
+                let (requirement, demand) = match innfos::decode(kind, &frame) {
+                    Ok(packet) if is_open(&packet) => return None,
+                    Ok(packet) => ("innfos.frame.layout", Demand::Yield(Output::Packet(packet))),
+                    Err(Fault::Header) => ("innfos.frame.header", Demand::Reject(Fault::Header)),
+                    Err(Fault::Tail) => ("innfos.frame.tail", Demand::Reject(Fault::Tail)),
+                    Err(Fault::Crc) => ("innfos.crc.verify", Demand::Reject(Fault::Crc)),
+                    Err(fault) => ("innfos.frame.length", Demand::Reject(fault)),
+                };
+                let op = Op::Decode { wire, bytes: frame.into(), fast: None, kind: Some(kind) };
+                (requirement, op, demand)
+            }
+            // One datagram of good frames of one direction; what stands behind damage is open.
+            Self::Stream(parts, _) => {
+                let kind = kind_of(&parts.first()?.1);
+                let same = parts.iter().map(|(_, packet, _)| packet);
+                let packets: Vec<_> = same
+                    .filter(|packet| kind_of(packet) == kind && !is_open(packet))
+                    .cloned()
+                    .collect();
+                let frames: Option<Vec<_>> = packets.iter().map(innfos::encode).collect();
+                let chunks = vec![frames?.concat().into()];
+                let op = Op::Stream { wire, chunks, kind: Some(kind) };
+                ("innfos.frame.transparent", op, Demand::Yield(Output::Packets(packets)))
+            }
+            _ => return None,
+        };
+        Some((requirement.to_owned(), op, demand))
+    }
+}
+
+/// Whether the frame is longer than the packet's fields are.
+fn is_stuffed(packet: &Packet, frame: &[u8]) -> bool {
+    let fields = match packet {
+        Packet::Instruction { params, .. } => params.len() + 1,
+        Packet::Status { params, .. } => params.len() + 2,
+        _ => return false,
+    };
+    frame.len() > reference::PREFIX + fields + 2
+}
+
+/// Whether something in the stream would be a packet but for a rule that is open: an ID that no
+/// device may have, a bare pattern, a status packet from the broadcast ID.
+fn holds_open(stream: &[u8]) -> bool {
+    (0..stream.len()).any(|from| {
+        let rest = stream.get(from..).unwrap_or_default();
+        let [0xFF, 0xFF, 0xFD, 0x00, _, low, high, ..] = *rest else { return false };
+        let size = reference::PREFIX + usize::from(u16::from_le_bytes([low, high]));
+        let frame = rest.get(..size).unwrap_or_default();
+        matches!(
+            reference::decode(frame),
+            Err(Fault::Stuffing | Fault::Id) | Ok(Packet::Status { id: reference::BROADCAST, .. })
+        )
+    })
+}
+
+/// The replies of one byte whose CRC is open.
+fn is_open(packet: &Packet) -> bool {
+    matches!(packet, Packet::Reply { command: 0x02 | 0x44, data, .. } if data.len() == 1)
+}
+
+fn kind_of(packet: &Packet) -> FrameKind {
+    match packet {
+        Packet::Reply { .. } => FrameKind::Reply,
+        _ => FrameKind::Request,
+    }
+}

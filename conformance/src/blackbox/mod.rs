@@ -1,0 +1,196 @@
+//! Black-box fuzzing of an implementation through its adapter: what no list of checks foresees.
+//!
+//! Probes grow from a seed, the reference says what is right, and what is found wrong is shrunk to
+//! the smallest question of its kind. The same seed finds the same again.
+
+mod expected;
+mod finding;
+mod probe;
+
+use std::cell::Cell;
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+
+use actucheck_spec::Spec;
+use proptest::strategy::{BoxedStrategy, Strategy, ValueTree};
+use proptest::test_runner::TestRunner;
+
+use self::finding::Failure;
+use self::probe::Probe;
+use crate::adapter::Wire;
+use crate::subject::{Answer, Subject};
+use crate::suite::Author;
+use crate::suite::check::Check;
+use crate::suite::codec::dynamixel2::generated::runner;
+
+pub use finding::{Finding, Kind, Symptom};
+
+/// How many probes are drawn before they are asked.
+const BATCH: usize = 256;
+/// How often a failing probe is asked again, smaller.
+const SHRINK: usize = 2_000;
+/// The same where the adapter hangs or ends, which takes its time.
+const SHRINK_SLOWLY: usize = 40;
+
+/// What came of a round of fuzzing.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Fuzzed {
+    /// How many probes were asked.
+    pub asked: u64,
+    /// What was found, each kind of failure once, in the order in which it came up.
+    pub findings: Vec<Finding>,
+    /// Why the adapter could not be asked any more, if so.
+    pub given_up: Option<String>,
+}
+
+/// Asks `subject` what grows from `seed`, until `cases` probes were drawn or `watch`, which hears of
+/// the probes asked and the kinds of failure found so far, ends it.
+pub fn fuzz(
+    spec: &Spec,
+    wire: Wire,
+    seed: u64,
+    cases: u64,
+    subject: &mut dyn Subject,
+    watch: impl Fn(u64, usize) -> ControlFlow<()>,
+) -> Fuzzed {
+    let mut result = Fuzzed::default();
+    let Some(strategy) = probe::strategy(wire, subject.hello()) else {
+        result.given_up = Some(format!("the adapter offers no op of {}", wire.id()));
+        return result;
+    };
+    let author = Author { spec, wire };
+    let mut fuzzer =
+        Fuzzer { author, seed, strategy, runner: runner(seed), drawn: 0, found: BTreeMap::new() };
+    let over = Cell::new(false);
+    while fuzzer.drawn < cases && result.given_up.is_none() && !over.get() {
+        let mut batch = fuzzer.draw(cases);
+        let before = result.asked;
+        let mut go_on = |answered| {
+            result.asked = before + answered;
+            over.set(watch(result.asked, result.findings.len()).is_break());
+        };
+        for (number, failure) in ask(subject, &batch, &over, &mut go_on) {
+            let failure = match failure {
+                Ok(failure) => failure,
+                Err(reason) => {
+                    result.given_up = Some(reason);
+                    break;
+                }
+            };
+            let Some(probe) = batch.get_mut(number) else { continue };
+            if fuzzer.is_new(&failure) {
+                result.findings.push(shrink(&fuzzer.author, subject, probe, failure, &|| {
+                    watch(result.asked, result.findings.len()).is_continue()
+                }));
+            }
+        }
+    }
+    for finding in &mut result.findings {
+        finding.times = fuzzer.found.get(&finding.kind).copied().unwrap_or(1);
+    }
+    result
+}
+
+struct Fuzzer<'a> {
+    author: Author<'a>,
+    seed: u64,
+    strategy: BoxedStrategy<Probe>,
+    runner: TestRunner,
+    drawn: u64,
+    /// How often each kind of failure was met.
+    found: BTreeMap<Kind, u64>,
+}
+
+/// A probe that can be made smaller, and the check that it is now.
+struct Drawn {
+    tree: Box<dyn ValueTree<Value = Probe>>,
+    check: Check,
+}
+
+impl Fuzzer<'_> {
+    /// Draws a batch of probes; those of which the documents leave open what is right fall out.
+    fn draw(&mut self, cases: u64) -> Vec<Drawn> {
+        let mut batch = Vec::new();
+        while batch.len() < BATCH && self.drawn < cases {
+            let number = self.drawn;
+            self.drawn += 1;
+            // A strategy without filters always yields a value.
+            let Ok(tree) = self.strategy.new_tree(&mut self.runner) else { continue };
+            let id = format!("{}.fuzz-{}.{number}", self.author.wire.id(), self.seed);
+            if let Some(check) = tree.current().check(&self.author, id) {
+                batch.push(Drawn { tree, check });
+            }
+        }
+        batch
+    }
+
+    /// Counts a failure; whether it is the first of its kind.
+    fn is_new(&mut self, failure: &Failure) -> bool {
+        let times = self.found.entry(failure.kind.clone()).or_default();
+        *times += 1;
+        *times == 1
+    }
+}
+
+/// The failures among a batch, in its order; an error for what could not be asked any more.
+/// `watch` hears how many were answered, until it is `over`.
+fn ask(
+    subject: &mut dyn Subject,
+    batch: &[Drawn],
+    over: &Cell<bool>,
+    watch: &mut dyn FnMut(u64),
+) -> Vec<(usize, Result<Failure, String>)> {
+    let mut failures = Vec::new();
+    let mut answered = 0;
+    let mut questions = batch
+        .iter()
+        .enumerate()
+        .take_while(|_| !over.get())
+        .map(|(number, drawn)| (number, &drawn.check.op));
+    subject.ask_all(&mut questions, &mut |number, answer| {
+        answered += 1;
+        watch(answered);
+        let Some(drawn) = batch.get(number) else { return };
+        match answer {
+            Answer::NotAsked(reason) => failures.push((number, Err(reason))),
+            answer => failures
+                .extend(Failure::of(&drawn.check, answer).map(|failure| (number, Ok(failure)))),
+        }
+    });
+    failures.sort_by_key(|(number, _)| *number);
+    failures
+}
+
+/// Makes a failing probe smaller as long as it fails in the same way and the time lasts.
+fn shrink(
+    author: &Author<'_>,
+    subject: &mut dyn Subject,
+    drawn: &mut Drawn,
+    failure: Failure,
+    goes_on: &dyn Fn() -> bool,
+) -> Finding {
+    let patience = if failure.kind.is_slow() { SHRINK_SLOWLY } else { SHRINK };
+    let id = drawn.check.id.clone();
+    let mut smallest = Finding {
+        kind: failure.kind,
+        check: drawn.check.clone(),
+        outcome: failure.outcome,
+        times: 1,
+    };
+    let mut smaller = drawn.tree.simplify();
+    for _ in 0..patience {
+        if !smaller || !goes_on() {
+            break;
+        }
+        let check = drawn.tree.current().check(author, id.clone());
+        let failure = check.as_ref().and_then(|check| Failure::of(check, subject.ask(&check.op)));
+        smaller = match (check, failure) {
+            (Some(check), Some(failure)) if failure.kind == smallest.kind => {
+                smallest = Finding { check, outcome: failure.outcome, ..smallest };
+                drawn.tree.simplify()
+            }
+            _ => drawn.tree.complicate(),
+        };
+    }
+    smallest
+}

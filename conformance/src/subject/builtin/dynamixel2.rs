@@ -1,0 +1,134 @@
+//! The codec's DYNAMIXEL Protocol 2.0.
+
+use actucheck_codec::dynamixel2::Instruction;
+use actucheck_codec::fast_status::{self, Block};
+use actucheck_codec::status::{self, StatusError};
+use actucheck_codec::stream::{Event, Parser};
+use actucheck_codec::stuffing::{self, UnstuffError};
+use actucheck_codec::{FastStatus, Frame, FrameError, crc, frame};
+use actucheck_spec::model::{self, Fault, HexBytes, Packet};
+
+use super::{Result, not_offered, output, rejection, unbuilt};
+use crate::adapter::{Fast, Op, Output, Rejection};
+
+/// What the codec makes of a request; `None` for one that it does not offer.
+pub(super) fn ask(op: &Op, buffer: &mut Vec<u8>) -> Option<Result> {
+    Some(match op {
+        Op::Crc { bytes, .. } => Ok(Output::Crc(crc::umts(bytes).into())),
+        Op::Stuff { bytes, .. } => stuff(bytes, buffer),
+        Op::Unstuff { bytes, .. } => unstuff(bytes, buffer),
+        Op::Encode { packet, .. } => encode(&packet.packet, buffer),
+        Op::Decode { bytes, fast: None, .. } => decode(bytes),
+        Op::Decode { bytes, fast: Some(fast), .. } => decode_fast(bytes, fast),
+        Op::Stream { chunks, .. } => Ok(stream(chunks)),
+        Op::Hello { .. } | Op::Invented | Op::Bye => return None,
+    })
+}
+
+fn stuff(body: &[u8], buffer: &mut Vec<u8>) -> Result {
+    // No packet holds a body as long as a request may.
+    buffer.resize(buffer.len().max(stuffing::stuffed_len(body)), 0);
+    let bytes = stuffing::stuff(body, buffer);
+    bytes.map(output).map_err(|error| rejection(Fault::Oversize, &error))
+}
+
+fn unstuff(stuffed: &[u8], buffer: &mut Vec<u8>) -> Result {
+    buffer.resize(buffer.len().max(stuffed.len()), 0);
+    stuffing::unstuff(stuffed, buffer).map(output).map_err(|error| {
+        let class = match error {
+            UnstuffError::Bare { .. } => Fault::Stuffing,
+            UnstuffError::Buffer(_) => Fault::Oversize,
+        };
+        rejection(class, &error)
+    })
+}
+
+fn encode(packet: &Packet, buffer: &mut [u8]) -> Result {
+    let bytes = match packet {
+        Packet::Instruction { id, instruction, params } => {
+            frame::encode(*id, Instruction::from_code(*instruction), &[params], buffer)
+        }
+        Packet::Status { id, error, params } => {
+            status::encode(*id, StatusError(*error), params, buffer)
+        }
+        Packet::FastStatus { blocks } => {
+            let blocks: Vec<_> = blocks.iter().map(block).collect();
+            fast_status::encode(&blocks, buffer)
+        }
+        Packet::Request { .. } | Packet::Reply { .. } => return Err(not_offered()),
+    };
+    bytes.map(output).map_err(|error| unbuilt(&error))
+}
+
+fn decode(bytes: &[u8]) -> Result {
+    let frame = Frame::parse(bytes).map_err(frame_rejection)?;
+    Ok(Output::Packet(packet(&frame)))
+}
+
+fn packet(frame: &Frame<'_>) -> Packet {
+    let params = frame.params().collect::<Vec<_>>();
+    let (id, instruction) = (frame.id(), frame.instruction().code());
+    match frame.error() {
+        None => Packet::Instruction { id, instruction, params: params.into() },
+        Some(StatusError(error)) => {
+            let params = params.into_iter().skip(1).collect::<Vec<_>>().into();
+            Packet::Status { id, error, params }
+        }
+    }
+}
+
+/// What the stream parser finds; at the end the bus is quiet.
+fn stream(chunks: &[HexBytes]) -> Output {
+    let mut parser = Parser::new();
+    let mut packets = Vec::new();
+    let mut drain = |parser: &mut Parser| {
+        while let Some(event) = parser.next_event() {
+            if let Event::Frame(frame) = event {
+                packets.push(packet(&frame));
+            }
+        }
+    };
+    for chunk in chunks {
+        let mut rest: &[u8] = chunk;
+        while !rest.is_empty() {
+            rest = parser.push(rest);
+            drain(&mut parser);
+        }
+    }
+    parser.idle();
+    drain(&mut parser);
+    Output::Packets(packets)
+}
+
+fn decode_fast(bytes: &[u8], fast: &Fast) -> Result {
+    let packet = FastStatus::parse(bytes, fast.length, &fast.ids).map_err(frame_rejection)?;
+    let blocks = packet.blocks().map(|block| model::Block {
+        error: block.error.0,
+        id: block.id,
+        data: block.data.to_vec().into(),
+    });
+    Ok(Output::Packet(Packet::FastStatus { blocks: blocks.collect() }))
+}
+
+fn block(block: &model::Block) -> Block<'_> {
+    Block { error: StatusError(block.error), id: block.id, data: &block.data }
+}
+
+fn frame_rejection(error: FrameError) -> Rejection {
+    rejection(fault(&error), &error)
+}
+
+/// The error class of the adapter protocol that an error of the codec belongs to.
+#[must_use]
+pub const fn fault(error: &FrameError) -> Fault {
+    match error {
+        FrameError::Header { .. } => Fault::Header,
+        FrameError::Id { .. } | FrameError::BlockId { .. } => Fault::Id,
+        FrameError::Length { .. } => Fault::Length,
+        FrameError::Truncated { .. } => Fault::Truncated,
+        FrameError::Trailing { .. } => Fault::Trailing,
+        FrameError::Crc { .. } => Fault::Crc,
+        FrameError::Stuffing { .. } => Fault::Stuffing,
+        FrameError::Instruction { .. } => Fault::Instruction,
+    }
+}

@@ -1,0 +1,89 @@
+//! This project's own codec as an implementation under test.
+
+mod dynamixel2;
+mod innfos;
+
+pub use dynamixel2::fault;
+
+use actucheck_codec::EncodeError;
+use actucheck_spec::model::{Fault, HexBytes};
+
+use super::{Answer, Subject};
+use crate::adapter::{Hello, Implementation, Limits, Op, Output, Rejection, VERSION, Wire};
+
+/// The largest frame that a length field can tell of: 65,535 bytes of data, and INNFOS' eight
+/// around them.
+const MAX_FRAME: usize = 65_535 + 8;
+
+/// What was asked for, or why it is rejected.
+type Result = std::result::Result<Output, Rejection>;
+
+/// The built-in codec.
+#[derive(Debug)]
+pub struct Builtin {
+    hello: Hello,
+    buffer: Vec<u8>,
+}
+
+impl Default for Builtin {
+    fn default() -> Self {
+        let hello = Hello {
+            protocol: VERSION,
+            implementation: Implementation {
+                name: "actucheck-codec".to_owned(),
+                version: env!("CARGO_PKG_VERSION").to_owned(),
+                language: "Rust".to_owned(),
+                url: None,
+            },
+            wires: Wire::ALL.map(|wire| wire.id().to_owned()).to_vec(),
+            ops: ["crc", "stuff", "unstuff", "encode", "decode", "stream"]
+                .map(str::to_owned)
+                .to_vec(),
+            max_in_flight: 1,
+            limits: Limits { max_packet: Some(MAX_FRAME) },
+        };
+        Self { hello, buffer: vec![0; MAX_FRAME] }
+    }
+}
+
+impl Subject for Builtin {
+    fn hello(&self) -> &Hello {
+        &self.hello
+    }
+
+    fn ask(&mut self, op: &Op) -> Answer {
+        let result = match op.wire() {
+            Some(Wire::Dynamixel2) => dynamixel2::ask(op, &mut self.buffer),
+            Some(Wire::Innfos) => innfos::ask(op, &mut self.buffer),
+            None => None,
+        };
+        match result {
+            Some(Ok(output)) => Answer::Ok(output),
+            Some(Err(rejection)) => Answer::Rejected(rejection),
+            None => Answer::Skipped(format!("the codec has no {}", op.name())),
+        }
+    }
+}
+
+fn output(bytes: &[u8]) -> Output {
+    Output::Bytes(HexBytes(bytes.to_vec()))
+}
+
+fn rejection(class: Fault, error: &impl ToString) -> Rejection {
+    Rejection { class, detail: error.to_string() }
+}
+
+/// Why a packet can't be built.
+fn unbuilt(error: &EncodeError) -> Rejection {
+    let class = match error {
+        EncodeError::Id { .. } => Fault::Id,
+        EncodeError::TooLong { .. } | EncodeError::Buffer(_) => Fault::Oversize,
+        EncodeError::DataLength { .. } => Fault::Parameter,
+    };
+    rejection(class, error)
+}
+
+/// A packet of the other wire.
+fn not_offered() -> Rejection {
+    rejection(Fault::Parameter, &"the packet is one of another protocol")
+}

@@ -1,0 +1,205 @@
+//! The packets that the documents print, and those worked out by hand from their rules. Each
+//! yields a check an op.
+
+use actucheck_spec::Spec;
+use actucheck_spec::model::{Citation, Fault, HexBytes, Outcome, Packet, Vector, VectorsFile};
+
+use crate::adapter::{Called, Fast, Op, Output, Wire};
+use crate::call::Call;
+use crate::suite::check::{Check, Demand, Unspecified, Way};
+use crate::suite::{Author, of_reading};
+
+/// Bytes before the body, and behind it.
+const PREFIX: usize = 7;
+const CRC: usize = 2;
+
+pub(super) fn checks(author: &Author<'_>) -> Vec<Check> {
+    let (spec, wire) = (author.spec, author.wire);
+    spec.vectors()
+        .filter(|(file, _)| file.wire == wire.id())
+        .flat_map(|(file, vector)| Golden { author, wire, file, vector }.checks())
+        .collect()
+}
+
+struct Golden<'a> {
+    author: &'a Author<'a>,
+    wire: Wire,
+    file: &'a VectorsFile,
+    vector: &'a Vector,
+}
+
+impl Golden<'_> {
+    fn checks(&self) -> Vec<Check> {
+        let of_document = format!("{}.packets", self.source().document);
+        let own = self.vector.requirement.as_deref().unwrap_or(&of_document);
+        let frame = self.vector.frame();
+        let mut checks = Vec::new();
+        match &self.vector.packet {
+            Some(packet) => {
+                checks.push(self.crc(frame));
+                checks.extend(self.stuffing(packet, frame));
+                checks.push(self.encode(own, packet, frame));
+                checks.push(self.decode(own, packet, frame));
+                checks.extend(self.streams(packet, frame));
+            }
+            None => checks
+                .extend(self.vector.fault.map(|fault| self.rejects("decode", own, frame, fault))),
+        }
+        if let (Some(printed), Some(fault)) = (self.vector.defective(), self.vector.printed_fault) {
+            checks.push(self.rejects("decode-printed", "ja40.defects", printed, fault));
+        }
+        checks
+    }
+
+    fn check(&self, name: &str, requirement: &str, op: Op, demand: Demand) -> Check {
+        let id = format!("{}/{name}", self.vector.id);
+        let source = self.source().clone();
+        Check { source, ..self.author.check(id, requirement, op, demand) }
+    }
+
+    fn source(&self) -> &Citation {
+        self.vector.source.as_ref().unwrap_or(&self.file.source)
+    }
+
+    /// What the vector's result demands where `output` is right.
+    fn demand(&self, output: Output) -> Demand {
+        demand(self.author.spec, self.vector, output, Vec::new())
+    }
+
+    fn crc(&self, frame: &[u8]) -> Check {
+        let (bytes, crc) = frame.split_at(frame.len().saturating_sub(CRC));
+        let value = crc.iter().rev().fold(0, |value, byte| value << 8 | u64::from(*byte));
+        let op = Op::Crc { wire: self.wire, bytes: bytes.to_vec().into() };
+        let demand = Demand::Yield(Output::Crc(value));
+        self.check("crc", "dynamixel2.crc.value", op, demand)
+    }
+
+    /// The body alone, both ways. A fast status has no stuffing, nor has INNFOS.
+    fn stuffing(&self, packet: &Packet, frame: &[u8]) -> Vec<Check> {
+        let plain: HexBytes = match packet {
+            Packet::Instruction { instruction, params, .. } => {
+                [&[*instruction], params.0.as_slice()].concat().into()
+            }
+            Packet::Status { error, params, .. } => {
+                [&[0x55, *error], params.0.as_slice()].concat().into()
+            }
+            Packet::FastStatus { .. } | Packet::Request { .. } | Packet::Reply { .. } => {
+                return Vec::new();
+            }
+        };
+        let stuffed: HexBytes = frame
+            .get(PREFIX..frame.len().saturating_sub(CRC))
+            .map(<[u8]>::to_vec)
+            .unwrap_or_default()
+            .into();
+        let wire = self.wire;
+        vec![
+            self.check(
+                "stuff",
+                "dynamixel2.stuffing.transmit",
+                Op::Stuff { wire, bytes: plain.clone() },
+                Demand::Yield(Output::Bytes(stuffed.clone())),
+            ),
+            self.check(
+                "unstuff",
+                "dynamixel2.stuffing.receive",
+                Op::Unstuff { wire, bytes: stuffed },
+                Demand::Yield(Output::Bytes(plain)),
+            ),
+        ]
+    }
+
+    fn encode(&self, requirement: &str, packet: &Packet, frame: &[u8]) -> Check {
+        let packet = Called { call: Call::of(packet), packet: packet.clone() };
+        let op = Op::Encode { wire: self.wire, packet };
+        let demand = self.demand(Output::Bytes(frame.to_vec().into()));
+        self.check("encode", requirement, op, demand)
+    }
+
+    fn decode(&self, requirement: &str, packet: &Packet, frame: &[u8]) -> Check {
+        let op = Op::Decode {
+            wire: self.wire,
+            bytes: frame.to_vec().into(),
+            fast: asked_for(packet),
+            kind: None,
+        };
+        self.check(
+            "decode",
+            of_reading(requirement),
+            op,
+            self.demand(Output::Packet(packet.clone())),
+        )
+    }
+
+    /// The frame as a stream, whole and byte by byte. What a fast status answers can't be told
+    /// from the stream; a packet that may be rejected may be missing from it.
+    fn streams(&self, packet: &Packet, frame: &[u8]) -> Vec<Check> {
+        let open = self.vector.result == Outcome::Acceptable;
+        if open || matches!(packet, Packet::FastStatus { .. }) {
+            return Vec::new();
+        }
+        let whole = vec![frame.to_vec().into()];
+        let bytewise = frame.iter().map(|byte| vec![*byte].into()).collect();
+        let of_document = format!("{}.packets", self.source().document);
+        [
+            ("stream", &*of_document, whole),
+            ("stream-bytewise", "dynamixel2.receive.stream", bytewise),
+        ]
+        .into_iter()
+        .map(|(name, requirement, chunks)| {
+            let op = Op::Stream { wire: self.wire, chunks, kind: None };
+            let demand = Demand::Yield(Output::Packets(vec![packet.clone()]));
+            let check = self.check(name, requirement, op, demand);
+            Check { requires: Some(format!("{}/decode", self.vector.id)), ..check }
+        })
+        .collect()
+    }
+
+    fn rejects(&self, name: &str, requirement: &str, bytes: &[u8], fault: Fault) -> Check {
+        let packet_asked = self.vector.packet.as_ref().and_then(asked_for);
+        let op = Op::Decode {
+            wire: self.wire,
+            bytes: bytes.to_vec().into(),
+            fast: packet_asked,
+            kind: None,
+        };
+        self.check(name, requirement, op, Demand::Reject(fault))
+    }
+}
+
+/// What a vector's result demands where `output` is right, or beside it one of `others`.
+pub(in crate::suite::codec) fn demand(
+    spec: &Spec,
+    vector: &Vector,
+    output: Output,
+    others: Vec<Way>,
+) -> Demand {
+    if vector.result != Outcome::Acceptable {
+        return Demand::Yield(output);
+    }
+    let mut ways = vec![way(vector, output)];
+    ways.extend(others);
+    Demand::Record(Unspecified { question: question(spec, vector), ways })
+}
+
+/// To do as this vector has it.
+pub(in crate::suite::codec) fn way(vector: &Vector, output: Output) -> Way {
+    Way { name: format!("as {}", vector.id), output }
+}
+
+/// What is open about a vector, by the errata that it depends on.
+fn question(spec: &Spec, vector: &Vector) -> String {
+    let rows = spec.errata.content.errata.iter().filter(|row| vector.errata.contains(&row.id));
+    let open: Vec<_> = rows.map(|row| format!("{} ({})", row.held_right, row.id)).collect();
+    format!("{}: {}", vector.id, open.join("; "))
+}
+
+/// What a fast status packet answers.
+fn asked_for(packet: &Packet) -> Option<Fast> {
+    let Packet::FastStatus { blocks } = packet else {
+        return None;
+    };
+    let length = blocks.first().map_or(0, |block| block.data.len());
+    let ids = blocks.iter().map(|block| block.id).collect();
+    Some(Fast { length: u16::try_from(length).unwrap_or(u16::MAX), ids })
+}

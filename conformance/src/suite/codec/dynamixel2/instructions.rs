@@ -1,0 +1,131 @@
+//! What the documents say of single instructions and their answers, each sentence with packets
+//! that break if it is not obeyed.
+
+use actucheck_spec::model::{Block, Fault, Packet};
+
+use crate::adapter::{Fast, Op, Output};
+use crate::reference::{self, BROADCAST};
+use crate::suite::Author;
+use crate::suite::check::{Check, Demand};
+
+pub(super) fn checks(author: &Author<'_>) -> Vec<Check> {
+    let mut checks = Vec::new();
+    for (requirement, name, packet) in packets() {
+        let (document, rest) = requirement.split_once('.').unwrap_or(("", requirement));
+        let id = format!("{document}.said.{rest}.{name}");
+        checks.extend(author.both_ways(&id, requirement, &packet));
+    }
+    for (requirement, name, packet, fast) in fast_packets() {
+        checks.extend(fast_both_ways(author, requirement, name, &packet, &fast));
+    }
+    checks
+}
+
+/// The sentence, a name, and a packet that obeys it.
+fn packets() -> Vec<(&'static str, &'static str, Packet)> {
+    // Registers at 580 and 564 are the JA40's; those below 256 are the document's own.
+    let to_all = |code, params: &[u8]| instruction(BROADCAST, code, params);
+    vec![
+        ("dynamixel2.packet.parameters", "read", instruction(1, 0x02, &[0x84, 0, 4, 0])),
+        ("dynamixel2.packet.parameters", "write", instruction(1, 0x03, &[0x84, 0, 4, 0])),
+        ("dynamixel2.packet.parameters", "reg-write", instruction(1, 0x04, &[0x84, 0, 4, 0])),
+        ("dynamixel2.status-packet.parameters", "of-write", status(&[])),
+        ("dynamixel2.status-packet.parameters", "of-ping", status(&[0x06, 0x04, 0x26])),
+        ("dynamixel2.status-packet.parameters", "of-read", status(&[0xA6, 0, 0, 0])),
+        ("dynamixel2.sync-read.broadcast-id", "one", to_all(0x82, &[132, 0, 4, 0, 7])),
+        ("dynamixel2.sync-read.broadcast-id", "two", to_all(0x82, &[132, 0, 4, 0, 7, 3])),
+        ("dynamixel2.sync-read.same-registers", "three", to_all(0x82, &[132, 0, 4, 0, 7, 3, 9])),
+        ("dynamixel2.sync-write.broadcast-id", "one", to_all(0x83, &[64, 0, 1, 0, 7, 1])),
+        ("dynamixel2.sync-write.broadcast-id", "two", to_all(0x83, &[64, 0, 1, 0, 7, 1, 3, 0])),
+        ("dynamixel2.bulk-read.broadcast-id", "one", to_all(0x92, &[7, 132, 0, 4, 0])),
+        (
+            "dynamixel2.bulk-read.parameters",
+            "three-registers",
+            to_all(0x92, &[7, 132, 0, 4, 0, 3, 126, 0, 2, 0, 9, 146, 0, 1, 0]),
+        ),
+        ("dynamixel2.bulk-write.broadcast-id", "one", to_all(0x93, &[7, 64, 0, 1, 0, 1])),
+        (
+            "dynamixel2.bulk-write.parameters",
+            "two-registers",
+            to_all(0x93, &[7, 64, 0, 1, 0, 1, 3, 102, 0, 2, 0, 0x2A, 0x01]),
+        ),
+        ("ja40.fast-sync-read.broadcast-id", "one", to_all(0x8A, &[0x44, 0x02, 4, 0, 7])),
+        ("ja40.fast-sync-read.broadcast-id", "two", to_all(0x8A, &[132, 0, 4, 0, 7, 3])),
+        ("ja40.fast-sync-read.same-registers", "three", to_all(0x8A, &[132, 0, 4, 0, 7, 3, 9])),
+        ("ja40.fast-sync-write.broadcast-id", "one", to_all(0x8B, &[64, 0, 1, 0, 7, 1])),
+        ("ja40.fast-sync-write.broadcast-id", "two", to_all(0x8B, &[64, 0, 1, 0, 7, 1, 3, 0])),
+    ]
+}
+
+/// The same for fast status packets, each with what it answers.
+fn fast_packets() -> Vec<(&'static str, &'static str, Packet, Fast)> {
+    let read = |size: usize, ids: &[u8]| {
+        let block = |id: &u8| Block { error: 0, id: *id, data: vec![*id; size].into() };
+        let fast = Fast { length: u16::try_from(size).unwrap_or_default(), ids: ids.to_vec() };
+        (Packet::FastStatus { blocks: ids.iter().map(block).collect() }, fast)
+    };
+    let mut list = Vec::new();
+    for (requirement, name, size, ids) in [
+        ("ja40.fast-sync-read.length", "one", 4, &[7][..]),
+        ("ja40.fast-sync-read.length", "three", 4, &[7, 3, 9]),
+        ("ja40.fast-sync-read.length", "three-of-one-byte", 1, &[7, 3, 9]),
+        ("ja40.fast-sync-write.length", "one", 0, &[7]),
+        ("ja40.fast-sync-write.length", "three", 0, &[7, 3, 9]),
+    ] {
+        let (packet, fast) = read(size, ids);
+        list.push((requirement, name, packet, fast));
+    }
+    list
+}
+
+/// A fast status packet built and read, with the ID of one device, and with a device more than
+/// its length covers.
+fn fast_both_ways(
+    author: &Author<'_>,
+    requirement: &'static str,
+    name: &str,
+    packet: &Packet,
+    fast: &Fast,
+) -> Vec<Check> {
+    let frame = reference::encode(packet).unwrap_or_default();
+    let (document, rest) = requirement.split_once('.').unwrap_or(("", requirement));
+    let id = format!("{document}.said.{rest}.{name}");
+    let decode = |bytes: &[u8], fast: &Fast| {
+        let bytes = bytes.to_vec().into();
+        Op::Decode { wire: author.wire, bytes, fast: Some(fast.clone()), kind: None }
+    };
+    let more = Fast { ids: [fast.ids.as_slice(), &[42]].concat(), ..fast.clone() };
+    let from_one = reference::frame(
+        fast.ids.first().copied().unwrap_or_default(),
+        frame.get(reference::PREFIX..frame.len().saturating_sub(2)).unwrap_or_default(),
+    );
+    let broadcast_id = if fast.length == 0 {
+        "ja40.fast-sync-write.broadcast-id"
+    } else {
+        "ja40.fast-sync-read.broadcast-id"
+    };
+    let read = Demand::Yield(Output::Packet(packet.clone()));
+    vec![
+        author.check(format!("{id}/decode"), requirement, decode(&frame, fast), read),
+        author.check(
+            format!("{id}.device-more/decode"),
+            requirement,
+            decode(&frame, &more),
+            Demand::Reject(Fault::Length),
+        ),
+        author.check(
+            format!("{id}.from-one-device/decode"),
+            broadcast_id,
+            decode(&from_one, fast),
+            Demand::Reject(Fault::Id),
+        ),
+    ]
+}
+
+fn instruction(id: u8, instruction: u8, params: &[u8]) -> Packet {
+    Packet::Instruction { id, instruction, params: params.to_vec().into() }
+}
+
+fn status(params: &[u8]) -> Packet {
+    Packet::Status { id: 1, error: 0, params: params.to_vec().into() }
+}

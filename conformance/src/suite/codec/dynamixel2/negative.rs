@@ -1,0 +1,137 @@
+//! The receive procedure with one rule broken, one rule at a time; and what comes after.
+//!
+//! What the documents leave open is not here but in `unspecified.rs`.
+
+use actucheck_spec::model::Packet;
+
+use crate::reference;
+use crate::suite::Author;
+use crate::suite::check::Check;
+
+pub(super) fn checks(author: &Author<'_>) -> Vec<Check> {
+    let mut checks = Vec::new();
+    for (name, packet) in packets() {
+        let frame = reference::encode(&packet).unwrap_or_default();
+        for (fault, requirement, bytes) in damaged(&frame) {
+            let id = format!("dynamixel2.negative.{name}.{fault}");
+            checks.push(author.decoded(format!("{id}/decode"), requirement, bytes));
+            // What is left over from a damaged packet must not spoil the next one.
+            let after = format!("{id}/decode-good-after");
+            checks.push(author.decoded(after, "dynamixel2.receive.crc", frame.clone()));
+        }
+    }
+    checks.extend(streams(author));
+    checks
+}
+
+/// A packet of each kind, one of them stuffed.
+fn packets() -> [(&'static str, Packet); 3] {
+    let status = |params: &[u8]| {
+        let params = params.to_vec().into();
+        Packet::Status { id: 1, error: 0, params }
+    };
+    let params = vec![0x34, 0x02, 0xD0, 0x07, 0x00, 0x00].into();
+    [
+        ("status", status(&[0xA6, 0x00, 0x00, 0x00])),
+        ("status-stuffed", status(&[0xFF, 0xFF, 0xFD, 0xFF])),
+        ("write", Packet::Instruction { id: 1, instruction: 0x03, params }),
+    ]
+}
+
+/// A frame damaged in every way, each with its name and the requirement that it breaks.
+fn damaged(frame: &[u8]) -> Vec<(String, &'static str, Vec<u8>)> {
+    let mut list = Vec::new();
+    let mut add = |name: String, requirement, bytes| list.push((name, requirement, bytes));
+
+    for (at, bytes) in [(0, [0xFE, 0x00]), (1, [0xFE, 0x00]), (2, [0xFC, 0xFF])] {
+        for byte in bytes {
+            let name = format!("header-{at}-{byte:02x}");
+            add(name, "dynamixel2.receive.header", with_crc(replaced(frame, at, byte)));
+        }
+    }
+    for byte in [0xFD, 0xFF, 0x01] {
+        let bytes = with_crc(replaced(frame, 3, byte));
+        add(format!("reserved-{byte:02x}"), "dynamixel2.packet.reserved", bytes);
+    }
+    let [low, high] = [frame.get(5), frame.get(6)].map(|byte| byte.copied().unwrap_or_default());
+    for byte in [0, 1, 2, low - 1, low + 1, 0xFF] {
+        let bytes = with_crc(replaced(frame, 5, byte));
+        add(format!("length-low-{byte:02x}"), "dynamixel2.receive.length", bytes);
+    }
+    for byte in [high + 1, 0xFF] {
+        let bytes = with_crc(replaced(frame, 6, byte));
+        add(format!("length-high-{byte:02x}"), "dynamixel2.receive.length", bytes);
+    }
+    for end in 0..frame.len() {
+        let bytes = frame.get(..end).unwrap_or_default().to_vec();
+        add(format!("cut-at-{end}"), "dynamixel2.receive.length", bytes);
+    }
+    for at in 0..frame.len() {
+        for bit in 0..8 {
+            let byte = frame.get(at).copied().unwrap_or_default() ^ 1 << bit;
+            let requirement = match at {
+                0..3 => "dynamixel2.receive.header",
+                3 => "dynamixel2.packet.reserved",
+                _ => "dynamixel2.receive.crc",
+            };
+            add(format!("flip-{at}-{bit}"), requirement, replaced(frame, at, byte));
+        }
+    }
+    list
+}
+
+fn replaced(frame: &[u8], at: usize, byte: u8) -> Vec<u8> {
+    let mut bytes = frame.to_vec();
+    if let Some(slot) = bytes.get_mut(at) {
+        *slot = byte;
+    }
+    bytes
+}
+
+/// The same bytes with the CRC that they need.
+fn with_crc(mut frame: Vec<u8>) -> Vec<u8> {
+    frame.truncate(frame.len().saturating_sub(2));
+    let crc = reference::crc(&frame);
+    frame.extend(crc.to_le_bytes());
+    frame
+}
+
+/// Good status packets with something else around them, where both readings of the documents
+/// find them.
+fn streams(author: &Author<'_>) -> Vec<Check> {
+    let [good, stuffed, _] =
+        packets().map(|(_, packet)| reference::encode(&packet).unwrap_or_default());
+    let last = good.len().saturating_sub(1);
+    let bad = replaced(&good, last, good.get(last).copied().unwrap_or_default() ^ 1);
+    let scenarios: [(&str, Vec<Vec<u8>>); 11] = [
+        ("good-good", vec![good.clone(), stuffed.clone()]),
+        ("bad-crc-good", vec![bad.clone(), good.clone()]),
+        ("good-bad-crc-good", vec![good.clone(), bad.clone(), stuffed.clone()]),
+        ("bad-crc-twice-good", vec![bad.clone(), bad, good.clone()]),
+        ("zeros-good", vec![vec![0; 5], good.clone()]),
+        ("ff-good", vec![vec![0xFF; 5], good.clone()]),
+        ("ff-ff-good", vec![vec![0xFF, 0xFF], good.clone()]),
+        ("header-start-good", vec![vec![0xFF, 0xFF, 0xFD], good.clone()]),
+        ("stuffed-header-good", vec![vec![0xFF, 0xFF, 0xFD, 0xFD], good.clone()]),
+        ("wrong-reserved-good", vec![vec![0xFF, 0xFF, 0xFD, 0x01], good.clone()]),
+        ("good-noise-good", vec![good, vec![0x12, 0xFD, 0x34], stuffed]),
+    ];
+    let mut checks = Vec::new();
+    for (name, parts) in scenarios {
+        let stream = parts.concat();
+        let id = format!("dynamixel2.stream.{name}");
+        let requirement = match name {
+            "stuffed-header-good" => "dynamixel2.receive.header.stuffed",
+            _ => "dynamixel2.receive.stream",
+        };
+        checks.push(author.streamed(format!("{id}/stream"), requirement, &parts));
+        for split in 1..stream.len() {
+            let (head, tail) = stream.split_at(split);
+            let chunks = [head.to_vec(), tail.to_vec()];
+            checks.push(author.streamed(format!("{id}/split-at-{split}"), requirement, &chunks));
+        }
+        let bytes: Vec<_> = stream.iter().map(|byte| vec![*byte]).collect();
+        checks.push(author.streamed(format!("{id}/bytewise"), requirement, &bytes));
+    }
+    checks
+}

@@ -1,0 +1,219 @@
+//! What the DYNAMIXEL and JA40 documents leave open. What an implementation does there is
+//! recorded as its profile, not judged.
+
+use actucheck_spec::model::{HexBytes, Packet};
+
+use crate::adapter::{Called, Op, Output};
+use crate::call::Call;
+use crate::reference::{self, BROADCAST, HEADER, STATUS};
+use crate::suite::check::{Check, Demand, Unspecified, Way};
+use crate::suite::{Author, hex};
+
+pub(super) fn checks(author: &Author<'_>) -> Vec<Check> {
+    let mut checks = bare_patterns(author);
+    checks.extend(ids(author));
+    checks.extend(repeated_ids(author));
+    checks.extend(resume_points(author));
+    checks.extend(two_faults(author));
+    checks
+}
+
+fn record(author: &Author<'_>, id: &str, requirement: &str, op: Op, open: Unspecified) -> Check {
+    let id = format!("dynamixel2.open.{id}/{}", op.name());
+    author.check(id, requirement, op, Demand::Record(open))
+}
+
+fn open(question: &str, ways: impl IntoIterator<Item = (&'static str, Output)>) -> Unspecified {
+    let ways = ways.into_iter().map(|(name, output)| Way { name: name.to_owned(), output });
+    Unspecified { question: question.to_owned(), ways: ways.collect() }
+}
+
+fn decode(author: &Author<'_>, bytes: Vec<u8>) -> Op {
+    Op::Decode { wire: author.wire, bytes: bytes.into(), fast: None, kind: None }
+}
+
+fn bytes(bytes: &[u8]) -> HexBytes {
+    bytes.to_vec().into()
+}
+
+fn status(id: u8, params: &[u8]) -> Packet {
+    Packet::Status { id, error: 0, params: bytes(params) }
+}
+
+/// FF FF FD in a body without the FD that a sender has to add.
+fn bare_patterns(author: &Author<'_>) -> Vec<Check> {
+    let question = "What is FF FF FD in a received body, without the FD that stuffing adds?";
+    let requirement = "dynamixel2.stuffing.receive";
+    let mut checks = Vec::new();
+    for data in [&[0xFF, 0xFF, 0xFD][..], &[0xFF, 0xFF, 0xFD, 0x01], &[1, 0xFF, 0xFF, 0xFD, 0, 2]] {
+        let end = data.windows(3).position(|window| window == [0xFF, 0xFF, 0xFD]).unwrap_or(0) + 3;
+        let without =
+            [data.get(..end), data.get(end + 1..)].map(Option::unwrap_or_default).concat();
+        let ways = |of: &dyn Fn(&[u8]) -> Output| {
+            open(
+                question,
+                [("data as it is", of(data)), ("the byte behind it is dropped", of(&without))],
+            )
+        };
+        let name = format!("bare-pattern.{}", hex(data));
+        let op = Op::Unstuff { wire: author.wire, bytes: bytes(data) };
+        let body = ways(&|data| Output::Bytes(bytes(data)));
+        checks.push(record(author, &name, requirement, op, body));
+        let frame = reference::frame(1, &[&[STATUS, 0], data].concat());
+        let packet = ways(&|data| Output::Packet(status(1, data)));
+        checks.push(record(author, &name, requirement, decode(author, frame), packet));
+    }
+    checks
+}
+
+/// IDs that no device may have, and the broadcast ID on a status packet.
+fn ids(author: &Author<'_>) -> Vec<Check> {
+    let mut checks = Vec::new();
+    for id in [253, 255, BROADCAST] {
+        let (question, requirement) = match id {
+            BROADCAST => {
+                let question =
+                    "Is a status packet with ID 254 read where no fast one is asked for?";
+                (question.to_owned(), "dynamixel2.status-packet.layout")
+            }
+            id => (format!("Is a packet with ID {id} accepted?"), "dynamixel2.receive.id"),
+        };
+        let packet = status(id, &[0x2A]);
+        let frame = reference::frame(id, &[STATUS, 0, 0x2A]);
+        let ways = open(&question, [("accepts it", Output::Packet(packet))]);
+        let name = format!("id.{id}.status");
+        checks.push(record(author, &name, requirement, decode(author, frame), ways));
+        if id == BROADCAST {
+            continue;
+        }
+        let ping = Packet::Instruction { id, instruction: 0x01, params: HexBytes::default() };
+        let frame = reference::frame(id, &[0x01]);
+        let question = format!("Is a packet with ID {id} built?");
+        let ways = open(&question, [("builds it", Output::Bytes(frame.into()))]);
+        checks.push(record(
+            author,
+            &format!("id.{id}.ping"),
+            requirement,
+            encode(author, ping),
+            ways,
+        ));
+    }
+    checks
+}
+
+fn encode(author: &Author<'_>, packet: Packet) -> Op {
+    Op::Encode { wire: author.wire, packet: Called { call: Call::of(&packet), packet } }
+}
+
+/// An instruction that names a device twice. A host must not send it; whether the codec beneath
+/// refuses to build it is its own affair.
+fn repeated_ids(author: &Author<'_>) -> Vec<Check> {
+    let cases: [(&str, u8, &[u8]); 4] = [
+        ("sync-read", 0x82, &[0x44, 0x02, 0x04, 0x00, 1, 1]),
+        ("sync-write", 0x83, &[0x34, 0x02, 0x01, 0x00, 1, 0xA0, 1, 0xA1]),
+        ("bulk-read", 0x92, &[1, 0x44, 0x02, 0x04, 0x00, 1, 0x34, 0x02, 0x04, 0x00]),
+        ("bulk-write", 0x93, &[1, 0x34, 0x02, 0x01, 0x00, 0xA0, 1, 0x35, 0x02, 0x01, 0x00, 0xA1]),
+    ];
+    let check = |(name, instruction, params): (&str, u8, &[u8])| {
+        let packet = Packet::Instruction { id: BROADCAST, instruction, params: bytes(params) };
+        let frame = reference::encode(&packet).unwrap_or_default();
+        let question = "Is an instruction that names a device twice built?";
+        let ways = open(question, [("builds it", Output::Bytes(frame.into()))]);
+        let requirement = match name {
+            "bulk-read" => "dynamixel2.bulk-read.no-repeat",
+            "bulk-write" => "dynamixel2.bulk-write.no-repeat",
+            "sync-read" => "dynamixel2.sync-read.parameters",
+            _ => "dynamixel2.sync-write.parameters",
+        };
+        record(author, &format!("repeated-id.{name}"), requirement, encode(author, packet), ways)
+    };
+    cases.map(check).into()
+}
+
+/// Good packets behind one whose length can't be believed.
+fn resume_points(author: &Author<'_>) -> Vec<Check> {
+    let packet = |value| reference::encode(&status(1, &[value, 0, 0, 0])).unwrap_or_default();
+    let good = [packet(1), packet(2), packet(3), packet(4)].concat();
+    let claims = |length: u16| {
+        let [low, high] = length.to_le_bytes();
+        [&HEADER[..], &[1, low, high, STATUS, 0]].concat()
+    };
+    let flipped = |at: usize| {
+        let mut frame = packet(9);
+        if let Some(byte) = frame.get_mut(at) {
+            *byte ^= 0x10;
+        }
+        frame
+    };
+    let cut = |size: usize| packet(9).get(..size).unwrap_or_default().to_vec();
+    let scenarios: [(&str, &str, Vec<u8>); 7] = [
+        (
+            "length-too-long",
+            "a packet whose length, with a bit flipped, covers the next",
+            flipped(5),
+        ),
+        ("length-never-full", "a packet whose length covers more than comes", claims(0x0FFF)),
+        ("length-greatest", "a packet whose length is the greatest", claims(0xFFFF)),
+        ("length-0", "a packet whose length is 0", claims(0)),
+        ("length-2", "a packet whose length is 2", claims(2)),
+        ("cut-in-header", "a packet cut behind its ID", cut(5)),
+        ("cut-in-params", "a packet cut in its parameters", cut(11)),
+    ];
+    let check = |(name, what, bad): (&str, &str, Vec<u8>)| {
+        let id = format!("dynamixel2.open.resume.{name}/stream");
+        resumed(author, id, what, &[[bad, good.clone()].concat()])
+    };
+    scenarios.map(check).into()
+}
+
+/// A stream in which the search has to go on behind `what`.
+pub(super) fn resumed(author: &Author<'_>, id: String, what: &str, chunks: &[Vec<u8>]) -> Check {
+    let stream = chunks.concat();
+    let (anywhere, behind) =
+        (reference::packets(&stream), reference::packets_behind_lengths(&stream));
+    let ways = open(
+        &format!("Where does the search go on behind {what}?"),
+        [
+            ("it finds every whole packet", anywhere),
+            ("behind the bytes that the length covers", behind),
+            ("it finds none of the whole packets behind it", Vec::new()),
+        ]
+        .map(|(name, packets)| (name, Output::Packets(packets))),
+    );
+    let chunks = chunks.iter().map(|chunk| chunk.clone().into()).collect();
+    let op = Op::Stream { wire: author.wire, chunks, kind: None };
+    author.check(id, "dynamixel2.receive.resume", op, Demand::Record(ways))
+}
+
+/// A packet that breaks two rules: which is named first is nobody's rule.
+fn two_faults(author: &Author<'_>) -> Vec<Check> {
+    let question = |faults: &str| format!("Which fault is named of a packet with {faults}?");
+    let accepted = |params: &[u8]| [("accepts it", Output::Packet(status(1, params)))];
+    let bare = reference::frame(1, &[STATUS, 0, 0xFF, 0xFF, 0xFD, 1]);
+    let plain = reference::frame(1, &[STATUS, 0, 0x2A]);
+    let spoilt = |frame: &[u8], at: usize, value: u8| {
+        let mut frame = frame.to_vec();
+        if let Some(byte) = frame.get_mut(at) {
+            *byte = value;
+        }
+        frame
+    };
+    let last = |frame: &[u8]| frame.len().saturating_sub(1);
+    let cases = [
+        (
+            "crc-stuffing",
+            "a wrong CRC and a bare pattern",
+            spoilt(&bare, last(&bare), 0),
+            &[0xFF, 0xFF, 0xFD, 1][..],
+        ),
+        ("header-crc", "a wrong header and a wrong CRC", spoilt(&plain, 0, 0), &[0x2A]),
+        ("id-crc", "ID 255 and a wrong CRC", spoilt(&plain, 4, 255), &[0x2A]),
+        ("length-crc", "too small a length and a wrong CRC", spoilt(&plain, 5, 2), &[0x2A]),
+    ];
+    let check = |(name, faults, frame, params): (&str, &str, Vec<u8>, &[u8])| {
+        let ways = open(&question(faults), accepted(params));
+        let id = format!("two-faults.{name}");
+        record(author, &id, "dynamixel2.receive.crc", decode(author, frame), ways)
+    };
+    cases.map(check).into()
+}

@@ -1,0 +1,272 @@
+//! Checks of the INNFOS Ethernet protocol: the document's frames, everything where everything is
+//! little, and each rule broken alone.
+
+use actucheck_spec::model::{Citation, Fault, FrameKind, Outcome, Packet, Vector};
+
+use super::dynamixel2::golden::{demand, way};
+use crate::adapter::{Called, Op, Output};
+use crate::reference::innfos as reference;
+use crate::suite::check::{Check, Demand, Unspecified, Way};
+use crate::suite::{Author, hex};
+
+/// Bytes that could be taken for the ends of a frame, and two that could not.
+const ALPHABET: [u8; 4] = [0xEE, 0xED, 0x00, 0x01];
+/// Sizes of data: those of the commands' tables, and where the length needs its other byte.
+const SIZES: [usize; 10] = [0, 1, 2, 3, 4, 8, 255, 256, 257, 1000];
+
+/// The most data that a length can tell of, and the bytes around it.
+const LARGEST: usize = 65_535;
+const AROUND: usize = 8;
+
+pub(super) fn checks(author: &Author<'_>, max_packet: Option<usize>) -> Vec<Check> {
+    let mut checks = golden(author);
+    let largest = max_packet.and_then(|limit| limit.checked_sub(AROUND));
+    let largest = largest.map(|size| size.min(LARGEST)).filter(|size| !SIZES.contains(size));
+    for kind in [FrameKind::Request, FrameKind::Reply] {
+        checks.extend((0..=u8::MAX).flat_map(|byte| {
+            let address =
+                both_ways(author, &format!("address.{byte:02x}"), kind, byte, 0x06, &[1, 2]);
+            let command = both_ways(author, &format!("command.{byte:02x}"), kind, 1, byte, &[1, 2]);
+            address.into_iter().chain(command)
+        }));
+        checks.extend(SIZES.into_iter().chain(largest).flat_map(|size| {
+            both_ways(author, &format!("size.{size}"), kind, 6, 0x2A, &vec![0x5A; size])
+        }));
+        checks.extend((0..=4).flat_map(words).flat_map(|data| {
+            both_ways(author, &format!("data.{}", hex(&data)), kind, 6, 0x0A, &data)
+        }));
+        checks.extend(damaged(author, kind));
+        checks.extend(other_way(author, kind));
+        checks.extend(behind_damage(author, kind));
+    }
+    checks
+}
+
+fn words(length: u32) -> impl Iterator<Item = Vec<u8>> {
+    (0..4_usize.pow(length)).map(move |number| {
+        let letters = (0..length).map(|place| number / 4_usize.pow(place) % 4);
+        letters.filter_map(|letter| ALPHABET.get(letter).copied()).collect()
+    })
+}
+
+fn golden(author: &Author<'_>) -> Vec<Check> {
+    let vectors = author.spec.vectors().filter(|(file, _)| file.wire == author.wire.id());
+    let vectors: Vec<_> = vectors.map(|(file, vector)| (&file.source, vector)).collect();
+    let mut checks = Vec::new();
+    for (source, vector) in &vectors {
+        let source = vector.source.as_ref().unwrap_or(source);
+        let own = vector.requirement.as_deref().unwrap_or("innfos.packets");
+        let mut add = |name: &str, requirement: &str, op, demand| {
+            let check = author.check(format!("{}/{name}", vector.id), requirement, op, demand);
+            checks.push(Check { source: source.clone(), ..check });
+        };
+        if let Some(packet) = &vector.packet {
+            if let Some((op, demand)) = crc(author, packet) {
+                add("crc", "innfos.crc.value", op, demand);
+            }
+            let others = others(vector, packet, &vectors);
+            let built = demand(author.spec, vector, frame(vector), others);
+            add("encode", own, encode(author, packet), built);
+            let read = demand(author.spec, vector, Output::Packet(packet.clone()), Vec::new());
+            add("decode", own, decode(author, kind_of(packet), vector.frame()), read);
+        } else if let (Some(kind), Some(fault)) = (vector.kind, vector.fault) {
+            add("decode", own, decode(author, kind, vector.frame()), Demand::Reject(fault));
+        }
+        if let (Some(printed), Some(fault), Some(packet)) =
+            (vector.defective(), vector.printed_fault, &vector.packet)
+        {
+            let op = decode(author, kind_of(packet), printed);
+            add("decode-printed", "innfos.defects", op, Demand::Reject(fault));
+        }
+    }
+    checks
+}
+
+/// The other frames that a packet has where readings of the document differ.
+fn others(vector: &Vector, packet: &Packet, all: &[(&Citation, &Vector)]) -> Vec<Way> {
+    let others = all.iter().map(|(_, other)| *other).filter(|other| {
+        other.id != vector.id
+            && other.result == Outcome::Acceptable
+            && other.packet.as_ref() == Some(packet)
+    });
+    others.map(|other| way(other, frame(other))).collect()
+}
+
+fn frame(vector: &Vector) -> Output {
+    Output::Bytes(vector.frame().to_vec().into())
+}
+
+/// The CRC of a packet's data. The document's function returns the two bytes the other way round
+/// than the CRC's name says; either number is right.
+fn crc(author: &Author<'_>, packet: &Packet) -> Option<(Op, Demand)> {
+    let (Packet::Request { data, .. } | Packet::Reply { data, .. }) = packet else { return None };
+    let crc = reference::crc(data);
+    let op = Op::Crc { wire: author.wire, bytes: data.clone() };
+    let numbers = [crc, crc.swap_bytes()].map(|number| Output::Crc(number.into()));
+    (!data.is_empty()).then(|| (op, Demand::YieldOneOf(numbers.to_vec())))
+}
+
+fn kind_of(packet: &Packet) -> FrameKind {
+    match packet {
+        Packet::Reply { .. } => FrameKind::Reply,
+        _ => FrameKind::Request,
+    }
+}
+
+fn encode(author: &Author<'_>, packet: &Packet) -> Op {
+    Op::Encode { wire: author.wire, packet: Called { packet: packet.clone(), call: None } }
+}
+
+fn decode(author: &Author<'_>, kind: FrameKind, bytes: &[u8]) -> Op {
+    let bytes = bytes.to_vec().into();
+    Op::Decode { wire: author.wire, bytes, fast: None, kind: Some(kind) }
+}
+
+/// A packet built, read, and found twice in a datagram. Where the CRC is open, nothing.
+fn both_ways(
+    author: &Author<'_>,
+    name: &str,
+    kind: FrameKind,
+    address: u8,
+    command: u8,
+    data: &[u8],
+) -> Vec<Check> {
+    let requirement = match data.len() {
+        0 => "innfos.frame.no-data",
+        _ if name.starts_with("size.") => "innfos.crc.byte-order",
+        _ => "innfos.frame.layout",
+    };
+    let data = data.to_vec().into();
+    let (word, packet) = match kind {
+        FrameKind::Request => ("request", Packet::Request { address, command, data }),
+        FrameKind::Reply => ("reply", Packet::Reply { address, command, data }),
+    };
+    let id = format!("innfos.{word}.{name}");
+    let Some(frame) = reference::encode(&packet) else { return Vec::new() };
+    let chunk = [frame.as_slice(), &frame].concat();
+    let stream = Op::Stream { wire: author.wire, kind: Some(kind), chunks: vec![chunk.into()] };
+    let (once, twice) = (Output::Packet(packet.clone()), vec![packet.clone(), packet.clone()]);
+    let built = Demand::Yield(Output::Bytes(frame.clone().into()));
+    let read = Demand::Yield(once);
+    let found = Demand::Yield(Output::Packets(twice));
+    vec![
+        author.check(format!("{id}/encode"), requirement, encode(author, &packet), built),
+        author.check(format!("{id}/decode"), requirement, decode(author, kind, &frame), read),
+        author.check(format!("{id}/stream-twice"), "innfos.frame.transparent", stream, found),
+    ]
+}
+
+/// A frame with a bit flipped, cut short or with a byte too many.
+fn damaged(author: &Author<'_>, kind: FrameKind) -> Vec<Check> {
+    let (word, packet) = example(kind);
+    let frame = reference::encode(&packet).unwrap_or_default();
+    let mut damaged = Vec::new();
+    for at in 0..frame.len() {
+        for bit in 0..8 {
+            let mut bytes = frame.clone();
+            if let Some(byte) = bytes.get_mut(at) {
+                *byte ^= 1 << bit;
+            }
+            damaged.push((format!("flip-{at}-{bit}"), bytes));
+        }
+        damaged.push((format!("cut-at-{at}"), frame.get(..at).unwrap_or_default().to_vec()));
+    }
+    damaged.push(("byte-more".to_owned(), [frame.as_slice(), &[0xED]].concat()));
+    damaged.push(("byte-before".to_owned(), [&[0x00], frame.as_slice()].concat()));
+    let mut checks = Vec::new();
+    for (name, bytes) in damaged {
+        let id = format!("innfos.negative.{word}.{name}/decode");
+        let (requirement, demand) = match reference::decode(kind, &bytes) {
+            // The CRC covers the data alone: another address or command goes unnoticed.
+            Ok(packet) => ("innfos.frame.layout", Demand::Yield(Output::Packet(packet))),
+            Err(fault) => (requirement_of(fault), Demand::Reject(fault)),
+        };
+        checks.push(author.check(id, requirement, decode(author, kind, &bytes), demand));
+    }
+    checks
+}
+
+/// A frame that goes the other way: with one byte of data it has a CRC too many or lacks one, with
+/// any other number it looks the same.
+fn other_way(author: &Author<'_>, kind: FrameKind) -> Vec<Check> {
+    let (address, command) = (6, 0x0A);
+    let check = |size: usize| {
+        let data = vec![0x5A; size].into();
+        let (word, requirement, packet) = match kind {
+            FrameKind::Request => {
+                let packet = Packet::Reply { address, command, data };
+                ("reply-as-request", "innfos.crc.request", packet)
+            }
+            FrameKind::Reply => {
+                let packet = Packet::Request { address, command, data };
+                ("request-as-reply", "innfos.crc.reply", packet)
+            }
+        };
+        let frame = reference::encode(&packet).unwrap_or_default();
+        let demand = match reference::decode(kind, &frame) {
+            Ok(packet) => Demand::Yield(Output::Packet(packet)),
+            Err(fault) => Demand::Reject(fault),
+        };
+        let id = format!("innfos.negative.{word}.size-{size}/decode");
+        author.check(id, requirement, decode(author, kind, &frame), demand)
+    };
+    (0..=4).map(check).collect()
+}
+
+/// A good frame behind something else in one datagram, which the document does not speak of.
+fn behind_damage(author: &Author<'_>, kind: FrameKind) -> Vec<Check> {
+    let (word, packet) = example(kind);
+    let good = reference::encode(&packet).unwrap_or_default();
+    let flipped = |at: usize| {
+        let mut frame = good.clone();
+        if let Some(byte) = frame.get_mut(at) {
+            *byte ^= 1;
+        }
+        frame
+    };
+    let cut = good.get(..good.len() - 1).unwrap_or_default().to_vec();
+    let scenarios = [
+        ("garbage", vec![0x00, 0x01]),
+        ("wrong-header", flipped(0)),
+        ("wrong-length", flipped(4)),
+        ("wrong-crc", flipped(good.len() - 2)),
+        ("wrong-tail", flipped(good.len() - 1)),
+        ("cut", cut),
+    ];
+    let check = |(name, damage): (&str, Vec<u8>)| {
+        let datagram = [damage, good.clone()].concat();
+        let ways = [
+            ("it is found", reference::packets_anywhere(kind, &datagram)),
+            ("the datagram is dropped from the damage on", reference::packets(kind, &datagram)),
+        ];
+        let ways = ways
+            .map(|(name, packets)| Way { name: name.to_owned(), output: Output::Packets(packets) });
+        let question = format!(
+            "What becomes of a good frame in a datagram behind {}?",
+            name.replace('-', " ")
+        );
+        let open = Unspecified { question, ways: ways.into() };
+        let id = format!("innfos.open.{word}.behind-{name}/stream");
+        let op = Op::Stream { wire: author.wire, chunks: vec![datagram.into()], kind: Some(kind) };
+        author.check(id, "innfos.frame.layout", op, Demand::Record(open))
+    };
+    scenarios.map(check).into()
+}
+
+/// A packet with data that can be damaged.
+fn example(kind: FrameKind) -> (&'static str, Packet) {
+    let data = vec![0x01, 0x02, 0x03, 0x04].into();
+    match kind {
+        FrameKind::Request => ("request", Packet::Request { address: 6, command: 0x0A, data }),
+        FrameKind::Reply => ("reply", Packet::Reply { address: 6, command: 0x06, data }),
+    }
+}
+
+fn requirement_of(fault: Fault) -> &'static str {
+    match fault {
+        Fault::Header => "innfos.frame.header",
+        Fault::Tail => "innfos.frame.tail",
+        Fault::Crc => "innfos.crc.verify",
+        _ => "innfos.frame.length",
+    }
+}

@@ -1,0 +1,146 @@
+//! Audited expected failures: what an implementation is known to get wrong, and why that is.
+
+use std::fmt;
+use std::path::Path;
+use std::sync::Arc;
+
+use globset::GlobMatcher;
+use serde::Deserialize;
+use thiserror::Error;
+
+use super::check::Check;
+use super::select::glob;
+use crate::verdict::{Outcome, Verdict};
+
+/// Why an expected-failures file is of no use.
+#[derive(Debug, Error)]
+pub enum ExpectError {
+    /// It can't be read.
+    #[error("cannot read {path}: {error}")]
+    Read {
+        /// The file.
+        path: String,
+        /// What the system says.
+        error: std::io::Error,
+    },
+    /// It is no such file.
+    #[error("{path}: {message}")]
+    Parse {
+        /// The file.
+        path: String,
+        /// What is wrong, with line and column.
+        message: String,
+    },
+    /// A row's id is no glob, or is that of no check.
+    #[error("{path}: row {row}: {message}")]
+    Row {
+        /// The file.
+        path: String,
+        /// The row, from 1.
+        row: usize,
+        /// What is wrong.
+        message: String,
+    },
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ExpectationsFile {
+    expected_failures: Vec<Row>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Row {
+    /// Ids of checks, or globs over ids.
+    ids: Vec<String>,
+    /// Why the failure is the implementation's own and known.
+    reason: String,
+    /// Where that is reported or can be seen.
+    upstream: Option<String>,
+}
+
+/// The failures that are expected of an implementation.
+#[derive(Debug, Default)]
+pub struct Expectations {
+    globs: Vec<Expectation>,
+}
+
+/// A glob of a row.
+#[derive(Debug)]
+struct Expectation {
+    glob: GlobMatcher,
+    /// The row that it stands in.
+    row: Arc<Row>,
+    /// How many checks it stands for.
+    checks: usize,
+}
+
+impl Expectations {
+    /// Reads the file at `path`.
+    ///
+    /// # Errors
+    /// If it can't be read, is malformed, or has a row that is about none of `checks`.
+    pub fn read(path: &Path, checks: &[Check]) -> Result<Self, ExpectError> {
+        let name = path.display().to_string();
+        let text = std::fs::read_to_string(path)
+            .map_err(|error| ExpectError::Read { path: name.clone(), error })?;
+        let file: ExpectationsFile = serde_yaml::from_str(&text).map_err(|error| {
+            ExpectError::Parse { path: name.clone(), message: error.to_string() }
+        })?;
+        let mut globs = Vec::new();
+        for (index, row) in file.expected_failures.into_iter().enumerate() {
+            let fault = |message| ExpectError::Row { path: name.clone(), row: index + 1, message };
+            let row = Arc::new(row);
+            for id in &row.ids {
+                let glob = glob(id).map_err(fault)?.compile_matcher();
+                let checks = checks.iter().filter(|check| glob.is_match(&check.id)).count();
+                if checks == 0 {
+                    return Err(fault(format!("`{id}` is the id of no check")));
+                }
+                globs.push(Expectation { glob, row: Arc::clone(&row), checks });
+            }
+        }
+        Ok(Self { globs })
+    }
+
+    /// Whether the check with this id is expected to fail.
+    #[must_use]
+    pub fn expect(&self, id: &str) -> bool {
+        self.globs.iter().any(|expected| expected.glob.is_match(id))
+    }
+
+    /// Turns expected failures into [`Verdict::ExpectedFailure`]. Where all checks that an id or
+    /// glob stands for were asked and none of them failed, their passes become
+    /// [`Verdict::UnexpectedPass`].
+    pub fn apply(&self, outcomes: &mut [Outcome]) {
+        for Expectation { glob, row, checks } in &self.globs {
+            let mut matched: Vec<_> =
+                outcomes.iter_mut().filter(|outcome| glob.is_match(&outcome.id)).collect();
+            // Another row may have been first.
+            let failed = matched.iter().any(|outcome| {
+                outcome.verdict.is_failure() || outcome.verdict == Verdict::ExpectedFailure
+            });
+            let stale = !failed && matched.len() == *checks;
+            for outcome in &mut matched {
+                if outcome.verdict.is_failure() {
+                    outcome.verdict = Verdict::ExpectedFailure;
+                    outcome.detail = format!("{}; expected: {row}", outcome.detail);
+                } else if outcome.verdict == Verdict::Pass && stale {
+                    outcome.verdict = Verdict::UnexpectedPass;
+                    outcome.detail = format!(
+                        "passes, though `{}` is an expected failure; take it out of the file",
+                        glob.glob()
+                    );
+                }
+            }
+        }
+    }
+}
+
+impl fmt::Display for Row {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.reason)?;
+        self.upstream.as_ref().map_or(Ok(()), |upstream| write!(f, " ({upstream})"))
+    }
+}

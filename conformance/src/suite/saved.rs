@@ -1,0 +1,84 @@
+//! Checks in a file, so that what was found once can be asked again.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use super::check::Check;
+use crate::adapter::Wire;
+
+/// Version of the file's form. It changes when a field goes or takes another meaning.
+pub const VERSION: u32 = 1;
+
+/// Why a file with checks is of no use.
+#[derive(Debug, Error)]
+pub enum SavedError {
+    /// It can't be read.
+    #[error("cannot read {path}: {error}")]
+    Read {
+        /// The file.
+        path: String,
+        /// What the system says.
+        error: std::io::Error,
+    },
+    /// It is no file with checks.
+    #[error("{path} is no file with checks: {error}")]
+    Parse {
+        /// The file.
+        path: String,
+        /// What is wrong, with its line where the reader knows it.
+        error: serde_yaml::Error,
+    },
+    /// Another program wrote it.
+    #[error("{path} is of version {version}, this program reads version {VERSION}")]
+    Version {
+        /// The file.
+        path: String,
+        /// Its version.
+        version: u32,
+    },
+    /// A check asks nothing about packets.
+    #[error("{path}: the check `{id}` is about no wire")]
+    Wire {
+        /// The file.
+        path: String,
+        /// The check.
+        id: String,
+    },
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    version: u32,
+    checks: Vec<Check>,
+}
+
+/// The text of a file with these checks, as YAML.
+///
+/// # Errors
+/// If the writer does not take them, which no check is known to bring about.
+pub fn write(checks: &[Check]) -> Result<String, serde_yaml::Error> {
+    serde_yaml::to_string(&File { version: VERSION, checks: checks.to_vec() })
+}
+
+/// Reads the file at `path`; each check with its wire.
+///
+/// # Errors
+/// If it can't be read, is malformed or of another version.
+pub fn read(path: &Path) -> Result<Vec<(Wire, Check)>, SavedError> {
+    let name = path.display().to_string();
+    let text = std::fs::read_to_string(path)
+        .map_err(|error| SavedError::Read { path: name.clone(), error })?;
+    let file: File = serde_yaml::from_str(&text)
+        .map_err(|error| SavedError::Parse { path: name.clone(), error })?;
+    if file.version != VERSION {
+        return Err(SavedError::Version { path: name, version: file.version });
+    }
+    let with_wire = |check: Check| match check.op.wire() {
+        Some(wire) => Ok((wire, check)),
+        None => Err(SavedError::Wire { path: name.clone(), id: check.id }),
+    };
+    file.checks.into_iter().map(with_wire).collect()
+}
