@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use actucheck::report::Format;
-use clap::{Args, Subcommand, ValueEnum as _};
+use clap::{Args, Subcommand};
 
 /// The reports to be written.
 #[derive(Debug, Args)]
@@ -78,15 +78,12 @@ pub(crate) struct Render {
 
 fn target(text: &str) -> Result<Target, String> {
     let parse = || {
-        let (format, path) = text.split_once('=')?;
-        let format = Format::from_str(format, false).ok()?;
+        let (name, path) = text.split_once('=')?;
+        let format = Format::ALL.into_iter().find(|format| format.name() == name)?;
         (!path.is_empty()).then(|| Target { format, path: path.into() })
     };
     parse().ok_or_else(|| {
-        let formats: Vec<_> = Format::value_variants()
-            .iter()
-            .filter_map(|format| Some(format.to_possible_value()?.get_name().to_owned()))
-            .collect();
-        format!("a report is written as FORMAT=PATH; formats are {}", formats.join(", "))
+        let formats = Format::ALL.map(Format::name).join(", ");
+        format!("a report is written as FORMAT=PATH; formats are {formats}")
     })
 }

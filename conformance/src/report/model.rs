@@ -5,7 +5,6 @@ use actucheck_spec::model::Level;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::words;
 use crate::adapter::{Implementation, Wire};
 use crate::explain::diff::Diff;
 use crate::verdict::{Outcome, Totals, Verdict};
@@ -137,17 +136,6 @@ impl Report {
             0 if self.stopped.is_some() => 3,
             status => status,
         }
-    }
-
-    /// Why the run ended early and what that cost, in a sentence; `None` if it did not.
-    #[must_use]
-    pub fn cut_short(&self) -> Option<String> {
-        let why = match self.stopped? {
-            Stopped::Interrupted => "interrupted",
-            Stopped::MaxFail => "as much failed as --max-fail allows",
-        };
-        let left = words::count(self.left, "check");
-        Some(format!("{why}: {left} not asked"))
     }
 
     /// The run in one word: `passed`, `FAILED`, or `incomplete`.

@@ -4,7 +4,8 @@ use std::fmt;
 
 use indexmap::IndexMap;
 
-use super::model::{CheckResult, Report, RequirementResult};
+use super::model::{CheckResult, Report, RequirementResult, Stopped};
+use super::words;
 use crate::adapter::Output;
 use crate::explain::diff::Row;
 use crate::verdict::{Outcome, Verdict};
@@ -21,6 +22,17 @@ impl Report {
         Verdict::Warn,
         Verdict::ExpectedFailure,
     ];
+
+    /// Why the run ended early and what that cost, in a sentence; `None` if it did not.
+    #[must_use]
+    pub fn cut_short(&self) -> Option<String> {
+        let why = match self.stopped? {
+            Stopped::Interrupted => "interrupted",
+            Stopped::MaxFail => "as much failed as --max-fail allows",
+        };
+        let left = words::count(self.left, "check");
+        Some(format!("{why}: {left} not asked"))
+    }
 
     /// The results with this verdict by requirement, in the order of the documents.
     #[must_use]

@@ -1,6 +1,5 @@
 //! Words and marks that several formats share.
 
-use super::compare::Cell;
 use super::model::Tally;
 use crate::verdict::Verdict;
 
@@ -33,18 +32,6 @@ pub(super) const fn mark(verdict: Verdict) -> &'static str {
         Verdict::Skip => "–",
         Verdict::ExpectedFailure => "≈",
         Verdict::Timeout | Verdict::Crash | Verdict::AdapterFault | Verdict::NotRun => "⚠",
-    }
-}
-
-/// Said of a comparison where it may be unfair.
-pub(super) const ASKED_DIFFERENTLY: &str = "They were not asked the same: selection, seed, cases or lengths differ, or a run was cut short.";
-
-/// A cell of a matrix: `pass`, `fail 65/23963`, or `-` if nothing was asked.
-pub(super) fn cell(cell: Option<&Cell>) -> String {
-    match cell.map(|cell| (cell.verdict, cell.share())) {
-        None => "-".to_owned(),
-        Some((verdict, None)) => verdict.to_string(),
-        Some((verdict, Some((count, judged)))) => format!("{verdict} {count}/{judged}"),
     }
 }
 

@@ -7,6 +7,7 @@ mod compare;
 mod html;
 mod json;
 mod junit;
+mod order;
 mod program;
 mod sample;
 mod text;

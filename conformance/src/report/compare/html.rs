@@ -4,7 +4,8 @@ use std::io::{self, Write};
 
 use askama::Template;
 
-use super::{Cell, Comparison, Standing};
+use super::model::{Cell, Comparison, Standing};
+use super::words::ASKED_DIFFERENTLY;
 use crate::explain::diff::Segment;
 use crate::report::view::Evidence;
 use crate::report::words;

@@ -2,7 +2,8 @@
 
 use std::io::{self, Write};
 
-use super::{Comparison, Standing};
+use super::model::{Comparison, Standing};
+use super::words::{ASKED_DIFFERENTLY, cell};
 use crate::report::markdown::prose;
 use crate::report::words::{self, count, mark};
 
@@ -11,7 +12,7 @@ pub(super) fn write(comparison: &Comparison, out: &mut dyn Write) -> io::Result<
     let many = comparison.implementations.len();
     writeln!(out, "## {many} implementations on wire {}", comparison.wire.id())?;
     if !comparison.asked_alike() {
-        writeln!(out, "\n{}", words::ASKED_DIFFERENTLY)?;
+        writeln!(out, "\n{ASKED_DIFFERENTLY}")?;
     }
     matrix("Somebody gets it wrong", comparison, Standing::Wrong, out)?;
     matrix("Nobody gets it wrong, but they differ", comparison, Standing::Different, out)?;
@@ -34,9 +35,9 @@ fn matrix(
     for row in comparison.rows(standing) {
         let place = row.statement.as_ref().map(|statement| prose(&statement.place()));
         write!(out, "| `{}`<br>{} |", row.id, place.unwrap_or_default())?;
-        for cell in &row.cells {
-            let mark = cell.as_ref().map(|cell| mark(cell.verdict)).unwrap_or_default();
-            write!(out, " {mark} {} |", words::cell(cell.as_ref()))?;
+        for own in &row.cells {
+            let mark = own.as_ref().map(|own| mark(own.verdict)).unwrap_or_default();
+            write!(out, " {mark} {} |", cell(own.as_ref()))?;
         }
         writeln!(out)?;
     }

@@ -5,6 +5,7 @@ mod html;
 mod markdown;
 mod model;
 mod text;
+mod words;
 
 use std::io::{self, Write};
 
@@ -13,7 +14,8 @@ use anstream::adapter::strip_bytes;
 pub use model::{Answers, Cell, Comparison, Implementation, MixedWires, Row, Standing};
 pub use text::write as write_text;
 
-use super::{Format, json};
+use super::format::Format;
+use super::json;
 
 /// What a comparison can't be written as, in a sentence.
 pub const NO_JUNIT: &str =

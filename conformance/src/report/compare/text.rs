@@ -4,7 +4,8 @@ use std::io::{self, Write};
 
 use anstyle::Style;
 
-use super::{Answers, Comparison, Row, Standing};
+use super::model::{Answers, Comparison, Row, Standing};
+use super::words::{ASKED_DIFFERENTLY, cell};
 use crate::report::model::Statement;
 use crate::report::text::{BOLD, DIM, counts, style};
 use crate::report::words;
@@ -31,7 +32,7 @@ fn implementations(comparison: &Comparison, out: &mut dyn Write) -> io::Result<(
         writeln!(out, "  {BOLD}{}  {name}{BOLD:#}  {}{cut}", index + 1, counts(&one.totals))?;
     }
     if !comparison.asked_alike() {
-        writeln!(out, "  {}", words::ASKED_DIFFERENTLY)?;
+        writeln!(out, "  {ASKED_DIFFERENTLY}")?;
     }
     Ok(())
 }
@@ -60,9 +61,9 @@ fn matrix(
             place = own;
         }
         write!(out, "    {:width$}", row.id)?;
-        let cells = row.cells.iter().map(|cell| {
-            let style = cell.as_ref().map(|cell| style(cell.verdict)).unwrap_or_default();
-            (style, words::cell(cell.as_ref()))
+        let cells = row.cells.iter().map(|own| {
+            let style = own.as_ref().map(|own| style(own.verdict)).unwrap_or_default();
+            (style, cell(own.as_ref()))
         });
         columns(cells, &widths, out)?;
     }
@@ -87,7 +88,7 @@ fn columns(
 fn widths(comparison: &Comparison, rows: &[&Row]) -> Vec<usize> {
     let width = |column: usize| {
         let cells = rows.iter().filter_map(|row| row.cells.get(column));
-        cells.map(|cell| words::cell(cell.as_ref()).len()).max().unwrap_or(0)
+        cells.map(|own| cell(own.as_ref()).len()).max().unwrap_or(0)
     };
     (0..comparison.implementations.len()).map(width).collect()
 }

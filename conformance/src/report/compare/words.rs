@@ -1,0 +1,15 @@
+//! Words that the formats of a comparison share.
+
+use super::model::Cell;
+
+/// Said of a comparison where it may be unfair.
+pub(super) const ASKED_DIFFERENTLY: &str = "They were not asked the same: selection, seed, cases or lengths differ, or a run was cut short.";
+
+/// A cell of the matrix: `pass`, `fail 65/23963`, or `-` if nothing was asked.
+pub(super) fn cell(cell: Option<&Cell>) -> String {
+    match cell.map(|cell| (cell.verdict, cell.share())) {
+        None => "-".to_owned(),
+        Some((verdict, None)) => verdict.to_string(),
+        Some((verdict, Some((count, judged)))) => format!("{verdict} {count}/{judged}"),
+    }
+}

@@ -1,0 +1,58 @@
+//! The formats of a report, by name.
+
+use std::io::{self, Write};
+
+use anstream::adapter::strip_bytes;
+
+use super::model::Report;
+use super::{html, json, junit, markdown, text};
+
+/// What a report can be written as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// As on the terminal.
+    Text,
+    /// Everything, for programs.
+    Json,
+    /// For what collects the results of tests.
+    Junit,
+    /// A summary for a CI job's page.
+    Markdown,
+    /// A page that needs no network.
+    Html,
+}
+
+impl Format {
+    /// Every format.
+    pub const ALL: [Self; 5] = [Self::Text, Self::Json, Self::Junit, Self::Markdown, Self::Html];
+
+    /// Its name on the command line.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Text => "text",
+            Self::Json => "json",
+            Self::Junit => "junit",
+            Self::Markdown => "markdown",
+            Self::Html => "html",
+        }
+    }
+
+    /// Writes a report in this format, without colours.
+    ///
+    /// # Errors
+    /// If it can't be written.
+    pub fn write(self, report: &Report, out: &mut dyn Write) -> io::Result<()> {
+        match self {
+            Self::Text => {
+                let mut text = Vec::new();
+                text::write(report, &mut text)?;
+                out.write_all(&strip_bytes(&text).into_vec())
+            }
+            Self::Json => json::write(report, out),
+            Self::Junit => junit::write(report, out),
+            Self::Markdown => markdown::write(report, out),
+            Self::Html => html::write(report, out),
+        }
+    }
+}
