@@ -3,15 +3,15 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::places;
 use super::token::{constant_name, hex8, hex16, module_name, option, type_name};
 use super::wire_enum::wire_enum;
+use super::{constants, places};
 use crate::model::{Actuators, Alarms, Command, Direction, Format, FullScale, Innfos, Modes};
 
 pub(super) fn module(innfos: &Innfos) -> TokenStream {
     let name = module_name(&innfos.protocol);
     let doc = format!(" {}.", innfos.title);
-    let (constants, commands) = (constants(innfos), commands(&innfos.commands));
+    let (constants, commands) = (constants_of(innfos), commands(&innfos.commands));
     let (modes, alarms) = (modes(&innfos.modes), alarms(&innfos.alarms));
     let actuators = actuators(&innfos.actuators);
     quote! {
@@ -28,14 +28,14 @@ pub(super) fn module(innfos: &Innfos) -> TokenStream {
     }
 }
 
-fn constants(innfos: &Innfos) -> TokenStream {
+fn constants_of(innfos: &Innfos) -> TokenStream {
     let (framing, presence, udp) = (&innfos.framing, &innfos.crc_presence, &innfos.udp);
     let (header, tail) = (hex8(framing.header), hex8(framing.tail));
+    let (min_address, max_address) = (hex8(framing.address.min), hex8(framing.address.max));
     let broadcast = hex8(framing.address.broadcast);
     let framing_source = format!(" {}.", places(&framing.source));
-    let (polynomial, check) = (hex16(innfos.crc.polynomial), hex16(innfos.crc.check));
-    let crc_doc =
-        format!(" The polynomial of {}, highest power in the highest bit.", innfos.crc.name);
+    let (length, crc) =
+        (constants::length(&framing.length, &framing_source), constants::crc(&innfos.crc));
     let (request, reply) = (usize::from(presence.request), usize::from(presence.reply));
     let presence_source = format!(" {}.", places(&presence.source));
     let open = presence.open.iter().map(|code| hex8(*code));
@@ -50,12 +50,14 @@ fn constants(innfos: &Innfos) -> TokenStream {
         pub const HEADER: u8 = #header;
         /// The last byte of a frame.
         pub const TAIL: u8 = #tail;
+        /// The smallest address that an actuator may have.
+        pub const MIN_ADDRESS: u8 = #min_address;
+        /// The largest address that an actuator may have.
+        pub const MAX_ADDRESS: u8 = #max_address;
         /// The address that every actuator obeys.
         pub const BROADCAST_ADDRESS: u8 = #broadcast;
-        #[doc = #crc_doc]
-        pub const CRC_POLYNOMIAL: u16 = #polynomial;
-        /// The CRC of the nine ASCII characters `123456789`.
-        pub const CRC_CHECK: u16 = #check;
+        #length
+        #crc
         /// From so many bytes of data on a request has a CRC.
         ///
         #[doc = #presence_source]

@@ -1,6 +1,7 @@
 //! Turns the spec into the Rust source of the codec's tables: one file a module, formatted,
 //! sorted as the YAML is, the same from run to run.
 
+mod constants;
 mod device;
 mod innfos;
 mod protocol;

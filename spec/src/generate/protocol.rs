@@ -3,15 +3,15 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::places;
-use super::token::{hex8, hex16, module_name, named_values, type_name};
+use super::token::{hex8, module_name, named_values, type_name};
 use super::wire_enum::wire_enum;
+use super::{constants, places};
 use crate::model::{Field, Instruction, Protocol, Size};
 
 pub(super) fn module(protocol: &Protocol) -> TokenStream {
     let name = module_name(&protocol.protocol);
     let doc = format!(" {}.", protocol.title);
-    let constants = constants(protocol);
+    let constants = constants_of(protocol);
     let instructions = instructions(protocol);
     let errors = errors(protocol);
     quote! {
@@ -27,24 +27,22 @@ pub(super) fn module(protocol: &Protocol) -> TokenStream {
     }
 }
 
-fn constants(protocol: &Protocol) -> TokenStream {
+fn constants_of(protocol: &Protocol) -> TokenStream {
     let framing = &protocol.framing;
     let header = framing.header.iter().map(|byte| hex8(*byte));
     let header_size = framing.header.len();
-    let (max_id, broadcast) = (hex8(framing.id.max), hex8(framing.id.broadcast));
+    let (min_id, max_id) = (hex8(framing.id.min), hex8(framing.id.max));
+    let broadcast = hex8(framing.id.broadcast);
     let minimum = framing.length.minimum;
     let framing_source = format!(" {}.", places(&framing.source));
+    let length = constants::length(&framing.length, &framing_source);
 
     let pattern = protocol.stuffing.pattern.iter().map(|byte| hex8(*byte));
     let pattern_size = protocol.stuffing.pattern.len();
     let insert = hex8(protocol.stuffing.insert);
     let stuffing_source = format!(" {}.", places(&protocol.stuffing.source));
 
-    let crc = &protocol.crc;
-    let (polynomial, initial, check) =
-        (hex16(crc.polynomial), hex16(crc.initial), hex16(crc.check));
-    let crc_source = format!(" {}.", places(&crc.source));
-    let crc_doc = format!(" The polynomial of {}, highest power in the highest bit.", crc.name);
+    let crc = constants::crc(&protocol.crc);
 
     let alert = 1_u8.checked_shl(protocol.status.alert_bit.into()).unwrap_or(0);
     let alert = hex8(alert);
@@ -54,10 +52,13 @@ fn constants(protocol: &Protocol) -> TokenStream {
         ///
         #[doc = #framing_source]
         pub const HEADER: [u8; #header_size] = [#(#header),*];
+        /// The smallest ID that a device may have.
+        pub const MIN_ID: u8 = #min_id;
         /// The largest ID that a device may have.
         pub const MAX_ID: u8 = #max_id;
         /// The ID that every device obeys.
         pub const BROADCAST_ID: u8 = #broadcast;
+        #length
         /// The smallest length that a packet may have.
         pub const MIN_LENGTH: u16 = #minimum;
         /// The bytes that never stand in a body without [`STUFFING_BYTE`] behind them.
@@ -66,14 +67,7 @@ fn constants(protocol: &Protocol) -> TokenStream {
         pub const STUFFING_PATTERN: [u8; #pattern_size] = [#(#pattern),*];
         /// The byte that stuffing puts behind [`STUFFING_PATTERN`].
         pub const STUFFING_BYTE: u8 = #insert;
-        #[doc = #crc_doc]
-        ///
-        #[doc = #crc_source]
-        pub const CRC_POLYNOMIAL: u16 = #polynomial;
-        /// The CRC's value before the first byte.
-        pub const CRC_INITIAL: u16 = #initial;
-        /// The CRC of the nine ASCII characters `123456789`.
-        pub const CRC_CHECK: u16 = #check;
+        #crc
         /// The bit of a status packet's error byte that tells of a hardware error.
         ///
         #[doc = #status_source]

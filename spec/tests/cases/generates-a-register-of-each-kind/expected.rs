@@ -8,10 +8,18 @@ pub mod wire {
     ///
     /// book §1.
     pub const HEADER: [u8; 4usize] = [0xFF, 0xFF, 0xFD, 0x00];
+    /// The smallest ID that a device may have.
+    pub const MIN_ID: u8 = 0x00;
     /// The largest ID that a device may have.
     pub const MAX_ID: u8 = 0xFC;
     /// The ID that every device obeys.
     pub const BROADCAST_ID: u8 = 0xFE;
+    /// Bytes of the length field, which counts instruction to CRC.
+    ///
+    /// book §1.
+    pub const LENGTH_SIZE: usize = 2usize;
+    /// Whether the length field's low byte comes first.
+    pub const LENGTH_LOW_BYTE_FIRST: bool = true;
     /// The smallest length that a packet may have.
     pub const MIN_LENGTH: u16 = 3u16;
     /// The bytes that never stand in a body without [`STUFFING_BYTE`] behind them.
@@ -26,8 +34,14 @@ pub mod wire {
     pub const CRC_POLYNOMIAL: u16 = 0x8005;
     /// The CRC's value before the first byte.
     pub const CRC_INITIAL: u16 = 0x0000;
+    /// Whether the CRC takes and gives the lowest bit of a byte first.
+    pub const CRC_REFLECTED: bool = false;
+    /// What the CRC's last value is xored with.
+    pub const CRC_FINAL_XOR: u16 = 0x0000;
     /// The CRC of the nine ASCII characters `123456789`.
     pub const CRC_CHECK: u16 = 0xFEE8;
+    /// Whether the CRC's low byte comes first on the wire.
+    pub const CRC_LOW_BYTE_FIRST: bool = true;
     /// The bit of a status packet's error byte that tells of a hardware error.
     ///
     /// book §1.
@@ -169,12 +183,32 @@ pub mod board {
     pub const HEADER: u8 = 0xEE;
     /// The last byte of a frame.
     pub const TAIL: u8 = 0xED;
+    /// The smallest address that an actuator may have.
+    pub const MIN_ADDRESS: u8 = 0x01;
+    /// The largest address that an actuator may have.
+    pub const MAX_ADDRESS: u8 = 0xFF;
     /// The address that every actuator obeys.
     pub const BROADCAST_ADDRESS: u8 = 0x00;
+    /// Bytes of the length field, which counts data.
+    ///
+    /// book §2.
+    pub const LENGTH_SIZE: usize = 2usize;
+    /// Whether the length field's low byte comes first.
+    pub const LENGTH_LOW_BYTE_FIRST: bool = false;
     /// The polynomial of CRC-16/MODBUS, highest power in the highest bit.
+    ///
+    /// book §2.
     pub const CRC_POLYNOMIAL: u16 = 0x8005;
+    /// The CRC's value before the first byte.
+    pub const CRC_INITIAL: u16 = 0xFFFF;
+    /// Whether the CRC takes and gives the lowest bit of a byte first.
+    pub const CRC_REFLECTED: bool = true;
+    /// What the CRC's last value is xored with.
+    pub const CRC_FINAL_XOR: u16 = 0x0000;
     /// The CRC of the nine ASCII characters `123456789`.
     pub const CRC_CHECK: u16 = 0x4B37;
+    /// Whether the CRC's low byte comes first on the wire.
+    pub const CRC_LOW_BYTE_FIRST: bool = true;
     /// From so many bytes of data on a request has a CRC.
     ///
     /// book §2.
