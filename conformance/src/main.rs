@@ -1,17 +1,15 @@
-//! The command line: `actucheck codec`, `actucheck decode`, `actucheck spec`.
+//! The program `actucheck`.
 
 #![forbid(unsafe_code)]
 
-mod cli;
-mod commands;
+mod command;
 
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::Parser as _;
 use clap::error::ErrorKind;
 
-use cli::{Cli, Command};
-use commands::Failure;
+use command::{Cli, Command, Failure};
 
 fn main() -> ExitCode {
     run().unwrap_or_else(|failure| {
@@ -30,39 +28,22 @@ fn run() -> Result<ExitCode, Failure> {
             let _ = answer.print();
             return Ok(ExitCode::SUCCESS);
         }
-        Err(error) => return Err(usage(&error)),
-    };
-    match cli.command {
-        Command::Codec(options) => commands::codec::run(&options),
-        Command::Fuzz(options) => commands::fuzz::run(&options),
-        Command::Decode(options) => commands::decode::run(&options),
-        Command::List(options) => commands::list::run(&options),
-        Command::Show(options) => commands::show::run(&options),
-        Command::Replay(options) => commands::replay::run(&options),
-        Command::Adapter(command) => commands::adapter::run(&command),
-        Command::Report(command) => commands::report::run(&command),
-        Command::Spec(command) => commands::spec::run(&command),
-        Command::Completions(options) => {
-            commands::completions::run(&options);
-            Ok(ExitCode::SUCCESS)
+        Err(error) => {
+            let arguments = std::env::args_os().skip(1);
+            let texts = arguments.map_while(|argument| argument.into_string().ok());
+            return Err(Failure::parse(&error, &command::named(texts)));
         }
+    };
+    match &cli.command {
+        Command::Codec(options) => command::codec::run(options),
+        Command::Fuzz(options) => command::fuzz::run(options),
+        Command::Decode(options) => command::decode::run(options),
+        Command::List(options) => command::list::run(options),
+        Command::Show(options) => command::show::run(options),
+        Command::Replay(options) => command::replay::run(options),
+        Command::Adapter(subcommand) => command::adapter::run(subcommand),
+        Command::Report(subcommand) => command::report::run(subcommand),
+        Command::Spec(subcommand) => command::spec::run(subcommand),
+        Command::Completions(options) => Ok(command::completions::run(options)),
     }
-}
-
-/// What clap says, on one line.
-fn usage(error: &clap::Error) -> Failure {
-    if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        let message = "no command; `--help` behind it lists them";
-        return Failure::new(Failure::USAGE, message);
-    }
-    let text = error.to_string();
-    let more = ["Usage:", "tip:", "For more information"];
-    let lines = text.lines().map(str::trim);
-    let words: Vec<_> = lines
-        .take_while(|line| !more.iter().any(|start| line.starts_with(start)))
-        .filter(|line| !line.is_empty())
-        .collect();
-    let sentence = words.join(" ");
-    let sentence = sentence.strip_prefix("error: ").unwrap_or(&sentence);
-    Failure::new(Failure::USAGE, format!("{sentence} (see `actucheck --help`)"))
 }

@@ -3,6 +3,8 @@
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
 use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
 
 use assert_cmd::Command;
 use serde_json::Value;
@@ -14,6 +16,25 @@ fn actucheck(arguments: &[&str]) -> (i32, String, String) {
 }
 
 const WRITE: &str = "FF FF FD 00 01 09 00 03 34 02 D0 07 00 00 1E C9";
+
+/// Options of the command line are the program's: whoever uses the library needs no `clap`.
+#[test]
+fn the_library_does_not_name_clap() {
+    let mut folders = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("src")];
+    let mut seen = 0;
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() && !path.ends_with("src/command") {
+                folders.push(path);
+            } else if path.is_file() && !path.ends_with("src/main.rs") {
+                assert!(!fs::read_to_string(&path).unwrap().contains("clap"), "{}", path.display());
+                seen += 1;
+            }
+        }
+    }
+    assert!(seen > 10, "{seen} files");
+}
 
 #[test]
 fn the_main_job_passes_on_the_builtin_codec() {
@@ -101,7 +122,7 @@ fn bits_and_names_are_explained_where_the_address_is_known() {
 fn an_innfos_frame_is_explained_if_it_is_told_which_way_it_goes() {
     let frame = "EE 06 0A 00 04 01 00 00 00 01 D8 ED";
     let (status, stdout, stderr) =
-        actucheck(&["decode", "--wire", "innfos", "--kind", "request", frame]);
+        actucheck(&["decode", "--wire", "innfos", "--direction", "request", frame]);
     assert_eq!(status, 0, "{stderr}");
     insta::assert_snapshot!(stdout, @r"
     request to 6: Write Position
@@ -114,12 +135,13 @@ fn an_innfos_frame_is_explained_if_it_is_told_which_way_it_goes() {
        11  ed           end
     ");
     let alarms = "EE 06 FF 00 02 00 05 E1 83 ED";
-    let (status, _, stderr) = actucheck(&["decode", "--wire", "innfos", "--kind", "reply", alarms]);
+    let (status, _, stderr) =
+        actucheck(&["decode", "--wire", "innfos", "--direction", "reply", alarms]);
     assert_eq!(status, 1, "the CRC is wrong");
     insta::assert_snapshot!(stderr, @"actucheck: no valid packet, from byte 7 on: crc: bytes 7 and 8 are E1 83, C1 B3 is expected");
     let (status, _, stderr) = actucheck(&["decode", "--wire", "innfos", frame]);
     assert_eq!(status, 2);
-    assert!(stderr.contains("--kind request"), "{stderr}");
+    assert!(stderr.contains("--direction request"), "{stderr}");
 }
 
 #[test]
@@ -181,8 +203,86 @@ fn wrong_usage_is_one_line_and_status_2() {
 }
 
 #[test]
+fn an_unknown_name_gets_the_nearest_known_one_and_the_subcommands_help() {
+    let said = |arguments: &[&str]| actucheck(arguments).2;
+    insta::assert_snapshot!(said(&["decod"]), @"actucheck: unrecognized subcommand 'decod'; did you mean `decode`? (see `actucheck --help`)");
+    insta::assert_snapshot!(said(&["spec", "dif"]), @"actucheck: unrecognized subcommand 'dif'; did you mean `diff`? (see `actucheck spec --help`)");
+    insta::assert_snapshot!(said(&["codec", "--jobz", "3"]), @"actucheck: unexpected argument '--jobz' found; did you mean `--jobs`? (see `actucheck codec --help`)");
+    insta::assert_snapshot!(said(&["list", "--wire", "inofs"]), @"actucheck: invalid value 'inofs' for '--wire <WIRE>' [possible values: dynamixel2, innfos]; did you mean `innfos`? (see `actucheck list --help`)");
+    insta::assert_snapshot!(said(&["decode", "--device", "ja4", WRITE]), @"actucheck: invalid value 'ja4' for '--device <DEVICE>' [possible values: ja40, ja-variant, xm430-w210]; did you mean `ja40`? (see `actucheck decode --help`)");
+    insta::assert_snapshot!(said(&["adapter"]), @"actucheck: no subcommand; `actucheck adapter --help` lists them");
+}
+
+#[test]
+fn help_lists_the_subcommands_and_the_exit_status() {
+    let (status, stdout, stderr) = actucheck(&["--help"]);
+    assert_eq!((status, stderr.as_str()), (0, ""));
+    insta::assert_snapshot!(stdout, @"
+    Checks implementations of robot actuators' protocols against the documents
+
+    Usage: actucheck <COMMAND>
+
+    Commands:
+      codec        Checks a codec: the built-in one, or a library behind an adapter
+      fuzz         Looks for failures that no check foresees, and shrinks them
+      decode       Explains one packet field by field
+      list         Lists the checks
+      show         Shows one check: what it asks, what it demands, and which sentence demands it
+      replay       Asks one check again and shows what was said
+      adapter      Starts, and checks, the adapter that puts a library behind the suite
+      report       Compares the reports of several runs, or writes one in another format
+      spec         Shows, compares and exports what the documents say
+      completions  Prints a shell's completion script
+      help         Print this message or the help of the given subcommand(s)
+
+    Options:
+      -h, --help     Print help
+      -V, --version  Print version
+
+    Exit status: 0 all passed, 1 something failed, 2 wrong usage, 3 something could not be run, 4 the
+    adapter could not be started.
+    ");
+}
+
+#[test]
+fn the_help_of_each_subcommand_has_an_example_of_it() {
+    let subcommands = |of: &[&str]| -> Vec<String> {
+        let help = actucheck(&[of, &["--help"]].concat()).1;
+        let list = help.split("Commands:\n").nth(1).unwrap_or_default();
+        let names = list.lines().map_while(|line| line.split_whitespace().next());
+        names.filter(|name| *name != "help").map(str::to_owned).collect()
+    };
+    let mut seen = 0;
+    for name in subcommands(&[]) {
+        let nested = subcommands(&[&name]);
+        let paths = if nested.is_empty() {
+            vec![vec![name.as_str()]]
+        } else {
+            nested.iter().map(|nested| vec![name.as_str(), nested]).collect()
+        };
+        for path in paths {
+            let (status, help, _) = actucheck(&[&path[..], &["--help"]].concat());
+            let examples = help.split("Example").nth(1).unwrap_or_default();
+            let example = format!("  actucheck {}", path.join(" "));
+            assert!(status == 0 && examples.contains(&example), "{path:?}: {help}");
+            seen += 1;
+        }
+    }
+    assert_eq!(seen, 15);
+}
+
+#[test]
+fn the_help_names_every_format_of_a_report() {
+    let help = actucheck(&["codec", "--help"]).1;
+    for format in actucheck::report::Format::ALL {
+        assert!(help.contains(format.name()), "{}", format.name());
+    }
+}
+
+#[test]
 fn a_packet_that_goes_the_other_way_is_refused() {
-    assert_eq!(actucheck(&["decode", "--kind", "request", WRITE]).0, 0);
+    assert_eq!(actucheck(&["decode", "--direction", "request", WRITE]).0, 0);
+    // The option's old name.
     let (status, _, stderr) = actucheck(&["decode", "--kind", "reply", WRITE]);
     assert_eq!(status, 1);
     insta::assert_snapshot!(stderr, @"actucheck: no valid reply: byte 7, the instruction, makes it a request");
@@ -193,12 +293,12 @@ fn an_expected_failure_that_does_not_fail_fails_the_run() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("expected.yaml");
     let rows = "expected_failures:\n  - ids: [ja40.ping.instruction/crc]\n    reason: none\n";
-    std::fs::write(&file, rows).unwrap();
+    fs::write(&file, rows).unwrap();
     let (status, stdout, _) = actucheck(&["codec", "--expect", file.to_str().unwrap()]);
     assert_eq!(status, 1);
     assert!(stdout.contains("UNEXPECTED PASS"), "{stdout}");
 
-    std::fs::write(&file, rows.replace("ping", "pong")).unwrap();
+    fs::write(&file, rows.replace("ping", "pong")).unwrap();
     let (status, _, stderr) = actucheck(&["codec", "--expect", file.to_str().unwrap()]);
     assert_eq!(status, 2);
     assert!(stderr.contains("row 1: `ja40.pong.instruction/crc` is the id of no check"));

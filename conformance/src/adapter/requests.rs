@@ -15,7 +15,6 @@ pub const VERSION: u32 = 1;
 
 /// A protocol whose packets are checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
-#[cfg_attr(feature = "suite", derive(clap::ValueEnum))]
 #[serde(rename_all = "lowercase")]
 pub enum Wire {
     /// DYNAMIXEL Protocol 2.0 and its JA dialect.
@@ -34,6 +33,15 @@ impl Wire {
         match self {
             Self::Dynamixel2 => "dynamixel2",
             Self::Innfos => "innfos",
+        }
+    }
+
+    /// What it is called, for people.
+    #[must_use]
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Dynamixel2 => "DYNAMIXEL Protocol 2.0 and its JA dialect",
+            Self::Innfos => "The INNFOS Ethernet protocol",
         }
     }
 }

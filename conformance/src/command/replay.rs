@@ -11,15 +11,38 @@ use actucheck::suite::check::Check;
 use actucheck::suite::saved;
 use actucheck_spec::Spec;
 
-use super::Failure;
-use crate::cli::Replay;
+use clap::Args;
+
+use super::shared::{self, Adapter, Failure, Growth, Subjects};
+
+const EXAMPLES: &str = "\
+Examples:
+  actucheck replay dynamixel2.stuffing.goal-position/encode -- python3 my_adapter.py
+  actucheck replay --seed 7 dynamixel2.seed-7.12.status/decode -- ./my-adapter
+  actucheck replay findings.yaml -- ./my-adapter
+
+Exit status: as `actucheck codec`.";
+
+/// Asks one check again and shows what was said
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Replay {
+    /// The check's id, as `actucheck list` and reports have it, or a file with checks, as
+    /// `actucheck fuzz` writes it
+    #[arg(value_name = "ID|FILE")]
+    what: String,
+    #[command(flatten)]
+    growth: Growth,
+    #[command(flatten)]
+    adapter: Adapter,
+}
 
 /// Asks one check, or those of a file, and prints the whole report on them.
 pub(crate) fn run(options: &Replay) -> Result<ExitCode, Failure> {
-    let spec = super::spec()?;
-    let mut subjects = super::subjects(&options.adapter, 1)?;
+    let spec = shared::spec()?;
+    let mut subjects = Subjects::start(&options.adapter, 1)?;
     let hello = subjects.hello.clone();
-    let (wire, checks) = meant(options, &spec, &hello)?;
+    let (wire, checks) = named(options, &spec, &hello)?;
     let path = Path::new(&options.what);
     let ids = checks.iter().filter(|_| path.is_file()).map(|check| check.id.clone());
     let records = ids.map(|id| (id, path.to_owned())).collect();
@@ -27,7 +50,7 @@ pub(crate) fn run(options: &Replay) -> Result<ExitCode, Failure> {
     let report = Report::from(Run {
         spec: &spec,
         implementation: &hello.implementation,
-        options: super::options(wire, &options.growth, Some(&hello)),
+        options: options.growth.options(wire, Some(&hello)),
         command: &options.adapter.command,
         records,
         outcomes,
@@ -41,18 +64,18 @@ pub(crate) fn run(options: &Replay) -> Result<ExitCode, Failure> {
         .iter()
         .try_for_each(|check| text::check(&spec, check, &mut out))
         .and_then(|()| text::write(&report, &mut out))
-        .map_err(|error| Failure::new(Failure::INCOMPLETE, error))?;
+        .map_err(Failure::incomplete)?;
     Ok(ExitCode::from(report.exit_status()))
 }
 
 /// The checks of a file if there is one of that name, else the one with that id.
-fn meant(options: &Replay, spec: &Spec, hello: &Hello) -> Result<(Wire, Vec<Check>), Failure> {
+fn named(options: &Replay, spec: &Spec, hello: &Hello) -> Result<(Wire, Vec<Check>), Failure> {
     let path = Path::new(&options.what);
     if !path.is_file() {
-        let (wire, check) = super::named(spec, &options.what, &options.growth, Some(hello))?;
+        let (wire, check) = options.growth.named(spec, &options.what, Some(hello))?;
         return Ok((wire, vec![check]));
     }
-    let checks = saved::read(path).map_err(|error| Failure::new(Failure::USAGE, error))?;
+    let checks = saved::read(path).map_err(Failure::usage)?;
     let wire = checks.first().map_or(Wire::Dynamixel2, |(wire, _)| *wire);
     Ok((wire, checks.into_iter().map(|(_, check)| check).collect()))
 }

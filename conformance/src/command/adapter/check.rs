@@ -1,4 +1,4 @@
-//! `actucheck adapter`.
+//! `actucheck adapter check`.
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -8,51 +8,47 @@ use actucheck::adapter::lint::{self, Point, Report, Said};
 use actucheck::suite::{self, Options};
 use anstyle::AnsiColor;
 
-use super::Failure;
-use crate::cli::adapter::{Check, Command, Language, Template};
+use clap::Args;
+
+use crate::command::shared::{self, Exchange, Failure};
+
+const EXAMPLES: &str = "\
+Examples:
+  actucheck adapter check -- python3 adapter.py
+  actucheck adapter check --start-timeout 60 -- ./run
+
+Exit status: 0 all is well, 1 something is wrong, 2 wrong usage, 4 the adapter could not be started.";
+
+/// Checks an adapter, point by point, before what it says of a library counts
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Check {
+    #[command(flatten)]
+    exchange: Exchange,
+    /// The adapter's command with its arguments
+    #[arg(last = true, required = true, value_name = "COMMAND")]
+    command: Vec<String>,
+}
 
 /// How many lines of a conversation are shown, the last ones.
 const SHOWN: usize = 4;
 /// How many characters of a line are shown.
 const WIDTH: usize = 400;
 
-pub(crate) fn run(command: &Command) -> Result<ExitCode, Failure> {
-    match command {
-        Command::Template(options) => Ok(template(options)),
-        Command::Check(options) => check(options),
-    }
-}
-
-/// Prints a template.
-fn template(options: &Template) -> ExitCode {
-    let text = match options.language {
-        Language::Python => include_str!("../../adapters/template/adapter.py"),
-        Language::C => include_str!("../../adapters/template/adapter.c"),
-    };
-    // A reader that has seen enough is no failure.
-    let _ = io::stdout().write_all(text.as_bytes());
-    ExitCode::SUCCESS
-}
-
 /// Looks at an adapter and prints what came out.
-fn check(options: &Check) -> Result<ExitCode, Failure> {
-    let spec = super::spec()?;
+pub(crate) fn run(options: &Check) -> Result<ExitCode, Failure> {
+    let spec = shared::spec()?;
     // The questions are the documents'; none is generated.
     let of = |wire| suite::all(&spec, &Options { cases: 0, ..Options::new(wire) });
     let checks: Vec<_> = Wire::ALL.into_iter().flat_map(of).collect();
-    let settings = super::settings(&options.exchange)?;
+    let settings = options.exchange.settings()?;
     let command = options.command.join(" ");
     let report = lint::check(&options.command, &settings, &checks).map_err(|error| {
         let message = format!("cannot run `{command}`: {error}; give the command after `--`");
-        Failure::new(Failure::NOT_STARTED, message)
+        Failure::not_started(message)
     })?;
-    if let Some(trace) = settings.trace {
-        trace.finish().map_err(|error| {
-            Failure::new(Failure::INCOMPLETE, format!("cannot write the trace: {error}"))
-        })?;
-    }
-    write(&report, &command, &mut anstream::stdout())
-        .map_err(|error| Failure::new(Failure::INCOMPLETE, error))?;
+    shared::finish(settings.trace)?;
+    write(&report, &command, &mut anstream::stdout()).map_err(Failure::incomplete)?;
     Ok(ExitCode::from(match &report.hello {
         Some(_) if report.is_good() => 0,
         Some(_) => Failure::FAILED,

@@ -3,17 +3,35 @@
 use std::fmt::Write as _;
 
 use actucheck_spec::Spec;
-use actucheck_spec::diff::{Diff, Difference, Only};
+use actucheck_spec::diff::{self, Difference, Only};
 use actucheck_spec::model::Device;
+use clap::Args;
 
-use super::table::{self, BOLD};
-use crate::cli::spec;
-use crate::commands::Failure;
+use crate::command::shared::Failure;
+use crate::command::shared::table::{self, BOLD};
+
+const EXAMPLE: &str = "\
+Example:
+  actucheck spec diff ja40 ja-variant
+
+Exit status: 0 compared, 2 wrong usage.";
+
+/// Compares the control tables of two devices
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(crate) struct Diff {
+    /// The first device
+    #[arg(value_name = "DEVICE")]
+    left: String,
+    /// The second device
+    #[arg(value_name = "DEVICE")]
+    right: String,
+}
 
 /// What differs, section by section.
-pub(super) fn text(spec: &Spec, options: &spec::Diff) -> Result<String, Failure> {
+pub(super) fn text(spec: &Spec, options: &Diff) -> Result<String, Failure> {
     let (left, right) = (device(spec, &options.left)?, device(spec, &options.right)?);
-    let diff = Diff::of(left, right);
+    let diff = diff::Diff::of(left, right);
     let mut text = format!("{BOLD}{} and {}{BOLD:#}\n", left.title, right.title);
     if diff.is_empty() {
         text.push_str("Nothing differs.\n");
@@ -83,7 +101,7 @@ fn only(text: &mut String, device: &Device, other: &Device, rows: &[Only<'_>]) {
 }
 
 /// A row for each fact; the address stands in the first of each register.
-fn changed(diff: &Diff<'_>) -> Vec<String> {
+fn changed(diff: &diff::Diff<'_>) -> Vec<String> {
     let [fact, left, right] = facts(&diff.left.device, &diff.right.device);
     let mut rows = vec![[String::new(), String::new(), fact, left, right]];
     for register in &diff.registers {

@@ -7,23 +7,46 @@ use actucheck::suite::{self, Options};
 use actucheck_spec::Spec;
 use actucheck_spec::coverage::{self, CheckName, Cover, Row};
 use actucheck_spec::model::{Level, Requirement, Role};
-use clap::ValueEnum as _;
+use clap::Args;
 
-use super::table::{self, BOLD, DIM};
-use crate::cli::spec;
-use crate::commands::Failure;
+use crate::command::shared::table::{self, BOLD, DIM};
+use crate::command::shared::{Failure, one_of};
+
+const EXAMPLE: &str = "\
+Example:
+  actucheck spec coverage --document dynamixel2 --role codec --uncovered
+      what the DYNAMIXEL document demands of a codec and nothing checks yet";
+
+/// Tells for every requirement of the documents what checks it
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(crate) struct Coverage {
+    /// Only the requirements of this document
+    #[arg(long, value_name = "DOCUMENT")]
+    document: Option<String>,
+    /// Only the requirements that bind this role
+    #[arg(long, value_parser = one_of(ROLES))]
+    role: Option<Role>,
+    /// Only the requirements that nothing checks yet
+    #[arg(long)]
+    uncovered: bool,
+}
+
+const ROLES: [(Role, &str, &str); 3] = [
+    (Role::Codec, "codec", "Whoever builds or reads packets"),
+    (Role::Host, "host", "Whoever sends instructions"),
+    (Role::Device, "device", "The actuator"),
+];
 
 const NOTHING: &str = "nothing yet";
 
 /// The matrix, a document after the other, and its totals.
-pub(super) fn text(spec: &Spec, options: &spec::Coverage) -> Result<String, Failure> {
+pub(super) fn text(spec: &Spec, options: &Coverage) -> Result<String, Failure> {
     let document = options.document.as_deref();
     super::known_document(spec, document)?;
-    let role = options.role.map(role);
-    let checks: Vec<_> = Wire::value_variants()
-        .iter()
-        .flat_map(|wire| suite::all(spec, &Options::new(*wire)))
-        .collect();
+    let role = options.role;
+    let checks: Vec<_> =
+        Wire::ALL.into_iter().flat_map(|wire| suite::all(spec, &Options::new(wire))).collect();
     // What the suite asks, it asks of codecs.
     let names = checks.iter().map(|check| CheckName {
         id: &check.id,
@@ -43,14 +66,6 @@ pub(super) fn text(spec: &Spec, options: &spec::Coverage) -> Result<String, Fail
         });
     }
     Ok(matrix(spec, &rows) + &totals)
-}
-
-const fn role(role: spec::Role) -> Role {
-    match role {
-        spec::Role::Codec => Role::Codec,
-        spec::Role::Host => Role::Host,
-        spec::Role::Device => Role::Device,
-    }
 }
 
 fn matrix(spec: &Spec, rows: &[Row<'_>]) -> String {

@@ -4,19 +4,27 @@ mod coverage;
 mod diff;
 mod errata;
 mod export;
-mod table;
 
 use std::io::{self, Write as _};
 use std::process::ExitCode;
 
 use actucheck_spec as data;
+use clap::Subcommand;
 
-use super::Failure;
-use crate::cli::spec::Spec;
+use super::shared::{self, Failure};
+
+/// Shows, compares and exports what the documents say
+#[derive(Debug, Subcommand)]
+pub(crate) enum Spec {
+    Diff(diff::Diff),
+    Errata(errata::Errata),
+    Coverage(coverage::Coverage),
+    Export(export::Export),
+}
 
 /// Does what the subcommand says.
 pub(crate) fn run(command: &Spec) -> Result<ExitCode, Failure> {
-    let spec = super::spec()?;
+    let spec = shared::spec()?;
     match command {
         Spec::Diff(options) => print(&diff::text(&spec, options)?),
         Spec::Errata(options) => print(&errata::text(&spec, options)?),
@@ -32,7 +40,7 @@ fn print(text: &str) -> Result<(), Failure> {
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         // A reader that has seen enough is no failure.
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(Failure::new(Failure::INCOMPLETE, format!("cannot write: {error}")))
+            Err(Failure::incomplete(format!("cannot write: {error}")))
         }
         _ => Ok(()),
     }
@@ -53,5 +61,5 @@ fn known_document(spec: &data::Spec, id: Option<&str>) -> Result<(), Failure> {
 fn unknown<'a>(what: &str, id: &str, known: impl Iterator<Item = &'a str>) -> Failure {
     let known: Vec<_> = known.collect();
     let message = format!("unknown {what} `{id}`; known are {}", known.join(", "));
-    Failure::new(Failure::USAGE, message)
+    Failure::usage(message)
 }

@@ -4,39 +4,56 @@ use std::fmt::Write as _;
 
 use actucheck_spec::Spec;
 use actucheck_spec::model::{Erratum, Status};
+use clap::Args;
 
-use super::table::{self, BOLD};
-use crate::cli::spec;
-use crate::commands::Failure;
+use crate::command::shared::table::{self, BOLD};
+use crate::command::shared::{Failure, one_of};
+
+const EXAMPLES: &str = "\
+Examples:
+  actucheck spec errata --document ja40 --status open
+  actucheck spec errata --json > errata.json";
+
+/// Lists what the documents get wrong or leave open, with the evidence
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Errata {
+    /// Only those of this document
+    #[arg(long, value_name = "DOCUMENT")]
+    document: Option<String>,
+    /// Only those with this status
+    #[arg(long, value_parser = one_of(STATUSES))]
+    status: Option<Status>,
+    /// Print them as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+const STATUSES: [(Status, &str, &str); 3] = [
+    (Status::Resolved, "resolved", "One reading is provably right"),
+    (Status::Chosen, "chosen", "A reading was picked"),
+    (Status::Open, "open", "More than one reading stands"),
+];
 
 /// The errata that are asked for, and how many they are.
-pub(super) fn text(spec: &Spec, options: &spec::Errata) -> Result<String, Failure> {
+pub(super) fn text(spec: &Spec, options: &Errata) -> Result<String, Failure> {
     let document = options.document.as_deref();
     super::known_document(spec, document)?;
-    let status = options.status.map(status);
     let rows: Vec<_> = spec
         .errata
         .content
         .errata
         .iter()
         .filter(|row| document.is_none_or(|id| row.source.document == id))
-        .filter(|row| status.is_none_or(|status| row.status == status))
+        .filter(|row| options.status.is_none_or(|status| row.status == status))
         .collect();
     if options.json {
         return serde_json::to_string_pretty(&rows)
             .map(|text| text + "\n")
-            .map_err(|error| Failure::new(Failure::INCOMPLETE, error));
+            .map_err(Failure::incomplete);
     }
     let blocks: String = rows.iter().map(|row| block(spec, row)).collect();
     Ok(blocks + &summary(&rows))
-}
-
-const fn status(status: spec::Status) -> Status {
-    match status {
-        spec::Status::Resolved => Status::Resolved,
-        spec::Status::Chosen => Status::Chosen,
-        spec::Status::Open => Status::Open,
-    }
 }
 
 fn block(spec: &Spec, row: &Erratum) -> String {

@@ -3,18 +3,55 @@
 use std::hash::{BuildHasher, RandomState};
 use std::io::{self, Write};
 use std::ops::ControlFlow;
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
+use actucheck::adapter::Wire;
 use actucheck::blackbox::{Finding, Fuzzed, fuzz};
 use actucheck::report::{Report, Run, text};
 use actucheck::suite::Options;
 use actucheck::suite::saved;
-use indicatif::{ProgressBar, ProgressStyle};
+use clap::Args;
+use indicatif::ProgressBar;
 
-use super::Failure;
-use crate::cli::Fuzz;
+use super::shared::{self, Adapter, Failure, Subjects, duration, wire};
+
+const EXAMPLES: &str = "\
+Examples:
+  actucheck fuzz -- python3 my_adapter.py
+      for a minute, from another seed each time
+  actucheck fuzz --seed 7 --cases 100000 -- ./my-adapter
+      the same again, whatever the machine
+  actucheck replay findings.yaml -- ./my-adapter
+      what was found, asked again
+
+Exit status: 0 nothing found, 1 something found, 2 wrong usage, 3 the adapter failed too often, \
+4 the adapter could not be started.";
+
+/// Looks for failures that no check foresees, and shrinks them
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Fuzz {
+    /// The wire whose packets are drawn
+    #[arg(long, value_parser = wire(), default_value = "dynamixel2")]
+    wire: Wire,
+    /// How long, as in 90s, 10m or 1h; a minute if neither this nor --cases is given
+    #[arg(long, value_name = "TIME", value_parser = duration, conflicts_with = "cases")]
+    time: Option<Duration>,
+    /// How many probes are drawn
+    #[arg(long, value_name = "N")]
+    cases: Option<u64>,
+    /// The seed of the probes; another one each time if it is not given
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Where to write what was found
+    #[arg(long, value_name = "FILE", default_value = "findings.yaml")]
+    out: PathBuf,
+    #[command(flatten)]
+    adapter: Adapter,
+}
 
 /// How long it takes where the user does not say it.
 const MINUTE: Duration = Duration::from_mins(1);
@@ -24,15 +61,15 @@ const RESTARTS: u32 = 1000;
 
 /// Fuzzes, and shows and keeps what was found.
 pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
-    let spec = super::spec()?;
-    let mut subjects = super::subjects_with(&options.adapter, 1, RESTARTS)?;
+    let spec = shared::spec()?;
+    let mut subjects = Subjects::start_with(&options.adapter, 1, RESTARTS)?;
     let hello = subjects.hello.clone();
     let seed = options.seed.unwrap_or_else(|| RandomState::new().hash_one(()));
     let cases = options.cases.unwrap_or(u64::MAX);
     let time = options.time.or_else(|| options.cases.is_none().then_some(MINUTE));
 
     let started = Instant::now();
-    let interrupted = super::interrupted()?;
+    let interrupted = shared::interrupted()?;
     let progress = progress(options.cases);
     let Some(subject) = subjects.all.first_mut() else { return Ok(ExitCode::SUCCESS) };
     let fuzzed = fuzz(&spec, options.wire, seed, cases, subject.as_mut(), |asked, found| {
@@ -69,10 +106,10 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
     let mut out = anstream::stdout();
     show(&report, &fuzzed.findings, &mut out)
         .and_then(|()| summary(options, seed, &fuzzed, took, &mut out))
-        .map_err(|error| Failure::new(Failure::INCOMPLETE, error))?;
+        .map_err(Failure::incomplete)?;
     if let Some(reason) = &fuzzed.given_up {
         let last = log.lines().last().map(|line| format!("; it said `{line}`")).unwrap_or_default();
-        return Err(Failure::new(Failure::INCOMPLETE, format!("{reason}{last}")));
+        return Err(Failure::incomplete(format!("{reason}{last}")));
     }
     Ok(ExitCode::from(u8::from(!fuzzed.findings.is_empty())))
 }
@@ -85,7 +122,7 @@ fn keep(options: &Fuzz, findings: &[Finding]) -> Result<(), Failure> {
     let checks: Vec<_> = findings.iter().map(|finding| finding.check.clone()).collect();
     let cannot_write = |error: &dyn std::fmt::Display| {
         let path = options.out.display();
-        Failure::new(Failure::INCOMPLETE, format!("cannot write {path}: {error}"))
+        Failure::incomplete(format!("cannot write {path}: {error}"))
     };
     let text = saved::write(&checks).map_err(|error| cannot_write(&error))?;
     std::fs::write(&options.out, text).map_err(|error| cannot_write(&error))
@@ -121,18 +158,10 @@ fn summary(
     writeln!(out, "{} probes in {seconds:.1} s, seed {seed}: {found}", fuzzed.asked)
 }
 
-/// Shows on a terminal, and there only.
 fn progress(cases: Option<u64>) -> ProgressBar {
-    let (bar, template) = match cases {
-        Some(cases) => {
-            (ProgressBar::new(cases), "{bar:30} {pos}/{len} probes  {per_sec}  {eta} left  {msg}")
-        }
-        None => (ProgressBar::no_length(), "{spinner} {pos} probes  {per_sec}  {elapsed}  {msg}"),
+    let template = match cases {
+        Some(_) => "{bar:30} {pos}/{len} probes  {per_sec}  {eta} left  {msg}",
+        None => "{spinner} {pos} probes  {per_sec}  {elapsed}  {msg}",
     };
-    // The template is a constant; one that indicatif does not like shows its default.
-    if let Ok(style) = ProgressStyle::with_template(template) {
-        bar.set_style(style);
-    }
-    bar.enable_steady_tick(Duration::from_secs(1));
-    bar
+    shared::progress(cases, template)
 }

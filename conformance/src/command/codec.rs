@@ -3,10 +3,11 @@
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use actucheck::adapter::Op;
 use actucheck::report::{Report, Run, Stopped, text};
@@ -14,39 +15,82 @@ use actucheck::run;
 use actucheck::suite::expect::Expectations;
 use actucheck::suite::saved;
 use actucheck::verdict::Outcome;
-use indicatif::{ProgressBar, ProgressStyle};
+use clap::Args;
 
-use super::Failure;
-use super::output::Outputs;
-use crate::cli::Codec;
+use super::shared::{self, Adapter, Failure, Outputs, Reports, Selection, Subjects};
+
+const EXAMPLES: &str = "\
+Examples:
+  actucheck codec
+      check the built-in codec
+  actucheck codec -- python3 my_adapter.py
+      check a library behind an adapter
+  actucheck codec --select '*stuffing*' -- ./my-adapter
+      only some checks
+  actucheck codec --report html=report.html --report junit=report.xml -- ./my-adapter
+      with a page to read and a file for what collects the results of tests
+  actucheck codec --report json=- -- ./my-adapter | jq .totals
+      everything, for a program
+  actucheck codec --cases 20000 --body-length 7 --jobs 4 -- ./my-adapter
+      more than half a million checks
+  actucheck codec --jobs 4 --max-fail 10 -- ./my-adapter
+      four adapters side by side, until something failed ten times
+
+Ctrl-C ends a run early and reports what was found so far.
+
+Exit status: 0 all passed, 1 something failed, 2 wrong usage, 3 something could not be run, \
+4 the adapter could not be started.";
+
+/// Checks a codec: the built-in one, or a library behind an adapter
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Codec {
+    #[command(flatten)]
+    selection: Selection,
+    /// Ask the checks of this file too, as `actucheck fuzz` writes it; may be given more than once
+    #[arg(long, value_name = "FILE")]
+    also: Vec<PathBuf>,
+    /// Known failures, which do not fail the run as long as they do fail
+    #[arg(long, value_name = "FILE")]
+    expect: Option<PathBuf>,
+    #[command(flatten)]
+    reports: Reports,
+    /// How many processes of the adapter share the work
+    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u8).range(1..))]
+    jobs: u8,
+    /// End the run after so many unexpected failures
+    #[arg(long, value_name = "N")]
+    max_fail: Option<NonZeroUsize>,
+    #[command(flatten)]
+    adapter: Adapter,
+}
 
 /// Runs the checks and writes the reports; the exit status says what came out.
 pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
-    let spec = super::spec()?;
+    let spec = shared::spec()?;
     let selection = &options.selection;
     let outputs = Outputs::open(&options.reports)?;
-    let mut subjects = super::subjects(&options.adapter, options.jobs)?;
+    let mut subjects = Subjects::start(&options.adapter, options.jobs)?;
     let hello = subjects.hello.clone();
-    let mut all = super::checks(&spec, selection.wire, &selection.growth, Some(&hello));
+    let mut all = selection.growth.checks(&spec, selection.wire, Some(&hello));
     let mut records = BTreeMap::new();
     for path in &options.also {
-        let more = saved::read(path).map_err(|error| Failure::new(Failure::USAGE, error))?;
+        let more = saved::read(path).map_err(Failure::usage)?;
         for (_, check) in more.into_iter().filter(|(wire, _)| *wire == selection.wire) {
             records.insert(check.id.clone(), path.clone());
             all.push(check);
         }
     }
     let expectations = match &options.expect {
-        Some(path) => {
-            Expectations::read(path, &all).map_err(|error| Failure::new(Failure::USAGE, error))?
-        }
+        Some(path) => Expectations::read(path, &all).map_err(Failure::usage)?,
         None => Expectations::default(),
     };
-    let checks = super::selected(all, selection)?;
+    let checks = selection.of(all)?;
 
-    let progress = progress(checks.len());
+    let template = "{bar:30} {pos}/{len} checks  {per_sec}  {eta} left";
+    let progress = shared::progress(Some(checks.len() as u64), template);
     let started = Instant::now();
-    let mut limit = Limit::new(options.max_fail, super::interrupted()?);
+    let mut limit = Limit::new(options.max_fail, shared::interrupted()?);
     let mut outcomes = run::run(&mut subjects.all, &checks, |outcome| {
         progress.inc(1);
         limit.after(outcome, &expectations)
@@ -60,7 +104,7 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     let report = Report::from(Run {
         spec: &spec,
         implementation: &hello.implementation,
-        options: super::options(selection.wire, &selection.growth, Some(&hello)),
+        options: selection.growth.options(selection.wire, Some(&hello)),
         command: &options.adapter.command,
         records,
         left: checks.len().saturating_sub(asked),
@@ -100,16 +144,4 @@ impl Limit {
         }
         ControlFlow::Break(())
     }
-}
-
-/// Shows on a terminal, and there only, after a second.
-fn progress(checks: usize) -> ProgressBar {
-    let bar = ProgressBar::new(checks as u64);
-    let template = "{bar:30} {pos}/{len} checks  {per_sec}  {eta} left";
-    // The template is a constant; one that indicatif does not like shows its default.
-    if let Ok(style) = ProgressStyle::with_template(template) {
-        bar.set_style(style);
-    }
-    bar.enable_steady_tick(Duration::from_secs(1));
-    bar
 }

@@ -5,11 +5,11 @@ use std::io::{IsTerminal as _, stdout};
 use anstyle::Style;
 use textwrap::core::display_width;
 
-pub(super) const BOLD: Style = Style::new().bold();
-pub(super) const DIM: Style = Style::new().dimmed();
+pub(crate) const BOLD: Style = Style::new().bold();
+pub(crate) const DIM: Style = Style::new().dimmed();
 
 /// Rows of cells as lines that begin with `indent`, each column as wide as its widest cell.
-pub(super) fn lines<const N: usize>(indent: &str, rows: &[[String; N]]) -> Vec<String> {
+pub(crate) fn lines<const N: usize>(indent: &str, rows: &[[String; N]]) -> Vec<String> {
     let mut widths = [0; N];
     for row in rows {
         for (width, cell) in widths.iter_mut().zip(row) {
@@ -28,7 +28,7 @@ pub(super) fn lines<const N: usize>(indent: &str, rows: &[[String; N]]) -> Vec<S
 }
 
 /// A label and what it says; on a terminal in lines that fit it.
-pub(super) fn labelled(label: &str, text: &str) -> String {
+pub(crate) fn labelled(label: &str, text: &str) -> String {
     let first = format!("  {label:11} ");
     if !stdout().is_terminal() {
         return format!("{first}{text}\n");

@@ -2,14 +2,56 @@
 
 use std::fs::File;
 use std::io::{self, Write};
+use std::path::{Path, PathBuf};
 
 use actucheck::report::Format;
+use clap::Args;
 
 use super::Failure;
-use crate::cli::report::{Reports, Target};
+
+/// The reports to be written.
+#[derive(Debug, Args)]
+pub(crate) struct Reports {
+    /// Write a report: text, json, junit, markdown or html; `-` is standard output; may be given
+    /// more than once
+    #[arg(long = "report", value_name = "FORMAT=PATH", value_parser = target)]
+    targets: Vec<Target>,
+}
+
+impl Reports {
+    /// Whether one of them has this format.
+    pub(crate) fn any(&self, format: Format) -> bool {
+        self.targets.iter().any(|target| target.format == format)
+    }
+}
+
+/// A report to be written.
+#[derive(Clone, Debug)]
+struct Target {
+    format: Format,
+    path: PathBuf,
+}
+
+impl Target {
+    fn is_stdout(&self) -> bool {
+        self.path == Path::new("-")
+    }
+}
+
+fn target(text: &str) -> Result<Target, String> {
+    let parse = || {
+        let (name, path) = text.split_once('=')?;
+        let format = Format::ALL.into_iter().find(|format| format.name() == name)?;
+        (!path.is_empty()).then(|| Target { format, path: path.into() })
+    };
+    parse().ok_or_else(|| {
+        let formats = Format::ALL.map(Format::name).join(", ");
+        format!("a report is written as FORMAT=PATH; formats are {formats}")
+    })
+}
 
 /// Reports that are open for writing, and the text on the terminal.
-pub(super) struct Outputs {
+pub(crate) struct Outputs {
     files: Vec<(Format, String, Box<dyn Write>)>,
     terminal: Terminal,
 }
@@ -24,21 +66,21 @@ enum Terminal {
 
 impl Outputs {
     /// Opens the reports before the work, so that a wrong path costs no time.
-    pub(super) fn open(reports: &Reports) -> Result<Self, Failure> {
+    pub(crate) fn open(reports: &Reports) -> Result<Self, Failure> {
         let mut outputs = Self { files: Vec::new(), terminal: Terminal::Stdout };
         for (index, target) in reports.targets.iter().enumerate() {
             let name = target.path.display().to_string();
             let others = reports.targets.iter().take(index);
             if others.map(|other| &other.path).any(|path| *path == target.path) {
                 let message = format!("two reports go to {name}; give each a path of its own");
-                return Err(Failure::new(Failure::USAGE, message));
+                return Err(Failure::usage(message));
             }
             if target.is_stdout() && target.format == Format::Text {
                 continue; // It goes there anyway.
             }
-            let file = outputs.file(target).map_err(|error| {
-                Failure::new(Failure::USAGE, format!("cannot write {name}: {error}"))
-            })?;
+            let file = outputs
+                .file(target)
+                .map_err(|error| Failure::usage(format!("cannot write {name}: {error}")))?;
             outputs.files.push((target.format, name, file));
         }
         Ok(outputs)
@@ -54,7 +96,7 @@ impl Outputs {
 
     /// Writes every report with `report`, and the text for a person, which may have colours, with
     /// `text`.
-    pub(super) fn write(
+    pub(crate) fn write(
         self,
         report: impl Fn(Format, &mut dyn Write) -> io::Result<()>,
         text: impl Fn(&mut dyn Write) -> io::Result<()>,
@@ -76,7 +118,7 @@ fn seen(name: &str, written: io::Result<()>) -> Result<(), Failure> {
     match written {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
             let message = format!("cannot write {name}: {error}");
-            Err(Failure::new(Failure::INCOMPLETE, message))
+            Err(Failure::incomplete(message))
         }
         _ => Ok(()),
     }

@@ -1,0 +1,25 @@
+//! `actucheck adapter …`.
+
+mod check;
+mod template;
+
+use std::process::ExitCode;
+
+use clap::Subcommand;
+
+use super::Failure;
+
+/// Starts, and checks, the adapter that puts a library behind the suite
+#[derive(Debug, Subcommand)]
+pub(crate) enum Adapter {
+    Template(template::Template),
+    Check(check::Check),
+}
+
+/// Does what the subcommand says.
+pub(crate) fn run(command: &Adapter) -> Result<ExitCode, Failure> {
+    match command {
+        Adapter::Template(options) => Ok(template::run(options)),
+        Adapter::Check(options) => check::run(options),
+    }
+}

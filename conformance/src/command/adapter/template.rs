@@ -1,0 +1,39 @@
+//! `actucheck adapter template`.
+
+use std::io::{self, Write as _};
+use std::process::ExitCode;
+
+use clap::Args;
+
+use crate::command::shared::one_of;
+
+const EXAMPLES: &str = "\
+Examples:
+  actucheck adapter template python > adapter.py
+  actucheck adapter template c > adapter.c";
+
+/// Prints an adapter to start from, which skips everything
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Template {
+    /// The language that it is written in
+    #[arg(value_parser = one_of(LANGUAGES))]
+    language: &'static str,
+}
+
+/// The source of each template, by language.
+const LANGUAGES: [(&str, &str, &str); 2] = [
+    (
+        include_str!("../../../adapters/template/adapter.py"),
+        "python",
+        "Python 3, without further packages",
+    ),
+    (include_str!("../../../adapters/template/adapter.c"), "c", "C99, without further libraries"),
+];
+
+/// Prints the template.
+pub(crate) fn run(options: &Template) -> ExitCode {
+    // A reader that has seen enough is no failure.
+    let _ = io::stdout().write_all(options.language.as_bytes());
+    ExitCode::SUCCESS
+}

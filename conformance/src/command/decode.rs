@@ -1,0 +1,174 @@
+//! `actucheck decode`.
+
+use std::fmt;
+use std::io::{self, Read as _, Write as _};
+use std::process::ExitCode;
+
+use actucheck::adapter::{Fast, Op, Output, Wire};
+use actucheck::explain::frame::{explain, explain_fast};
+use actucheck::explain::{Explanation, innfos};
+use actucheck::subject::{Answer, Builtin, Subject as _};
+use actucheck_codec::dynamixel2::Instruction;
+use actucheck_codec::register::Device;
+use actucheck_codec::{ja_variant, ja40, xm430_w210};
+use actucheck_spec::model::{FrameKind, HexBytes};
+use clap::Args;
+
+use super::shared::table::{self, BOLD};
+use super::shared::{Failure, one_of, wire};
+
+const EXAMPLES: &str = "\
+Examples:
+  actucheck decode ff fffd 00 01 0300 01 194e
+  actucheck decode --json 'FF FF FD 00 01 09 00 03 34 02 D0 07 00 00 1E C9'
+  actucheck decode --address 580 fffffd00010800550 0946c0000f5af
+      a status packet, whose data was read at address 580
+  actucheck decode --fast 4:1,2 fffffd00fe11005500 01d0070000 0c83 00 02 09000000 1140
+      the packet that answers a Fast Sync Read of 4 bytes from devices 1 and 2
+  actucheck decode --wire innfos --direction request ee 06 0a 00 04 01 00 00 00 01 d8 ed
+
+Exit status: 0 a valid packet, 1 no valid packet, 2 wrong usage.";
+
+/// Explains one packet field by field
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Decode {
+    /// Print the packet object of the adapter protocol
+    #[arg(long)]
+    json: bool,
+    /// The packet's wire
+    #[arg(long, value_parser = wire(), default_value = "dynamixel2")]
+    wire: Wire,
+    /// Which way the packet goes; an innfos frame does not tell
+    #[arg(long, alias = "kind", value_parser = one_of(DIRECTIONS))]
+    direction: Option<FrameKind>,
+    /// The device whose registers are meant
+    #[arg(long, value_name = "DEVICE", value_parser = one_of(DEVICES.map(|device| (device, device.id, device.name))), default_value = "ja40")]
+    device: &'static Device,
+    /// The address at which a status packet's data was read
+    #[arg(long, value_name = "ADDRESS")]
+    address: Option<u16>,
+    /// What a fast status packet answers: bytes a device, and the devices in order
+    #[arg(long, value_name = "LENGTH:ID,ID…", value_parser = fast, conflicts_with = "address")]
+    fast: Option<Fast>,
+    /// The packet's bytes in hex, with or without spaces, commas and 0x; `-` reads them from
+    /// standard input
+    #[arg(required = true, value_name = "HEX")]
+    hex: Vec<String>,
+}
+
+const DIRECTIONS: [(FrameKind, &str, &str); 2] =
+    [(FrameKind::Request, "request", "From the host"), (FrameKind::Reply, "reply", "To the host")];
+
+/// The devices whose registers can be named.
+const DEVICES: [&Device; 3] = [&ja40::DEVICE, &ja_variant::DEVICE, &xm430_w210::DEVICE];
+
+/// Where a packet has its instruction.
+const INSTRUCTION: usize = 7;
+
+/// Explains the packet, or prints it as an object.
+pub(crate) fn run(options: &Decode) -> Result<ExitCode, Failure> {
+    let bytes = bytes(&options.hex)?;
+    let explanation = match options.wire {
+        Wire::Dynamixel2 => dynamixel2(options, &bytes)?,
+        Wire::Innfos => innfos::explain(direction(options)?, &bytes)
+            .map_err(|error| invalid(&error, error.offset()))?,
+    };
+    let text = if options.json { json(options, bytes)? } else { table(&explanation) };
+    // A reader that has seen enough is no failure.
+    let _ = write!(anstream::stdout(), "{text}");
+    Ok(ExitCode::SUCCESS)
+}
+
+fn dynamixel2(options: &Decode, bytes: &[u8]) -> Result<Explanation, Failure> {
+    let explanation = match &options.fast {
+        Some(fast) => explain_fast(bytes, fast),
+        None => explain(bytes, options.device, options.address),
+    };
+    check_direction(options.direction, bytes)?;
+    explanation.map_err(|error| invalid(&error, error.offset()))
+}
+
+/// Which way an INNFOS frame goes; only the user can tell.
+fn direction(options: &Decode) -> Result<actucheck_codec::innfos::Kind, Failure> {
+    match options.direction {
+        Some(FrameKind::Request) => Ok(actucheck_codec::innfos::Kind::Request),
+        Some(FrameKind::Reply) => Ok(actucheck_codec::innfos::Kind::Reply),
+        None => {
+            let message = "an innfos frame does not tell which way it goes; add \
+                           --direction request or --direction reply";
+            Err(Failure::usage(message))
+        }
+    }
+}
+
+fn bytes(arguments: &[String]) -> Result<Vec<u8>, Failure> {
+    let mut text = arguments.join(" ");
+    if text == "-" {
+        text.clear();
+        io::stdin()
+            .read_to_string(&mut text)
+            .map_err(|error| Failure::usage(format!("cannot read standard input: {error}")))?;
+    }
+    let plain = text.replace("0x", " ").replace("0X", " ").replace([',', ':', ';'], " ");
+    let bytes = HexBytes::parse(&plain).map_err(Failure::usage)?;
+    Ok(bytes.0)
+}
+
+/// Refuses a packet that goes the other way than the user says.
+fn check_direction(told: Option<FrameKind>, bytes: &[u8]) -> Result<(), Failure> {
+    let found = match bytes.get(INSTRUCTION) {
+        Some(code) if *code == Instruction::Status.code() => FrameKind::Reply,
+        _ => FrameKind::Request,
+    };
+    match told {
+        Some(told) if told != found => {
+            let message = format!(
+                "no valid {told:?}: byte {INSTRUCTION}, the instruction, makes it a {found:?}"
+            );
+            Err(Failure::failed(message.to_lowercase()))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn invalid(error: &impl fmt::Display, offset: usize) -> Failure {
+    Failure::failed(format!("no valid packet, from byte {offset} on: {error}"))
+}
+
+/// The packet as the adapter protocol has it.
+fn json(options: &Decode, bytes: Vec<u8>) -> Result<String, Failure> {
+    let op = Op::Decode {
+        wire: options.wire,
+        bytes: bytes.into(),
+        fast: options.fast.clone(),
+        kind: options.direction,
+    };
+    match Builtin::default().ask(&op) {
+        Answer::Ok(Output::Packet(packet)) => {
+            serde_json::to_string(&packet).map(|text| text + "\n").map_err(Failure::incomplete)
+        }
+        Answer::Rejected(rejection) => Err(Failure::failed(rejection.detail)),
+        other => Err(Failure::incomplete(format!("no packet: {other:?}"))),
+    }
+}
+
+fn table(explanation: &Explanation) -> String {
+    let rows = explanation.rows.iter().map(|row| {
+        let offset = format!("{:>5}", row.offset);
+        [offset, row.bytes.clone(), row.field.clone(), row.meaning.clone()]
+    });
+    let lines = table::lines("", &rows.collect::<Vec<_>>());
+    format!("{BOLD}{}{BOLD:#}\n{}\n", explanation.title, lines.join("\n"))
+}
+
+/// Reads what a Fast Sync or Fast Bulk instruction asked for.
+fn fast(text: &str) -> Result<Fast, String> {
+    let parse = || {
+        let (length, ids) = text.split_once(':')?;
+        let ids = ids.split(',').map(|id| id.trim().parse().ok());
+        Some(Fast { length: length.trim().parse().ok()?, ids: ids.collect::<Option<_>>()? })
+    };
+    parse()
+        .ok_or_else(|| "expected the bytes a device and the devices' IDs, such as 4:1,2".to_owned())
+}

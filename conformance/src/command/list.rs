@@ -1,0 +1,36 @@
+//! `actucheck list`.
+
+use std::io::{self, Write as _};
+use std::process::ExitCode;
+
+use clap::Args;
+
+use super::shared::{self, Failure, Selection};
+
+const EXAMPLES: &str = "\
+Examples:
+  actucheck list --select '*stuffing.body*' | head
+  actucheck list --wire innfos --skip '*negative*'";
+
+/// Lists the checks
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct List {
+    #[command(flatten)]
+    selection: Selection,
+}
+
+/// Prints a line a check: its id, its level and its requirement.
+pub(crate) fn run(options: &List) -> Result<ExitCode, Failure> {
+    let spec = shared::spec()?;
+    let selection = &options.selection;
+    let checks = selection.of(selection.growth.checks(&spec, selection.wire, None))?;
+    let mut out = io::BufWriter::new(io::stdout().lock());
+    for check in &checks {
+        // A reader that has seen enough is no failure.
+        if writeln!(out, "{}  {}  {}", check.id, check.level, check.requirement).is_err() {
+            break;
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}

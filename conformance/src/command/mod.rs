@@ -1,0 +1,57 @@
+//! The command line: a file for each subcommand, with its options and what it does.
+
+pub(crate) mod adapter;
+pub(crate) mod codec;
+pub(crate) mod completions;
+pub(crate) mod decode;
+pub(crate) mod fuzz;
+pub(crate) mod list;
+pub(crate) mod replay;
+pub(crate) mod report;
+mod shared;
+pub(crate) mod show;
+pub(crate) mod spec;
+
+use clap::{CommandFactory as _, Parser, Subcommand};
+
+pub(crate) use shared::Failure;
+
+/// Checks implementations of robot actuators' protocols against the documents.
+#[derive(Debug, Parser)]
+#[command(version, after_help = EXIT)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+const EXIT: &str = "Exit status: 0 all passed, 1 something failed, 2 wrong usage, \
+    3 something could not be run, 4 the adapter could not be started.";
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    Codec(codec::Codec),
+    Fuzz(fuzz::Fuzz),
+    Decode(decode::Decode),
+    List(list::List),
+    Show(show::Show),
+    Replay(replay::Replay),
+    #[command(subcommand)]
+    Adapter(adapter::Adapter),
+    #[command(subcommand)]
+    Report(report::Report),
+    #[command(subcommand)]
+    Spec(spec::Spec),
+    Completions(completions::Completions),
+}
+
+/// The subcommand that these arguments begin with: `actucheck spec diff`.
+pub(crate) fn named(arguments: impl Iterator<Item = String>) -> String {
+    let mut name = "actucheck".to_owned();
+    let mut command = Cli::command();
+    for argument in arguments {
+        let Some(subcommand) = command.find_subcommand(&argument) else { break };
+        name = format!("{name} {argument}");
+        command = subcommand.clone();
+    }
+    name
+}

@@ -1,0 +1,37 @@
+//! `actucheck report render`.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use actucheck::report::text;
+use clap::Args;
+
+use super::read;
+use crate::command::shared::{Failure, Outputs, Reports};
+
+const EXAMPLES: &str = "\
+Examples:
+  actucheck report render report.json
+      as `actucheck codec` printed it
+  actucheck report render report.json --report html=report.html --report markdown=-
+
+Exit status: 0 written, 2 wrong usage.";
+
+/// Writes a report in other formats
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Render {
+    /// A report, as `--report json=FILE` writes it
+    #[arg(value_name = "REPORT")]
+    file: PathBuf,
+    #[command(flatten)]
+    reports: Reports,
+}
+
+/// Reads the report and writes it.
+pub(crate) fn run(options: &Render) -> Result<ExitCode, Failure> {
+    let report = read(&options.file)?;
+    Outputs::open(&options.reports)?
+        .write(|format, out| format.write(&report, out), |out| text::write(&report, out))?;
+    Ok(ExitCode::SUCCESS)
+}

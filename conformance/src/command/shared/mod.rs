@@ -1,0 +1,38 @@
+//! What several subcommands have in common: groups of options, and where their output goes.
+
+mod failure;
+mod outputs;
+mod progress;
+mod selection;
+mod subjects;
+pub(crate) mod table;
+mod value;
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use actucheck_spec::Spec;
+
+pub(crate) use failure::Failure;
+pub(crate) use outputs::{Outputs, Reports};
+pub(crate) use progress::progress;
+pub(crate) use selection::{Growth, Selection};
+pub(crate) use subjects::{Adapter, Exchange, Subjects, finish};
+pub(crate) use value::{duration, one_of, wire};
+
+/// The spec that this program was built with.
+pub(crate) fn spec() -> Result<Spec, Failure> {
+    Spec::embedded().map_err(|defects| {
+        let defects: Vec<_> = defects.iter().map(ToString::to_string).collect();
+        Failure::incomplete(defects.join("\n"))
+    })
+}
+
+/// A flag that Ctrl-C sets.
+pub(crate) fn interrupted() -> Result<Arc<AtomicBool>, Failure> {
+    let flag = Arc::new(AtomicBool::new(false));
+    let setter = Arc::clone(&flag);
+    ctrlc::set_handler(move || setter.store(true, Ordering::Relaxed))
+        .map_err(|error| Failure::incomplete(format!("cannot listen for Ctrl-C: {error}")))?;
+    Ok(flag)
+}

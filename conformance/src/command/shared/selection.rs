@@ -1,0 +1,95 @@
+//! Which checks there are, and which of them are meant.
+
+use actucheck::adapter::{Hello, Wire};
+use actucheck::suite::check::Check;
+use actucheck::suite::select::select;
+use actucheck::suite::{self, Options};
+use actucheck_spec::Spec;
+use actucheck_spec::model::Level;
+use clap::Args;
+
+use super::{Failure, one_of, wire};
+
+/// Which checks are meant.
+#[derive(Debug, Args)]
+pub(crate) struct Selection {
+    /// The wire whose checks are meant
+    #[arg(long, value_parser = wire(), default_value = "dynamixel2")]
+    pub(crate) wire: Wire,
+    /// Only the checks whose id matches; may be given more than once
+    #[arg(long, value_name = "GLOB")]
+    select: Vec<String>,
+    /// Not the checks whose id matches; may be given more than once
+    #[arg(long, value_name = "GLOB")]
+    skip: Vec<String>,
+    /// Only the checks of requirements of this level or a stricter one
+    #[arg(long, value_parser = one_of(LEVELS), default_value = "may")]
+    level: Level,
+    #[command(flatten)]
+    pub(crate) growth: Growth,
+}
+
+const LEVELS: [(Level, &str, &str); 3] = [
+    (Level::Must, "must", "Breaking it fails the run"),
+    (Level::Should, "should", "Breaking it is a warning"),
+    (Level::May, "may", "Either way is right"),
+];
+
+/// What generated checks grow from.
+#[derive(Clone, Copy, Debug, Args)]
+pub(crate) struct Growth {
+    /// The seed of the generated checks; the same seed yields the same checks
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// How many packets are generated
+    #[arg(long, value_name = "N", default_value_t = 1000)]
+    cases: u32,
+    /// The most bytes in the bodies of FF, FD, 00 and 01 that are all tried inside every kind of
+    /// packet, up to 7; each further byte means four times as many checks
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(..=i64::from(Options::LONGEST_BODY)))]
+    body_length: u32,
+}
+
+impl Selection {
+    /// Those of these checks that are meant.
+    pub(crate) fn of(&self, checks: Vec<Check>) -> Result<Vec<Check>, Failure> {
+        let mut checks = select(checks, &self.select, &self.skip).map_err(Failure::usage)?;
+        checks.retain(|check| check.level <= self.level);
+        Ok(checks)
+    }
+}
+
+impl Growth {
+    /// Every check of a wire. An implementation that states the length of its longest packet gets
+    /// checks around that length.
+    pub(crate) fn checks(&self, spec: &Spec, wire: Wire, hello: Option<&Hello>) -> Vec<Check> {
+        suite::all(spec, &self.options(wire, hello))
+    }
+
+    /// What decides which checks a wire has.
+    pub(crate) fn options(&self, wire: Wire, hello: Option<&Hello>) -> Options {
+        let max_packet = hello.and_then(|hello| hello.limits.max_packet);
+        let Self { seed, cases, body_length } = *self;
+        Options { wire, seed, cases, body_length, max_packet }
+    }
+
+    /// The check with this id, of any wire, and with bodies of any length.
+    pub(crate) fn named(
+        &self,
+        spec: &Spec,
+        id: &str,
+        hello: Option<&Hello>,
+    ) -> Result<(Wire, Check), Failure> {
+        let longest = Self { body_length: Options::LONGEST_BODY, ..*self };
+        let growths = [*self, longest].into_iter();
+        let found = growths.flat_map(|growth| Wire::ALL.map(|wire| (growth, wire))).find_map(
+            |(growth, wire)| {
+                let checks = growth.checks(spec, wire, hello);
+                Some((wire, checks.into_iter().find(|check| check.id == id)?))
+            },
+        );
+        found.ok_or_else(|| {
+            Failure::usage(format!("no check has the id `{id}`; `actucheck list` has them all"))
+        })
+    }
+}

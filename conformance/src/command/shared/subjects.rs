@@ -1,0 +1,111 @@
+//! The implementation that is judged: the built-in codec, or a library behind an adapter.
+
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use actucheck::adapter::{Hello, Settings, Timeouts, Trace};
+use actucheck::subject::{Builtin, Process, Subject};
+use clap::Args;
+
+use super::Failure;
+use super::value::seconds;
+
+/// An adapter, or none.
+#[derive(Debug, Args)]
+pub(crate) struct Adapter {
+    #[command(flatten)]
+    exchange: Exchange,
+    /// The adapter's command with its arguments; without one the built-in codec is judged
+    #[arg(last = true, value_name = "COMMAND")]
+    pub(crate) command: Vec<String>,
+}
+
+/// How requests and replies are exchanged with an adapter.
+#[derive(Debug, Args)]
+pub(crate) struct Exchange {
+    /// Seconds that the adapter may take for a request
+    #[arg(long, value_name = "SECONDS", default_value = "1", value_parser = seconds)]
+    timeout: Duration,
+    /// Seconds that the adapter may take to start
+    #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = seconds)]
+    start_timeout: Duration,
+    /// Write every line exchanged with the adapter to this file
+    #[arg(long, value_name = "FILE")]
+    trace: Option<PathBuf>,
+}
+
+impl Exchange {
+    /// How an adapter is run. Creates the trace.
+    pub(crate) fn settings(&self) -> Result<Settings, Failure> {
+        let timeouts = Timeouts { start: self.start_timeout, request: self.timeout };
+        let trace = self.trace.as_deref().map(open_trace).transpose()?;
+        Ok(Settings { timeouts, trace, ..Settings::default() })
+    }
+}
+
+/// One implementation, in one or several processes.
+pub(crate) struct Subjects {
+    /// What it says of itself.
+    pub(crate) hello: Hello,
+    pub(crate) all: Vec<Box<dyn Subject + Send>>,
+    trace: Option<Trace>,
+}
+
+impl Subjects {
+    /// Starts `jobs` processes of the adapter, or the built-in codec without one.
+    pub(crate) fn start(adapter: &Adapter, jobs: u8) -> Result<Self, Failure> {
+        Self::start_with(adapter, jobs, Settings::default().restarts)
+    }
+
+    /// The same, with another limit to how often each process is started again.
+    pub(crate) fn start_with(adapter: &Adapter, jobs: u8, restarts: u32) -> Result<Self, Failure> {
+        if adapter.command.is_empty() {
+            // clap does not tell `--` with nothing behind it from no `--` at all.
+            if std::env::args_os().next_back().is_some_and(|last| last == "--") {
+                return Err(Failure::usage(
+                    "no command behind `--`; give the adapter's, such as python3 adapter.py",
+                ));
+            }
+            let mut subjects = Self::of(Builtin::default());
+            subjects.all.resize_with(jobs.into(), || Box::new(Builtin::default()));
+            return Ok(subjects);
+        }
+        let settings = adapter.exchange.settings()?;
+        let start = |number| {
+            Process::start(&adapter.command, Settings { restarts, number, ..settings.clone() })
+                .map_err(Failure::not_started)
+        };
+        let mut subjects = Self::of(start(1)?);
+        for number in 2..=u32::from(jobs) {
+            subjects.all.push(Box::new(start(number)?));
+        }
+        Ok(Self { trace: settings.trace, ..subjects })
+    }
+
+    fn of(subject: impl Subject + Send + 'static) -> Self {
+        Self { hello: subject.hello().clone(), all: vec![Box::new(subject)], trace: None }
+    }
+
+    /// Ends the processes. Returns the last lines that they logged.
+    pub(crate) fn end(self) -> Result<String, Failure> {
+        let logs = self.all.iter().map(|subject| subject.log());
+        let log = logs.filter(|log| !log.is_empty()).collect::<Vec<_>>().join("\n");
+        drop(self.all);
+        finish(self.trace)?;
+        Ok(log)
+    }
+}
+
+/// Writes what is left of the trace.
+pub(crate) fn finish(trace: Option<Trace>) -> Result<(), Failure> {
+    let Some(trace) = trace else { return Ok(()) };
+    trace.finish().map_err(|error| Failure::incomplete(format!("cannot write the trace: {error}")))
+}
+
+fn open_trace(path: &Path) -> Result<Trace, Failure> {
+    let file = File::create(path)
+        .map_err(|error| Failure::usage(format!("cannot write {}: {error}", path.display())))?;
+    Ok(Trace::new(Box::new(BufWriter::new(file))))
+}

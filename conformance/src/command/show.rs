@@ -1,0 +1,35 @@
+//! `actucheck show`.
+
+use std::io::Write as _;
+use std::process::ExitCode;
+
+use actucheck::report::text;
+
+use clap::Args;
+
+use super::shared::{self, Failure, Growth};
+
+const EXAMPLE: &str = "\
+Example:
+  actucheck show dynamixel2.stuffing.goal-position/encode";
+
+/// Shows one check: what it asks, what it demands, and which sentence demands it
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(crate) struct Show {
+    /// The check's id, as `actucheck list` and reports have it
+    id: String,
+    #[command(flatten)]
+    growth: Growth,
+}
+
+/// Prints one check.
+pub(crate) fn run(options: &Show) -> Result<ExitCode, Failure> {
+    let spec = shared::spec()?;
+    let (_, check) = options.growth.named(&spec, &options.id, None)?;
+    let mut text = Vec::new();
+    text::check(&spec, &check, &mut text).map_err(Failure::incomplete)?;
+    // A reader that has seen enough is no failure.
+    let _ = anstream::stdout().write_all(&text);
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,57 @@
+//! `actucheck spec export`.
+
+use std::fs;
+use std::path::PathBuf;
+
+use actucheck_spec::{Spec, export};
+use clap::{Args, ValueEnum};
+
+use crate::command::shared::Failure;
+
+const EXAMPLES: &str = "\
+Examples:
+  actucheck spec export vectors --output vectors.json
+  actucheck spec export c-header > actucheck.h";
+
+/// Writes the spec for programs, compilers or readers
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Export {
+    /// What to write
+    #[arg(value_enum)]
+    format: Format,
+    /// Where to write it; standard output if it is not given
+    #[arg(long, value_name = "PATH")]
+    output: Option<PathBuf>,
+}
+
+/// What the spec is written as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// Wires, devices and errata as one JSON file
+    Json,
+    /// Test vectors as one JSON file
+    Vectors,
+    /// Codes, numbers, addresses and ranges in C99
+    CHeader,
+    /// Control tables, instructions and commands as tables to read
+    Markdown,
+}
+
+/// Writes the export to the file, or to standard output.
+pub(super) fn run(spec: &Spec, options: &Export) -> Result<(), Failure> {
+    let text = match options.format {
+        Format::Json => export::json::export(spec),
+        Format::Vectors => export::vectors::export(spec),
+        Format::CHeader => export::c_header::export(spec),
+        Format::Markdown => Ok(export::markdown::export(spec)),
+    }
+    .map_err(Failure::incomplete)?;
+    let Some(path) = &options.output else {
+        return super::print(&text);
+    };
+    fs::write(path, text).map_err(|error| {
+        let message = format!("cannot write {}: {error}", path.display());
+        Failure::usage(message)
+    })
+}
