@@ -1,36 +1,73 @@
-//! Streams read by the rules and by the parser. The plain reading, and what feeds the parser, are
-//! those of the codec's own tests.
+//! Streams as the reference reads them and as the parser does.
 
-// They are written for a test.
-#[path = "../../codec/tests/stream/drive.rs"]
-pub(crate) mod drive;
-#[path = "../../codec/tests/stream/reference.rs"]
-pub(crate) mod reference;
-
-use drive::{expected, parse};
-use reference::Seen;
+use actucheck_codec::stream::Parser;
+use actucheck_spec::wire::dynamixel2::reference::{self, Event};
 
 use crate::draw::Draw;
+use crate::model::event;
 
 /// The longest packet of a scenario.
 pub(crate) const MAX_PACKET: usize = 1024;
 
-/// The events of a stream, which are those of the plain reading however it is cut: whole, byte by
-/// byte, and in pieces drawn from the bytes themselves. Between each two of `busy` is a quiet
-/// time.
+/// The events of a stream, which are those of the reference however it is cut: whole, byte by byte,
+/// and in pieces drawn from the bytes themselves. Between each two of `busy` is a quiet time.
 ///
 /// # Panics
 /// If they are not.
-pub(crate) fn events(busy: &[Vec<u8>]) -> Vec<Seen> {
+pub(crate) fn events(busy: &[Vec<u8>]) -> Vec<Event> {
     let mut draw = Draw::of(&busy.concat());
     let events = expected(busy, MAX_PACKET);
     let sizes = [1 + draw.below(12), 1 + draw.below(80), 1 + draw.below(400)];
     for (sizes, patience) in [(&[usize::MAX][..], usize::MAX), (&[1], 1), (&sizes, 3)] {
-        assert_eq!(parse::<16>(busy, MAX_PACKET, sizes, patience), events, "pieces of {sizes:?}");
+        assert_eq!(parsed::<16>(busy, MAX_PACKET, sizes, patience), events, "pieces of {sizes:?}");
     }
     // The smallest buffer, in which bytes are moved all the time, and a limit below its size.
     let limit = 12 + draw.below(60);
     let small = expected(busy, limit.min(64));
-    assert_eq!(parse::<1>(busy, limit, &sizes, 1), small, "at most {limit} bytes");
+    assert_eq!(parsed::<1>(busy, limit, &sizes, 1), small, "at most {limit} bytes");
     events
+}
+
+fn expected(busy: &[Vec<u8>], max_packet: usize) -> Vec<Event> {
+    let quiet = |index| index + 1 < busy.len();
+    let busy = busy.iter().enumerate();
+    busy.flat_map(|(index, bytes)| reference::events(bytes, quiet(index), max_packet)).collect()
+}
+
+/// What a parser makes of a stream that comes in pieces of `sizes`, again and again, if it is asked
+/// for at most `patience` events after each.
+fn parsed<const BLOCKS: usize>(
+    busy: &[Vec<u8>],
+    max_packet: usize,
+    sizes: &[usize],
+    patience: usize,
+) -> Vec<Event> {
+    let mut parser = Parser::<BLOCKS>::with_max_packet(max_packet);
+    let mut sizes = sizes.iter().copied().cycle();
+    let mut events = Vec::new();
+    for (index, bytes) in busy.iter().enumerate() {
+        if index > 0 {
+            parser.idle();
+            take(&mut parser, usize::MAX, &mut events);
+            assert_eq!(parser.pending(), 0, "something outlasts a quiet time");
+        }
+        let mut rest = bytes.as_slice();
+        while !rest.is_empty() {
+            let piece = &rest[..sizes.next().unwrap().min(rest.len())];
+            let left = parser.push(piece).len();
+            rest = &rest[piece.len() - left..];
+            take(&mut parser, patience, &mut events);
+        }
+    }
+    take(&mut parser, usize::MAX, &mut events);
+    let told: usize = events.iter().map(Event::size).sum();
+    assert_eq!(told + usize::try_from(parser.pending()).unwrap(), busy.concat().len());
+    events
+}
+
+fn take<const BLOCKS: usize>(parser: &mut Parser<BLOCKS>, most: usize, events: &mut Vec<Event>) {
+    for _ in 0..most {
+        let Some(seen) = parser.next_event() else { break };
+        events.push(event(seen));
+    }
 }

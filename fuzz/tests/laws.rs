@@ -2,11 +2,11 @@
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
-use actucheck::reference;
 use actucheck_codec::stream::{Event, Parser};
 use actucheck_fuzz::targets::crc;
 use actucheck_fuzz::{Seeds, TARGETS};
 use actucheck_spec::Spec;
+use actucheck_spec::wire::dynamixel2::reference;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::test_runner::FileFailurePersistence;

@@ -2,7 +2,7 @@
 //!
 //! [`load::Spec`] is everything that `spec/*.yaml` says, read and checked; [`generate`] turns it
 //! into the source of the codec's tables, [`export`] into files for others, and [`schema`] tells
-//! what the files may say. The YAML is part of this crate, so nothing here needs the folder at run
+//! what the files may say. A [`wire`] has its reference model beside it, for expected results. The YAML is part of this crate, so nothing here needs the folder at run
 //! time.
 
 #![forbid(unsafe_code)]
@@ -16,6 +16,7 @@ pub mod generate;
 pub mod load;
 pub mod model;
 pub mod schema;
+pub mod wire;
 
 pub use diagnostic::Diagnostic;
 pub use load::Spec;

@@ -1,14 +1,14 @@
 //! Feeds a parser, and keeps what comes out.
 
-use actucheck_codec::frame;
-use actucheck_codec::stream::{Event, Parser};
+use actucheck_codec::stream::{self, Parser, Reason};
+use actucheck_codec::{Frame, frame};
+use actucheck_spec::model::{Fault, Packet};
+use actucheck_spec::wire::dynamixel2::reference::{Event, events};
 
-use super::reference::{Seen, read};
-
-/// The event with bytes of its own; a frame's are those that encoding it gives.
-pub(crate) fn owned(event: Event<'_>) -> Seen {
+/// The event as the reference tells it; a frame's bytes are those that encoding it gives.
+pub(crate) fn owned(event: stream::Event<'_>) -> Event {
     match event {
-        Event::Frame(frame) => {
+        stream::Event::Frame(frame) => {
             let params: Vec<u8> = frame.params().collect();
             assert_eq!(params.len(), frame.params_len());
             let mut buffer = [0; 2048];
@@ -19,13 +19,36 @@ pub(crate) fn owned(event: Event<'_>) -> Seen {
                 assert_eq!(status.copy_data(&mut buffer), Ok(data));
             }
             let bytes = frame::encode(frame.id(), frame.instruction(), &[&params], &mut buffer);
-            Seen::Frame(bytes.unwrap().to_vec(), params)
+            Event::Packet(bytes.unwrap().to_vec(), packet(&frame, &params))
         }
-        Event::FastStatus(status) => Seen::FastStatus(status.bytes().to_vec()),
-        Event::Skipped { bytes, reason } => {
+        stream::Event::FastStatus(status) => Event::FastStatus(status.bytes().to_vec()),
+        stream::Event::Skipped { bytes, reason } => {
             assert!(!reason.to_string().is_empty());
-            Seen::Skipped(bytes, reason)
+            Event::Skipped(usize::try_from(bytes).unwrap(), fault(reason))
         }
+    }
+}
+
+fn packet(frame: &Frame<'_>, params: &[u8]) -> Packet {
+    let (id, instruction) = (frame.id(), frame.instruction().code());
+    match (frame.error(), params) {
+        (Some(error), [_, params @ ..]) => {
+            Packet::Status { id, error: error.0, params: params.to_vec().into() }
+        }
+        _ => Packet::Instruction { id, instruction, params: params.to_vec().into() },
+    }
+}
+
+/// The reference's word for a reason.
+fn fault(reason: Reason) -> Fault {
+    match reason {
+        Reason::Garbage => Fault::Header,
+        Reason::Id => Fault::Id,
+        Reason::Length => Fault::Length,
+        Reason::Oversize => Fault::Oversize,
+        Reason::Stuffing => Fault::Stuffing,
+        Reason::Crc => Fault::Crc,
+        Reason::Truncated => Fault::Truncated,
     }
 }
 
@@ -36,7 +59,7 @@ fn feed<const BLOCKS: usize>(
     mut bytes: &[u8],
     sizes: &mut impl Iterator<Item = usize>,
     patience: usize,
-    events: &mut Vec<Seen>,
+    events: &mut Vec<Event>,
 ) {
     while !bytes.is_empty() {
         let (piece, rest) = bytes.split_at(sizes.next().unwrap().min(bytes.len()));
@@ -53,7 +76,7 @@ fn feed<const BLOCKS: usize>(
 }
 
 /// Takes all events that there are.
-pub(crate) fn drain<const BLOCKS: usize>(parser: &mut Parser<BLOCKS>, events: &mut Vec<Seen>) {
+pub(crate) fn drain<const BLOCKS: usize>(parser: &mut Parser<BLOCKS>, events: &mut Vec<Event>) {
     while let Some(event) = parser.next_event() {
         events.push(owned(event));
     }
@@ -65,7 +88,7 @@ pub(crate) fn parse<const BLOCKS: usize>(
     max_packet: usize,
     sizes: &[usize],
     patience: usize,
-) -> Vec<Seen> {
+) -> Vec<Event> {
     let mut parser = Parser::<BLOCKS>::with_max_packet(max_packet);
     let mut sizes = sizes.iter().copied().cycle();
     let mut events = Vec::new();
@@ -77,17 +100,17 @@ pub(crate) fn parse<const BLOCKS: usize>(
             assert_eq!(parser.pending(), 0, "nothing outlasts a quiet time");
         }
         feed(&mut parser, bytes, &mut sizes, patience, &mut events);
-        pushed += bytes.len() as u64;
+        pushed += bytes.len();
     }
     drain(&mut parser, &mut events);
-    let accounted: u64 = events.iter().map(Seen::bytes).sum();
-    assert_eq!(accounted + parser.pending(), pushed);
+    let accounted: usize = events.iter().map(Event::size).sum();
+    assert_eq!(accounted + usize::try_from(parser.pending()).unwrap(), pushed);
     events
 }
 
 /// What the rules make of them.
-pub(crate) fn expected(busy: &[Vec<u8>], max_packet: usize) -> Vec<Seen> {
+pub(crate) fn expected(busy: &[Vec<u8>], max_packet: usize) -> Vec<Event> {
     let last = busy.len() - 1;
     let busy = busy.iter().enumerate();
-    busy.flat_map(|(index, bytes)| read(bytes, index < last, max_packet)).collect()
+    busy.flat_map(|(index, bytes)| events(bytes, index < last, max_packet)).collect()
 }

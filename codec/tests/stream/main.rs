@@ -3,15 +3,15 @@
 // Tests may stop at the first surprise, and so may their helpers.
 #![allow(clippy::indexing_slicing, clippy::unwrap_used)]
 
-use actucheck_codec::stream::{Event, Parser, Reason};
+use actucheck_codec::stream::{self, Parser};
+use actucheck_spec::model::{Fault, Packet};
+use actucheck_spec::wire::dynamixel2::reference::{self, Event, frame};
 use drive::{drain, expected, owned, parse};
 use proptest::collection::vec;
 use proptest::prelude::*;
-use reference::{Seen, read};
-use scenario::{Scenario, overlapping, packet, scenario, unstuffed_packet};
+use scenario::{Scenario, overlapping, scenario};
 
 mod drive;
-mod reference;
 mod scenario;
 
 proptest! {
@@ -50,7 +50,7 @@ proptest! {
         for end in 0..stream.len() {
             assert!(parser.push(&stream[end..=end]).is_empty());
             drain(&mut parser, &mut events);
-            prop_assert_eq!(&events, &read(&stream[..=end], false, 256));
+            prop_assert_eq!(&events, &reference::events(&stream[..=end], false, 256));
         }
     }
 
@@ -78,7 +78,7 @@ proptest! {
 }
 
 /// What a parser of up to 1 KiB makes of the pieces, with a quiet time at the end.
-fn events_of(pieces: &[&[u8]]) -> Vec<Seen> {
+fn events_of(pieces: &[&[u8]]) -> Vec<Event> {
     let scenario = Scenario(vec![pieces.concat(), vec![]]);
     let events = parse::<16>(&scenario.0, 1024, &[usize::MAX], usize::MAX);
     assert_eq!(events, expected(&scenario.0, 1024));
@@ -86,30 +86,30 @@ fn events_of(pieces: &[&[u8]]) -> Vec<Seen> {
 }
 
 fn ping() -> Vec<u8> {
-    packet(1, &[0x01])
+    frame(1, &[0x01])
 }
 
-fn seen_ping() -> Seen {
-    Seen::Frame(ping(), vec![])
+fn seen_ping() -> Event {
+    Event::Packet(ping(), Packet::Instruction { id: 1, instruction: 1, params: vec![].into() })
 }
 
 #[test]
 fn tells_every_reason() {
     let header = |rest: &[u8]| [&[0xFF, 0xFF, 0xFD, 0x00], rest].concat();
     for (bytes, reason) in [
-        (b"\x00\xFF\xFF\xFD".to_vec(), Reason::Garbage),
-        (header(&[0xFD]), Reason::Id),
-        (header(&[0x01, 0x02, 0x00]), Reason::Length),
-        (header(&[0x01, 0x03, 0x00, 0x55]), Reason::Length),
-        (header(&[0xFE, 0x04, 0x00, 0x55]), Reason::Length),
-        (header(&[0x01, 0xFA, 0x03]), Reason::Oversize),
-        (unstuffed_packet(1, b"\x03\xFF\xFF\xFD\xFC"), Reason::Stuffing),
-        (unstuffed_packet(1, b"\x03\xFF\xFF\xFD"), Reason::Stuffing),
-        (header(&[0x01, 0x03, 0x00, 0x01, 0x00, 0x00]), Reason::Crc),
-        (header(&[0x01, 0x05, 0x00, 0x01, 0x00, 0x00]), Reason::Truncated),
-        (header(&[]), Reason::Truncated),
+        (b"\x00\xFF\xFF\xFD".to_vec(), Fault::Header),
+        (header(&[0xFD]), Fault::Id),
+        (header(&[0x01, 0x02, 0x00]), Fault::Length),
+        (header(&[0x01, 0x03, 0x00, 0x55]), Fault::Length),
+        (header(&[0xFE, 0x04, 0x00, 0x55]), Fault::Length),
+        (header(&[0x01, 0xFA, 0x03]), Fault::Oversize),
+        (frame(1, b"\x03\xFF\xFF\xFD\xFC"), Fault::Stuffing),
+        (frame(1, b"\x03\xFF\xFF\xFD"), Fault::Stuffing),
+        (header(&[0x01, 0x03, 0x00, 0x01, 0x00, 0x00]), Fault::Crc),
+        (header(&[0x01, 0x05, 0x00, 0x01, 0x00, 0x00]), Fault::Truncated),
+        (header(&[]), Fault::Truncated),
     ] {
-        assert_eq!(events_of(&[&bytes]), [Seen::Skipped(bytes.len() as u64, reason)]);
+        assert_eq!(events_of(&[&bytes]), [Event::Skipped(bytes.len(), reason)]);
     }
 }
 
@@ -117,10 +117,10 @@ fn tells_every_reason() {
 #[test]
 fn a_crc_is_no_stuffing() {
     let bodies = (0..=u16::MAX).map(|n| [&n.to_le_bytes(), &[0xFF, 0xFF, 0xFD][..]].concat());
-    let packets = bodies.map(|body| unstuffed_packet(1, &body));
+    let packets = bodies.map(|body| frame(1, &body));
     let mut packets = packets.filter(|packet| packet[packet.len() - 2] == 0xFD);
     for packet in packets.by_ref().take(20) {
-        let skipped = Seen::Skipped(packet.len() as u64, Reason::Stuffing);
+        let skipped = Event::Skipped(packet.len(), Fault::Stuffing);
         assert_eq!(events_of(&[&packet]), std::slice::from_ref(&skipped));
         let expected = [seen_ping(), seen_ping(), seen_ping(), skipped];
         assert_eq!(events_of(&[&ping(), &ping(), &ping(), &packet]), expected);
@@ -131,20 +131,20 @@ fn a_crc_is_no_stuffing() {
 #[test]
 fn a_damaged_packet_hides_no_packet() {
     // Whole by its length, and a packet inside it.
-    let outer = unstuffed_packet(0xFE, &[&[0x55, 0x00], &ping()[..], &ping(), &[7]].concat());
+    let outer = frame(0xFE, &[&[0x55, 0x00], &ping()[..], &ping(), &[7]].concat());
     let mut damaged = outer.clone();
     damaged[8] = 1;
-    let skipped = |bytes| Seen::Skipped(bytes, Reason::Crc);
-    let garbage = Seen::Skipped(3, Reason::Garbage);
+    let skipped = |bytes| Event::Skipped(bytes, Fault::Crc);
+    let garbage = Event::Skipped(3, Fault::Header);
     assert_eq!(events_of(&[&damaged]), [skipped(9), seen_ping(), seen_ping(), garbage]);
-    assert_eq!(events_of(&[&outer]), [Seen::FastStatus(outer)]);
+    assert_eq!(events_of(&[&outer]), [Event::FastStatus(outer)]);
 }
 
 #[test]
 fn a_lying_length_hides_no_packet() {
-    let mut longer = packet(1, &[0x03, 0x34, 0x02]);
+    let mut longer = frame(1, &[0x03, 0x34, 0x02]);
     longer[5] += 20;
-    let skipped = Seen::Skipped(longer.len() as u64, Reason::Stuffing);
+    let skipped = Event::Skipped(longer.len(), Fault::Stuffing);
     let expected = [skipped, seen_ping(), seen_ping(), seen_ping()];
     assert_eq!(events_of(&[&longer, &ping(), &ping(), &ping()]), expected);
 }
@@ -164,7 +164,7 @@ fn a_quiet_time_sets_free_what_a_false_header_held_up() {
     drain(&mut parser, &mut events);
     assert!(parser.push(&later).is_empty());
     drain(&mut parser, &mut events);
-    let truncated = |bytes| Seen::Skipped(bytes, Reason::Truncated);
+    let truncated = |bytes| Event::Skipped(bytes, Fault::Truncated);
     assert_eq!(events, [truncated(8), seen_ping(), truncated(7), seen_ping()]);
 }
 
@@ -185,7 +185,7 @@ fn a_fast_status_packet_is_read_with_its_request() {
                    \x00\x02\x09\x00\x00\x00\x11\x40";
     let mut parser = Parser::new();
     assert!(parser.push(packet).is_empty());
-    let Some(Event::FastStatus(status)) = parser.next_event() else {
+    let Some(stream::Event::FastStatus(status)) = parser.next_event() else {
         panic!("no fast status packet");
     };
     assert_eq!(status.bytes(), packet);

@@ -1,10 +1,9 @@
 //! Streams that are hard to read: pieces that hold packets, almost packets, and noise.
 
+use actucheck_spec::wire::dynamixel2::reference::{frame, stuff};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
-
-use crate::reference::crc;
 
 /// Times between which the bus was busy: the bytes of each. The last one is not over yet.
 #[derive(Clone, Debug)]
@@ -26,7 +25,7 @@ pub(crate) fn overlapping() -> impl Strategy<Value = Scenario> {
     // Right packets that hold others, and a flipped bit that makes them wrong.
     let nested = (pieces, any::<Index>(), any::<bool>()).prop_map(|(mut pieces, from, right)| {
         let inner = pieces.split_off(from.index(pieces.len() + 1)).concat();
-        let mut packet = unstuffed_packet(0xFE, &[&[0x55, 0x00], &inner[..]].concat());
+        let mut packet = frame(0xFE, &[&[0x55, 0x00], &inner[..]].concat());
         packet[9] ^= u8::from(!right);
         pieces.push(packet);
         pieces.concat()
@@ -43,7 +42,7 @@ fn piece() -> impl Strategy<Value = Vec<u8>> {
         2 => false_header(),
         1 => (false_header(), 0_usize..8).prop_map(|(bytes, len)| bytes[..len].to_vec()),
         // A body that lacks stuffing, with the CRC that belongs to it.
-        1 => (id(), vec(awkward(), 1..24)).prop_map(|(id, body)| unstuffed_packet(id, &body)),
+        1 => (id(), vec(awkward(), 1..24)).prop_map(|(id, body)| frame(id, &body)),
         4 => damaged(),
     ]
 }
@@ -69,13 +68,13 @@ fn body() -> impl Strategy<Value = Vec<u8>> {
 }
 
 fn good() -> impl Strategy<Value = Vec<u8>> {
-    (id(), body()).prop_map(|(id, body)| packet(id, &body))
+    (id(), body()).prop_map(|(id, body)| frame(id, &stuff(&body)))
 }
 
 /// Right by its last CRC; may hold whole packets and headers.
 fn fast() -> impl Strategy<Value = Vec<u8>> {
     let data = prop_oneof![vec(any::<u8>(), 0..100), vec(awkward(), 0..40), false_header(), good()];
-    data.prop_map(|data| unstuffed_packet(0xFE, &[&[0x55, 0x00], &data[..]].concat()))
+    data.prop_map(|data| frame(0xFE, &[&[0x55, 0x00], &data[..]].concat()))
 }
 
 /// A header, an ID, a length that may be anything, an instruction.
@@ -102,25 +101,4 @@ fn damaged() -> impl Strategy<Value = Vec<u8>> {
         }
         bytes
     })
-}
-
-/// A packet with such a body.
-pub(crate) fn packet(id: u8, body: &[u8]) -> Vec<u8> {
-    let mut stuffed = Vec::new();
-    for byte in body {
-        stuffed.push(*byte);
-        if stuffed.ends_with(&[0xFF, 0xFF, 0xFD]) {
-            stuffed.push(0xFD);
-        }
-    }
-    unstuffed_packet(id, &stuffed)
-}
-
-/// A packet with such a body as it is.
-pub(crate) fn unstuffed_packet(id: u8, body: &[u8]) -> Vec<u8> {
-    let mut packet = vec![0xFF, 0xFF, 0xFD, 0x00, id];
-    packet.extend(u16::try_from(body.len() + 2).unwrap().to_le_bytes());
-    packet.extend(body);
-    packet.extend(crc(&packet).to_le_bytes());
-    packet
 }

@@ -1,27 +1,20 @@
 //! The adapter protocol: what is said, the process that it is said to, and whether an adapter keeps to it.
 
-#[cfg(feature = "suite")]
 pub mod lint;
-#[cfg(feature = "suite")]
 mod process;
 mod requests;
-#[cfg(feature = "suite")]
 mod trace;
 
-#[cfg(feature = "suite")]
 use std::time::Duration;
 
-#[cfg(feature = "suite")]
 pub(crate) use process::{Line, Running};
 pub use requests::{
-    Called, Fast, Hello, Implementation, Limits, Op, Output, Rejection, Reply, Request, Skip,
-    VERSION, Wire,
+    Called, Hello, Implementation, Limits, Op, Output, Rejection, Reply, Request, Skip, VERSION,
+    Wire,
 };
-#[cfg(feature = "suite")]
 pub use trace::Trace;
 
 /// How long an adapter may take.
-#[cfg(feature = "suite")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Timeouts {
     /// From its start to its answer to `hello`.
@@ -30,7 +23,6 @@ pub struct Timeouts {
     pub request: Duration,
 }
 
-#[cfg(feature = "suite")]
 impl Default for Timeouts {
     fn default() -> Self {
         Self { start: Duration::from_secs(10), request: Duration::from_secs(1) }
@@ -38,7 +30,6 @@ impl Default for Timeouts {
 }
 
 /// How an adapter is run.
-#[cfg(feature = "suite")]
 #[derive(Clone, Debug)]
 pub struct Settings {
     /// How long it may take.
@@ -51,7 +42,6 @@ pub struct Settings {
     pub number: u32,
 }
 
-#[cfg(feature = "suite")]
 impl Default for Settings {
     fn default() -> Self {
         Self { timeouts: Timeouts::default(), restarts: 10, trace: None, number: 1 }

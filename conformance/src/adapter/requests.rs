@@ -4,11 +4,10 @@
 use std::fmt;
 
 use actucheck_spec::model::{Fault, FrameKind, HexBytes, Packet};
+use actucheck_spec::wire::dynamixel2::reference::{Call, Fast};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-
-use crate::call::Call;
 
 /// The version that this suite speaks.
 pub const VERSION: u32 = 1;
@@ -183,15 +182,6 @@ impl<'de> Deserialize<'de> for Called {
         let call = called.then(|| Call::of(&packet)).flatten();
         Ok(Self { packet, call })
     }
-}
-
-/// What a fast status packet answers.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct Fast {
-    /// Bytes of data a block; 0 for Fast Sync Write.
-    pub length: u16,
-    /// The devices in the order asked for.
-    pub ids: Vec<u8>,
 }
 
 /// What an adapter says of itself.

@@ -2,11 +2,11 @@
 //! open is among them.
 
 use actucheck_spec::model::{Fault, FrameKind, Packet};
+use actucheck_spec::wire::dynamixel2::reference::{self, Call};
+use actucheck_spec::wire::innfos::reference as innfos;
 
 use super::probe::{Probe, cut, damaged, joined};
 use crate::adapter::{Called, Op, Output, Wire};
-use crate::call::Call;
-use crate::reference::{self, innfos};
 use crate::suite::check::{Check, Demand};
 use crate::suite::{Author, parameters_of};
 

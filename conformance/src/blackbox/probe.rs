@@ -1,13 +1,14 @@
 //! What is asked when nobody knows what to ask: values that proptest draws and shrinks.
 
 use actucheck_spec::model::{HexBytes, Packet};
+use actucheck_spec::wire::dynamixel2::reference;
+use actucheck_spec::wire::innfos::reference as innfos;
 use proptest::collection::vec;
 use proptest::prelude::{BoxedStrategy, Just, Strategy, any};
 use proptest::prop_oneof;
 use proptest::strategy::Union;
 
 use crate::adapter::{Hello, Wire};
-use crate::reference::{self, innfos};
 use crate::suite::codec::dynamixel2::generated::{data, instruction, status};
 
 /// The longest data of a probe.

@@ -4,7 +4,7 @@ use std::fmt;
 use std::io::{self, Read as _, Write as _};
 use std::process::ExitCode;
 
-use actucheck::adapter::{Fast, Op, Output, Wire};
+use actucheck::adapter::{Op, Output, Wire};
 use actucheck::explain::frame::{explain, explain_fast};
 use actucheck::explain::{Explanation, innfos};
 use actucheck::subject::{Answer, Builtin, Subject as _};
@@ -12,6 +12,7 @@ use actucheck_codec::dynamixel2::Instruction;
 use actucheck_codec::register::Device;
 use actucheck_codec::{ja_variant, ja40, xm430_w210};
 use actucheck_spec::model::{FrameKind, HexBytes};
+use actucheck_spec::wire::dynamixel2::reference::Fast;
 use clap::Args;
 
 use super::shared::table::{self, BOLD};

@@ -1,5 +1,6 @@
 //! One frame of DYNAMIXEL Protocol 2.0, field by field.
 
+use actucheck_spec::wire::dynamixel2::reference::Fast;
 use std::fmt::Write as _;
 
 use actucheck_codec::dynamixel2::{BROADCAST_ID, Instruction};
@@ -8,7 +9,6 @@ use actucheck_codec::register::{Device, NamedValue, Row as Register};
 use actucheck_codec::{FastStatus, Frame, FrameError, StatusError};
 
 use super::table::{Explanation, Table, low_first, rounded};
-use crate::adapter::Fast;
 
 /// Bytes of header, ID and length.
 const PREFIX: usize = 7;

@@ -1,14 +1,12 @@
 //! The implementation under test: the built-in codec, or a library behind an adapter.
 
-#[cfg(feature = "suite")]
 mod adapter;
 mod builtin;
 
 use crate::adapter::{Hello, Op, Output, Rejection};
 
-#[cfg(feature = "suite")]
 pub use adapter::{Process, StartError};
-pub use builtin::{Builtin, fault};
+pub use builtin::Builtin;
 
 /// Something that can be asked.
 pub trait Subject {

@@ -12,11 +12,10 @@ pub mod select;
 
 use actucheck_spec::Spec;
 use actucheck_spec::model::{Citation, Level, Packet};
+use actucheck_spec::wire::dynamixel2::reference::{self, Call};
 
 use self::check::{Check, Demand};
 use crate::adapter::{Called, Op, Output, Wire};
-use crate::call::Call;
-use crate::reference;
 
 /// What decides which checks there are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! Implementations of DYNAMIXEL Protocol 2.0 that are wrong in one way each.
 
 use actucheck::adapter::{Op, Output};
-use actucheck::reference::{self, HEADER};
 use actucheck_spec::model::Packet;
+use actucheck_spec::wire::dynamixel2::reference::{self, HEADER};
 
 use super::{Mutant, Wrong, bytes};
 

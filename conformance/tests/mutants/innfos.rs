@@ -1,8 +1,8 @@
 //! Implementations of the INNFOS Ethernet protocol that are wrong in one way each.
 
 use actucheck::adapter::{Op, Output};
-use actucheck::reference::innfos as reference;
 use actucheck_spec::model::{FrameKind, Packet};
+use actucheck_spec::wire::innfos::reference;
 
 use super::{Mutant, Wrong, bytes};
 

@@ -2,8 +2,8 @@
 //! mutant, could not fail.
 
 use actucheck::adapter::{Op, Output, Wire};
-use actucheck::reference;
 use actucheck_spec::model::{HexBytes, Packet};
+use actucheck_spec::wire::dynamixel2::reference;
 
 use super::{Mutant, Wrong, bytes};
 

@@ -5,7 +5,6 @@ use std::ops::ControlFlow;
 use std::sync::LazyLock;
 
 use actucheck::adapter::{Hello, Implementation, Op, Output, Rejection, Wire};
-use actucheck::reference;
 use actucheck::report::{Report, Run, Stopped};
 use actucheck::run::run;
 use actucheck::subject::{Answer, Builtin, Subject};
@@ -15,6 +14,7 @@ use actucheck::suite::select::select;
 use actucheck::suite::{self, Options};
 use actucheck_spec::Spec;
 use actucheck_spec::model::{Fault, Packet};
+use actucheck_spec::wire::dynamixel2::reference;
 
 /// A name that must stay one.
 pub(crate) const NAME: &str = "<script>alert('odd')</script> & |co|";

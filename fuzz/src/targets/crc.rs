@@ -1,7 +1,7 @@
 //! Both CRCs: the fast ways against the bitwise ones, wherever the bytes stand and are cut.
 
-use actucheck::reference;
 use actucheck_codec::crc::{self, Engine, MODBUS_INIT, UMTS_INIT};
+use actucheck_spec::wire::{dynamixel2, innfos};
 
 use crate::draw::Draw;
 
@@ -33,7 +33,7 @@ pub fn check_at(message: &[u8], place: usize, cut: usize) {
     let bytes = &mut room[start..start + message.len()];
     bytes.copy_from_slice(message);
 
-    let (umts, modbus) = (reference::crc(bytes), reference::innfos::crc(bytes));
+    let (umts, modbus) = (dynamixel2::reference::crc(bytes), innfos::reference::crc(bytes));
     assert_eq!((crc::umts(bytes), crc::modbus(bytes)), (umts, modbus));
     let (head, tail) = bytes.split_at(cut);
     for engine in Engine::all() {

@@ -1,16 +1,15 @@
 //! Fast status packets: there and back, against the reference, for the request that fits and for
 //! any other.
 
-use actucheck::adapter::Fast;
-use actucheck::reference::{self, BROADCAST, HEADER, PREFIX, STATUS};
-use actucheck::subject::fault;
 use actucheck_codec::fast_status::{self, Block};
 use actucheck_codec::status::StatusError;
 use actucheck_codec::{BufferTooSmall, EncodeError, FastStatus};
 use actucheck_spec::model::{self, Fault, Packet};
+use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, Fast, HEADER, PREFIX, STATUS};
 use arbitrary::{Result, Unstructured};
 
 use crate::draw::Draw;
+use crate::model::fault;
 use crate::targets::shown;
 
 /// Bytes before the blocks: header, ID, length, instruction.

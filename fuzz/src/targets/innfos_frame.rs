@@ -2,12 +2,12 @@
 
 use std::sync::LazyLock;
 
-use actucheck::reference::innfos as reference;
 use actucheck_codec::innfos::{
     self, ACTUATORS, Command, Format, Frame, FrameError, Kind, Message, Value,
 };
 use actucheck_codec::{BufferTooSmall, EncodeError};
 use actucheck_spec::model::{Direction, Fault, FrameKind, FullScale, Innfos, Packet};
+use actucheck_spec::wire::innfos::reference;
 use arbitrary::{Result, Unstructured};
 
 use crate::targets::shown;

@@ -1,7 +1,7 @@
 //! INNFOS datagrams of several frames.
 
-use actucheck::reference::innfos as reference;
 use actucheck_codec::innfos::{self, Frame};
+use actucheck_spec::wire::innfos::reference;
 
 use crate::targets::innfos_frame::{WAYS, packet};
 

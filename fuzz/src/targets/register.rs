@@ -3,10 +3,10 @@
 use std::fmt::Debug;
 use std::sync::LazyLock;
 
-use actucheck::reference;
 use actucheck_codec::register::{self, Device, Row, Value};
 use actucheck_codec::{ja_variant, ja40, xm430_w210};
 use actucheck_spec::model::{self, Access, Bound, Packet, Range, Register, Type};
+use actucheck_spec::wire::dynamixel2::reference;
 use arbitrary::{Result, Unstructured};
 
 use crate::targets::shown;

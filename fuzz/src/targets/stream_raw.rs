@@ -1,6 +1,6 @@
 //! The stream parser on bytes as they are.
 
-use actucheck::reference::{self, HEADER, PREFIX};
+use actucheck_spec::wire::dynamixel2::reference::{self, HEADER, PREFIX};
 
 use crate::draw::Draw;
 use crate::stream;

@@ -8,10 +8,10 @@
 //! can't stand in its body; a fast status packet is not stuffed and can take all of it. That, and
 //! nothing else, excuses the parser.
 
-use actucheck::reference::{self, BROADCAST, HEADER, STATUS};
+use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, Event, HEADER, STATUS};
 use arbitrary::{Result, Unstructured};
 
-use crate::stream::{self, reference::Seen};
+use crate::stream;
 
 /// The most bytes of a packet that a stuffed frame before it can take: the pattern but its last
 /// byte as the end of the body, then the CRC.
@@ -85,14 +85,14 @@ struct Placed {
 }
 
 /// The packets among the events. Events follow each other without a gap.
-fn placed(events: &[Seen]) -> Vec<Placed> {
+fn placed(events: &[Event]) -> Vec<Placed> {
     let mut end = 0;
     let mut placed = Vec::new();
     for event in events {
         let start = end;
-        end += usize::try_from(event.bytes()).unwrap();
-        if !matches!(event, Seen::Skipped(..)) {
-            placed.push(Placed { start, end, fast: matches!(event, Seen::FastStatus(_)) });
+        end += event.size();
+        if !matches!(event, Event::Skipped(..)) {
+            placed.push(Placed { start, end, fast: matches!(event, Event::FastStatus(_)) });
         }
     }
     placed

@@ -1,9 +1,9 @@
 //! Byte stuffing: there and back, against the reference, within its bound, at every split.
 
-use actucheck::reference;
 use actucheck_codec::dynamixel2::Instruction;
 use actucheck_codec::stuffing::{stuff, stuffed_len, unstuff};
 use actucheck_codec::{BufferTooSmall, frame};
+use actucheck_spec::wire::dynamixel2::reference;
 
 use crate::draw::Draw;
 use crate::targets::shown;

@@ -9,7 +9,6 @@
 )]
 
 mod document;
-mod frame;
 mod numbers;
 mod rules;
 mod tables;

@@ -1,4 +1,5 @@
-use crate::frame::crc;
+use actucheck_spec::wire::innfos::reference::crc;
+
 use crate::{document, spec};
 
 /// The digits of `numerator / 2^bits` with nine decimals, rounded half up, without the point.

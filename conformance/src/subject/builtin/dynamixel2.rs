@@ -7,9 +7,10 @@ use actucheck_codec::stream::{Event, Parser};
 use actucheck_codec::stuffing::{self, UnstuffError};
 use actucheck_codec::{FastStatus, Frame, FrameError, crc, frame};
 use actucheck_spec::model::{self, Fault, HexBytes, Packet};
+use actucheck_spec::wire::dynamixel2::reference::Fast;
 
 use super::{Result, not_offered, output, rejection, unbuilt};
-use crate::adapter::{Fast, Op, Output, Rejection};
+use crate::adapter::{Op, Output, Rejection};
 
 /// What the codec makes of a request; `None` for one that it does not offer.
 pub(super) fn ask(op: &Op, buffer: &mut Vec<u8>) -> Option<Result> {
@@ -119,8 +120,7 @@ fn frame_rejection(error: FrameError) -> Rejection {
 }
 
 /// The error class of the adapter protocol that an error of the codec belongs to.
-#[must_use]
-pub const fn fault(error: &FrameError) -> Fault {
+const fn fault(error: &FrameError) -> Fault {
     match error {
         FrameError::Header { .. } => Fault::Header,
         FrameError::Id { .. } | FrameError::BlockId { .. } => Fault::Id,

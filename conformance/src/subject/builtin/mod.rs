@@ -3,8 +3,6 @@
 mod dynamixel2;
 mod innfos;
 
-pub use dynamixel2::fault;
-
 use actucheck_codec::EncodeError;
 use actucheck_spec::model::{Fault, HexBytes};
 

@@ -2,10 +2,10 @@
 //! little, and each rule broken alone.
 
 use actucheck_spec::model::{Citation, Fault, FrameKind, Outcome, Packet, Vector};
+use actucheck_spec::wire::innfos::reference;
 
 use super::dynamixel2::golden::{demand, way};
 use crate::adapter::{Called, Op, Output};
-use crate::reference::innfos as reference;
 use crate::suite::check::{Check, Demand, Unspecified, Way};
 use crate::suite::{Author, hex};
 

@@ -1,6 +1,5 @@
 //! Packets that are built of choices, beside the same by hand.
 
-use actucheck::reference;
 use actucheck_codec::dynamixel2::{
     ClearOption, ControlTableBackupOption, FactoryResetOption, Instruction,
 };
@@ -9,6 +8,7 @@ use actucheck_codec::instruction::{
 };
 use actucheck_codec::status::{self, PingStatus, StatusError};
 use actucheck_codec::{BufferTooSmall, EncodeError, Frame, Request};
+use actucheck_spec::wire::dynamixel2::reference;
 use arbitrary::{Result, Unstructured};
 
 use super::several;

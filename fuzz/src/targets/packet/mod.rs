@@ -4,14 +4,13 @@
 mod build;
 mod several;
 
-use actucheck::reference::{self, HEADER, PREFIX};
-use actucheck::subject::fault;
 use actucheck_codec::dynamixel2::Instruction;
 use actucheck_codec::status::{PingStatus, Status};
 use actucheck_codec::{Frame, Request, frame, ja40, layout};
-use actucheck_spec::model::Packet;
+use actucheck_spec::wire::dynamixel2::reference::{self, HEADER, PREFIX};
 use arbitrary::Unstructured;
 
+use crate::model::{fault, packet};
 use crate::targets::shown;
 
 /// The input is a packet, and then what a packet is made of.
@@ -36,19 +35,9 @@ fn read(bytes: &[u8]) {
             return assert_eq!(Err(fault(&error)), expected);
         }
     };
-    let params: Vec<u8> = frame.params().collect();
-    let found = match (frame.error(), frame.instruction()) {
-        (Some(error), _) => {
-            let params = params[1..].to_vec().into();
-            Packet::Status { id: frame.id(), error: error.0, params }
-        }
-        (None, instruction) => {
-            let (instruction, params) = (instruction.code(), params.clone().into());
-            Packet::Instruction { id: frame.id(), instruction, params }
-        }
-    };
-    assert_eq!(Ok(found), expected);
+    assert_eq!(Ok(packet(&frame)), expected);
 
+    let params: Vec<u8> = frame.params().collect();
     assert_eq!(frame.params_len(), params.len());
     let mut scratch = vec![0; params.len()];
     assert_eq!(frame.copy_params(&mut scratch), Ok(&params[..]));

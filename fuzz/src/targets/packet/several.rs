@@ -1,11 +1,11 @@
 //! Instructions to several devices.
 
-use actucheck::reference::BROADCAST;
 use actucheck_codec::instruction::{
     BulkRead, BulkWrite, DeviceData, DeviceRange, DeviceWrite, FastSyncRead, FastSyncWrite,
     SyncRead, SyncWrite,
 };
 use actucheck_codec::{EncodeError, Request};
+use actucheck_spec::wire::dynamixel2::reference::BROADCAST;
 use arbitrary::{Result, Unstructured};
 
 use super::build::{built, head};

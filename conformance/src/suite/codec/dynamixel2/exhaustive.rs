@@ -2,9 +2,9 @@
 //! every error byte, every ID; and the lengths at which counting goes wrong.
 
 use actucheck_spec::model::Packet;
+use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, STATUS};
 
 use crate::adapter::{Op, Output};
-use crate::reference::{self, BROADCAST, STATUS};
 use crate::suite::check::{Check, Demand};
 use crate::suite::{Author, Options, hex};
 

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use actucheck_spec::Spec;
 use actucheck_spec::model::{Access, Bound, Packet, Register};
+use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, HEADER};
 use proptest::collection::vec;
 use proptest::prelude::{Just, Strategy, any};
 use proptest::prop_oneof;
@@ -12,7 +13,6 @@ use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
 use super::unspecified::resumed;
-use crate::reference::{self, BROADCAST, HEADER};
 use crate::suite::check::Check;
 use crate::suite::{Author, parameters_of};
 

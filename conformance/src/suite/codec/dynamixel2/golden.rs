@@ -3,9 +3,9 @@
 
 use actucheck_spec::Spec;
 use actucheck_spec::model::{Citation, Fault, HexBytes, Outcome, Packet, Vector, VectorsFile};
+use actucheck_spec::wire::dynamixel2::reference::{Call, Fast};
 
-use crate::adapter::{Called, Fast, Op, Output, Wire};
-use crate::call::Call;
+use crate::adapter::{Called, Op, Output, Wire};
 use crate::suite::check::{Check, Demand, Unspecified, Way};
 use crate::suite::{Author, of_reading};
 

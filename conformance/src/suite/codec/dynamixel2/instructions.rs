@@ -2,9 +2,9 @@
 //! that break if it is not obeyed.
 
 use actucheck_spec::model::{Block, Fault, Packet};
+use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, Fast};
 
-use crate::adapter::{Fast, Op, Output};
-use crate::reference::{self, BROADCAST};
+use crate::adapter::{Op, Output};
 use crate::suite::Author;
 use crate::suite::check::{Check, Demand};
 

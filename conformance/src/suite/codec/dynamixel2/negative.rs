@@ -3,8 +3,8 @@
 //! What the documents leave open is not here but in `unspecified.rs`.
 
 use actucheck_spec::model::Packet;
+use actucheck_spec::wire::dynamixel2::reference;
 
-use crate::reference;
 use crate::suite::Author;
 use crate::suite::check::Check;
 

@@ -2,10 +2,9 @@
 //! recorded as its profile, not judged.
 
 use actucheck_spec::model::{HexBytes, Packet};
+use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, Call, HEADER, STATUS};
 
 use crate::adapter::{Called, Op, Output};
-use crate::call::Call;
-use crate::reference::{self, BROADCAST, HEADER, STATUS};
 use crate::suite::check::{Check, Demand, Unspecified, Way};
 use crate::suite::{Author, hex};
 

@@ -1,14 +1,15 @@
 //! The slow, obviously right model: what the documents say, a byte at a time, for expected results.
 //!
-//! It shares no code with the codec and none with the spec's generator: whoever reads it beside
-//! the documents must be able to see that it is right. Speed is no aim.
+//! It shares no code with the codec and none with the generator: whoever reads it beside the
+//! documents must be able to see that it is right. Speed is no aim.
 
-pub mod innfos;
+mod call;
 mod packet;
 mod stream;
 
-pub use packet::{crc, decode, decode_fast, encode, frame, stuff, unstuff};
-pub use stream::{is_certain, packets, packets_behind_lengths};
+pub use call::Call;
+pub use packet::{Fast, crc, decode, decode_fast, encode, frame, stuff, unstuff};
+pub use stream::{Event, events, is_certain, packets, packets_behind_lengths};
 
 /// What every packet begins with.
 pub const HEADER: [u8; 4] = [0xFF, 0xFF, 0xFD, 0x00];

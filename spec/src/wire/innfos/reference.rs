@@ -1,6 +1,7 @@
-//! CRC and frames of the INNFOS Ethernet protocol.
+//! The slow, obviously right model: CRC and frames as the document describes them, a byte at a time.
+//! It shares no code with the codec and none with the generator.
 
-use actucheck_spec::model::{Fault, FrameKind, HexBytes, Packet};
+use crate::model::{Fault, FrameKind, HexBytes, Packet};
 
 /// The first byte of a frame.
 const HEADER: u8 = 0xEE;
@@ -24,7 +25,7 @@ pub fn crc(bytes: &[u8]) -> u16 {
     crc
 }
 
-/// The bytes of a request or reply; `None` for another protocol's packet or too much data.
+/// The bytes of a request or reply; `None` for another wire's packet or too much data.
 #[must_use]
 pub fn encode(packet: &Packet) -> Option<Vec<u8>> {
     let (kind, address, command, data) = match packet {

@@ -1,9 +1,19 @@
 //! CRC, stuffing and packets of DYNAMIXEL Protocol 2.0 and its JA dialect.
 
-use actucheck_spec::model::{Block, Fault, HexBytes, Packet};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use super::{BROADCAST, HEADER, PATTERN, PREFIX, STATUS};
-use crate::adapter::Fast;
+use crate::model::{Block, Fault, HexBytes, Packet};
+
+/// The request that a fast status packet answers, without which it can't be taken apart.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Fast {
+    /// Bytes of data a block; 0 for Fast Sync Write.
+    pub length: u16,
+    /// The devices in the order asked for.
+    pub ids: Vec<u8>,
+}
 
 /// CRC-16/UMTS: the remainder of the message times x^16 by x^16 + x^15 + x^2 + 1, bit by bit.
 #[must_use]
@@ -62,7 +72,7 @@ pub fn frame(id: u8, body: &[u8]) -> Vec<u8> {
     frame
 }
 
-/// The bytes of a packet; `None` for one of another protocol or longer than its length can tell.
+/// The bytes of a packet; `None` for one of another wire or longer than its length can tell.
 #[must_use]
 pub fn encode(packet: &Packet) -> Option<Vec<u8>> {
     let fitting = |id, body: &[u8]| (body.len() + 2 <= 0xFFFF).then(|| frame(id, body));

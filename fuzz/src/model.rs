@@ -1,0 +1,56 @@
+//! What the codec finds, in the words of the spec's model.
+
+use actucheck_codec::stream::{self, Reason};
+use actucheck_codec::{Frame, FrameError};
+use actucheck_spec::model::{Fault, Packet};
+use actucheck_spec::wire::dynamixel2::reference::{Event, encode};
+
+/// The packet of a frame.
+pub(crate) fn packet(frame: &Frame<'_>) -> Packet {
+    let mut params: Vec<u8> = frame.params().collect();
+    let (id, instruction) = (frame.id(), frame.instruction().code());
+    match frame.error() {
+        None => Packet::Instruction { id, instruction, params: params.into() },
+        Some(error) => {
+            params.remove(0);
+            Packet::Status { id, error: error.0, params: params.into() }
+        }
+    }
+}
+
+/// What is wrong with a frame.
+pub(crate) fn fault(error: &FrameError) -> Fault {
+    match error {
+        FrameError::Header { .. } => Fault::Header,
+        FrameError::Id { .. } | FrameError::BlockId { .. } => Fault::Id,
+        FrameError::Length { .. } => Fault::Length,
+        FrameError::Truncated { .. } => Fault::Truncated,
+        FrameError::Trailing { .. } => Fault::Trailing,
+        FrameError::Crc { .. } => Fault::Crc,
+        FrameError::Stuffing { .. } => Fault::Stuffing,
+        FrameError::Instruction { .. } => Fault::Instruction,
+    }
+}
+
+/// An event of a stream. The parser does not tell a packet's bytes, so they are built anew.
+pub(crate) fn event(event: stream::Event<'_>) -> Event {
+    match event {
+        stream::Event::Frame(frame) => {
+            let packet = packet(&frame);
+            Event::Packet(encode(&packet).unwrap(), packet)
+        }
+        stream::Event::FastStatus(status) => Event::FastStatus(status.bytes().to_vec()),
+        stream::Event::Skipped { bytes, reason } => {
+            let fault = match reason {
+                Reason::Garbage => Fault::Header,
+                Reason::Id => Fault::Id,
+                Reason::Length => Fault::Length,
+                Reason::Oversize => Fault::Oversize,
+                Reason::Stuffing => Fault::Stuffing,
+                Reason::Crc => Fault::Crc,
+                Reason::Truncated => Fault::Truncated,
+            };
+            Event::Skipped(usize::try_from(bytes).unwrap(), fault)
+        }
+    }
+}

@@ -1,0 +1,3 @@
+//! DYNAMIXEL Protocol 2.0 and its JA dialect.
+
+pub mod reference;

@@ -1,0 +1,186 @@
+//! Packets in a stream, found the slow way: at each byte, is what begins here a whole packet?
+
+use super::{BROADCAST, HEADER, PREFIX, STATUS, crc, decode, unstuff};
+use crate::model::{Fault, Packet};
+
+/// The shortest status packet. A receiver may take so many bytes before it looks at their length.
+const SHORTEST: usize = 11;
+
+/// What a part of a stream is to a receiver.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Event {
+    /// A packet: its bytes, and what it says.
+    Packet(Vec<u8>, Packet),
+    /// A status packet from the broadcast ID, whose header, length and last CRC are right. It takes
+    /// the request to read the rest.
+    FastStatus(Vec<u8>),
+    /// So many bytes belong to no packet, and why none begins with the first of them:
+    /// [`Fault::Header`] where there is no header.
+    Skipped(usize, Fault),
+}
+
+impl Event {
+    /// How many bytes of the stream it is.
+    #[must_use]
+    pub fn size(&self) -> usize {
+        match self {
+            Self::Packet(bytes, _) | Self::FastStatus(bytes) => bytes.len(),
+            Self::Skipped(size, _) => *size,
+        }
+    }
+}
+
+/// All that is certain of a stream so far, after which nothing comes if it is `quiet`, to a receiver
+/// of packets of at most `max_packet` bytes. From the front, byte by byte; every header is looked at
+/// afresh. Bytes that are skipped end at the next header.
+#[must_use]
+pub fn events(stream: &[u8], quiet: bool, max_packet: usize) -> Vec<Event> {
+    let mut events = Vec::new();
+    let mut skipped: Option<(usize, Fault)> = None;
+    let mut rest = stream;
+    while !rest.is_empty() {
+        let fault = if rest.starts_with(&HEADER) {
+            events.extend(skipped.take().map(|(size, fault)| Event::Skipped(size, fault)));
+            match look(rest, max_packet) {
+                Look::Event(event) => {
+                    rest = rest.get(event.size()..).unwrap_or_default();
+                    events.push(event);
+                    continue;
+                }
+                Look::False(fault) => fault,
+                Look::Open if quiet => Fault::Truncated,
+                Look::Open => break,
+            }
+        } else if !quiet && HEADER.starts_with(rest) {
+            break;
+        } else {
+            Fault::Header
+        };
+        skipped.get_or_insert((0, fault)).0 += 1;
+        rest = rest.get(1..).unwrap_or_default();
+    }
+    if quiet {
+        events.extend(skipped.map(|(size, fault)| Event::Skipped(size, fault)));
+    }
+    events
+}
+
+/// What a header begins.
+enum Look {
+    /// A packet.
+    Event(Event),
+    /// None, and why.
+    False(Fault),
+    /// It takes more bytes to say.
+    Open,
+}
+
+/// Tries the rules one after the other, each as soon as its bytes are there.
+fn look(bytes: &[u8], max_packet: usize) -> Look {
+    let [_, _, _, _, id, ..] = *bytes else { return Look::Open };
+    if id > 252 && id != BROADCAST {
+        return Look::False(Fault::Id);
+    }
+    let Some(size) = size(bytes) else { return Look::Open };
+    if size < PREFIX + 3 {
+        return Look::False(Fault::Length);
+    }
+    if size > max_packet {
+        return Look::False(Fault::Oversize);
+    }
+    let Some(instruction) = bytes.get(PREFIX) else { return Look::Open };
+    let fast = id == BROADCAST && *instruction == STATUS;
+    // A status packet has an error, a fast one an ID too.
+    let shortest = if fast { 5 } else { 4 };
+    if *instruction == STATUS && size < PREFIX + shortest {
+        return Look::False(Fault::Length);
+    }
+    if !fast && lacks_stuffing(bytes, size - 2) {
+        return Look::False(Fault::Stuffing);
+    }
+    let Some(frame) = bytes.get(..size) else { return Look::Open };
+    if fast {
+        let (before, found) = frame.split_at(size - 2);
+        if found != crc(before).to_le_bytes() {
+            return Look::False(Fault::Crc);
+        }
+        return Look::Event(Event::FastStatus(frame.to_vec()));
+    }
+    match decode(frame) {
+        Ok(packet) => Look::Event(Event::Packet(frame.to_vec(), packet)),
+        Err(fault) => Look::False(fault),
+    }
+}
+
+/// Whether stuffing is missing in the body, which ends at `end`, as far as it is there.
+fn lacks_stuffing(bytes: &[u8], end: usize) -> bool {
+    let body = |end| bytes.get(PREFIX..end).unwrap_or_default();
+    if bytes.len() > end {
+        return unstuff(body(end)).is_err();
+    }
+    // The stuffing of the last pattern may be still to come.
+    unstuff(&[body(bytes.len()), &[0xFD, 0xFD]].concat()).is_err()
+}
+
+/// The packets of a stream, however it was cut into chunks. Where no packet begins, the search
+/// goes on one byte further; behind a packet, it goes on at its end. What is incomplete at the end
+/// of the stream is none, and what begins within it is searched for too.
+#[must_use]
+pub fn packets(stream: &[u8]) -> Vec<Packet> {
+    let packet = |event| match event {
+        Event::Packet(_, packet) => Some(packet),
+        Event::FastStatus(frame) => decode(&frame).ok(),
+        Event::Skipped(..) => None,
+    };
+    events(stream, true, usize::MAX).into_iter().filter_map(packet).collect()
+}
+
+/// The packets that a receiver finds which believes every length: where a header is, it goes on
+/// behind the bytes that the length covers, whether they were a packet or not, and waits for them.
+#[must_use]
+pub fn packets_behind_lengths(stream: &[u8]) -> Vec<Packet> {
+    let mut packets = Vec::new();
+    let mut rest = stream;
+    while !rest.is_empty() {
+        let covered = rest.starts_with(&HEADER).then(|| size(rest)).flatten();
+        if let Some((packet, _)) = first(rest) {
+            packets.push(packet);
+        }
+        rest = rest.get(covered.unwrap_or(1)..).unwrap_or_default();
+    }
+    packets
+}
+
+/// Whether every receiver finds the packets of a stream, wherever it goes on behind what is none:
+/// no false header claims a byte of them.
+#[must_use]
+pub fn is_certain(stream: &[u8]) -> bool {
+    let (mut at, mut claimed) = (0, 0);
+    while let Some(rest) = stream.get(at..).filter(|rest| !rest.is_empty()) {
+        if let Some((_, size)) = first(rest) {
+            if claimed > at {
+                return false;
+            }
+            at += size;
+            continue;
+        }
+        if rest.starts_with(&HEADER) {
+            claimed = claimed.max(at + size(rest).unwrap_or_default().max(SHORTEST));
+        }
+        at += 1;
+    }
+    true
+}
+
+/// The packet that begins here, and its size.
+fn first(bytes: &[u8]) -> Option<(Packet, usize)> {
+    let size = size(bytes)?;
+    let frame = bytes.get(..size)?;
+    Some((decode(frame).ok()?, size))
+}
+
+/// The size that the length claims.
+fn size(bytes: &[u8]) -> Option<usize> {
+    let [_, _, _, _, _, low, high, ..] = *bytes else { return None };
+    Some(PREFIX + usize::from(u16::from_le_bytes([low, high])))
+}

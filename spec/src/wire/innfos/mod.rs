@@ -1,0 +1,3 @@
+//! The INNFOS Ethernet protocol.
+
+pub mod reference;

@@ -1,0 +1,177 @@
+//! The reference models against the documents: every golden vector, built and read.
+
+#![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
+
+use std::collections::BTreeSet;
+
+use actucheck_spec::Spec;
+use actucheck_spec::model::{FrameKind, HexBytes, Outcome, Packet};
+use actucheck_spec::wire::dynamixel2::reference::{self, Call, Fast};
+use actucheck_spec::wire::innfos::reference as innfos;
+
+#[test]
+fn every_golden_vector_is_built_read_or_rejected_as_it_says() {
+    let spec = Spec::embedded().unwrap();
+    let mut seen = 0;
+    for (_, vector) in spec.vectors().filter(|(file, _)| file.wire == "dynamixel2") {
+        let id = &vector.id;
+        let decoded = match &vector.packet {
+            Some(Packet::FastStatus { blocks }) => {
+                let length = u16::try_from(blocks[0].data.len()).unwrap();
+                let ids = blocks.iter().map(|block| block.id).collect();
+                reference::decode_fast(vector.frame(), &Fast { length, ids })
+            }
+            _ => reference::decode(vector.frame()),
+        };
+        if let Some(packet) = &vector.packet {
+            assert_eq!(reference::encode(packet).as_deref(), Some(vector.frame()), "{id}");
+            assert_eq!(decoded.as_ref(), Ok(packet), "{id}");
+        } else {
+            assert_eq!(decoded.err(), vector.fault, "{id}");
+        }
+        if let (Some(printed), Some(fault)) = (vector.defective(), vector.printed_fault)
+            && !matches!(vector.packet, Some(Packet::FastStatus { .. }))
+        {
+            assert_eq!(reference::decode(printed), Err(fault), "{id}");
+        }
+        seen += 1;
+    }
+    assert!(seen > 70, "{seen} vectors");
+}
+
+#[test]
+fn every_innfos_vector_is_built_read_or_rejected_as_it_says() {
+    let spec = Spec::embedded().unwrap();
+    let mut seen = 0;
+    for (_, vector) in spec.vectors().filter(|(file, _)| file.wire == "innfos") {
+        let id = &vector.id;
+        let kind = match &vector.packet {
+            Some(Packet::Reply { .. }) => FrameKind::Reply,
+            Some(_) => FrameKind::Request,
+            None => vector.kind.unwrap(),
+        };
+        let decoded = innfos::decode(kind, vector.frame());
+        if let Some(packet) = &vector.packet {
+            if vector.result == Outcome::Valid {
+                let built = innfos::encode(packet);
+                assert_eq!(built.as_deref(), Some(vector.frame()), "{id}");
+            }
+            assert_eq!(decoded.as_ref(), Ok(packet), "{id}");
+        } else {
+            assert_eq!(decoded.err(), vector.fault, "{id}");
+        }
+        if let Some(printed) = vector.defective() {
+            assert_eq!(innfos::decode(kind, printed).err(), vector.printed_fault, "{id}");
+        }
+        seen += 1;
+    }
+    assert!(seen > 70, "{seen} vectors");
+}
+
+#[test]
+fn the_reference_finds_packets_among_noise() {
+    let status = |id| Packet::Status { id, error: 0, params: vec![1, 2].into() };
+    let [one, two] = [1, 2].map(|id| reference::encode(&status(id)).unwrap());
+    let cut = &one[..one.len() - 3];
+    let stream = [&[0xFF, 0xFF, 0xFD], cut, &one, &[0xFF, 0xFF, 0xFD, 0x00, 0x01], &two].concat();
+    assert_eq!(reference::packets(&stream), [status(1), status(2)]);
+}
+
+/// A bad packet behind which each receiver goes on as it likes, and one that leads some astray.
+#[test]
+fn the_reference_knows_which_packets_every_receiver_finds() {
+    let good =
+        reference::encode(&Packet::Status { id: 1, error: 0, params: vec![7].into() }).unwrap();
+    let header = |length: u8| [0xFF, 0xFF, 0xFD, 0x00, 0x01, length, 0x00];
+    for (before, certain) in [
+        (vec![], true),
+        (vec![0xFF, 0xFF, 0xFD, 0x00], false),
+        ([&header(4)[..], &[0x55, 0, 0, 0]].concat(), true),
+        ([&header(5)[..], &[0x55, 0, 0, 0]].concat(), false),
+        // Shorter than any status packet.
+        (header(0).to_vec(), false),
+        // Its bytes are all there, but another header among them claims more.
+        ([&header(11)[..], &header(11), &[0x55, 0, 0, 0]].concat(), false),
+    ] {
+        let stream = [&before[..], &good].concat();
+        assert_eq!(reference::packets(&stream).len(), 1, "{before:02x?}");
+        assert_eq!(reference::is_certain(&stream), certain, "{before:02x?}");
+        assert!(reference::is_certain(&[&good[..], &before].concat()), "{before:02x?}");
+    }
+}
+
+/// Packets that the documents print, and what they ask for, read by hand.
+const CALLS: [(&str, &str); 15] = [
+    ("dynamixel2.ping.1.instruction", r#"{"name":"ping"}"#),
+    ("dynamixel2.read.instruction", r#"{"name":"read","address":132,"length":4}"#),
+    ("dynamixel2.write.instruction", r#"{"name":"write","address":116,"data":"00020000"}"#),
+    ("dynamixel2.reg-write.instruction", r#"{"name":"reg_write","address":104,"data":"c8000000"}"#),
+    ("dynamixel2.action.instruction", r#"{"name":"action"}"#),
+    ("dynamixel2.factory-reset.instruction", r#"{"name":"factory_reset","option":1}"#),
+    ("dynamixel2.reboot.instruction", r#"{"name":"reboot"}"#),
+    ("dynamixel2.clear.instruction", r#"{"name":"clear","params":"0144584c22"}"#),
+    ("ja40.backup.instruction", r#"{"name":"control_table_backup","params":"014354524c"}"#),
+    (
+        "dynamixel2.sync-read.instruction",
+        r#"{"name":"sync_read","address":132,"length":4,"ids":[1,2]}"#,
+    ),
+    (
+        "dynamixel2.sync-write.instruction",
+        r#"{"name":"sync_write","address":116,"length":4,"devices":[{"id":1,"data":"96000000"},{"id":2,"data":"aa000000"}]}"#,
+    ),
+    (
+        "ja40.fast-sync-read.instruction",
+        r#"{"name":"fast_sync_read","address":580,"length":4,"ids":[1,2]}"#,
+    ),
+    (
+        "ja40.fast-sync-write.instruction",
+        r#"{"name":"fast_sync_write","address":116,"length":4,"devices":[{"id":1,"data":"96000000"},{"id":2,"data":"aa000000"}]}"#,
+    ),
+    (
+        "dynamixel2.bulk-read.instruction",
+        r#"{"name":"bulk_read","devices":[{"id":1,"address":144,"length":2},{"id":2,"address":146,"length":1}]}"#,
+    ),
+    (
+        "dynamixel2.bulk-write.instruction",
+        r#"{"name":"bulk_write","devices":[{"id":1,"address":32,"data":"a000"},{"id":2,"address":31,"data":"50"}]}"#,
+    ),
+];
+
+#[test]
+fn a_call_asks_what_the_printed_packet_does() {
+    let spec = Spec::embedded().unwrap();
+    let mut codes = BTreeSet::new();
+    for (id, expected) in CALLS {
+        let (_, vector) = spec.vectors().find(|(_, vector)| vector.id == id).unwrap();
+        let packet = vector.packet.as_ref().unwrap();
+        assert_eq!(serde_json::to_string(&Call::of(packet)).unwrap(), expected, "{id}");
+        if let Packet::Instruction { instruction, .. } = packet {
+            codes.insert(*instruction);
+        }
+    }
+    let protocol = spec.protocol("dynamixel2").unwrap();
+    let all = protocol.instructions.iter().map(|instruction| instruction.code);
+    assert_eq!(codes, all.collect(), "a call for each instruction");
+}
+
+#[test]
+fn parameters_that_do_not_fit_have_no_call() {
+    for (instruction, params) in [
+        (0x01, "00"),
+        (0x02, "440204"),
+        (0x02, "4402040000"),
+        (0x03, "34"),
+        (0x06, ""),
+        (0x06, "0101"),
+        (0x82, "840004"),
+        (0x83, "740004000196000000 02aa0000"),
+        (0x92, "0190000200 02920001"),
+        (0x93, "0120000200a000 021f000200 50"),
+        (0x55, "00"),
+        (0xEE, ""),
+    ] {
+        let bytes = HexBytes::parse(params).unwrap();
+        let packet = Packet::Instruction { id: 1, instruction, params: bytes };
+        assert_eq!(Call::of(&packet), None, "{instruction:#04X} {params}");
+    }
+}
