@@ -1,8 +1,8 @@
 //! Messages, bodies and packets to measure with, all from seeds.
 
-use actucheck_codec::dynamixel2::Instruction;
-use actucheck_codec::status::{self, StatusError};
-use actucheck_codec::{EncodeError, frame, stuffing};
+use actucheck_codec::EncodeError;
+use actucheck_codec::dynamixel2::status::{self, StatusError};
+use actucheck_codec::dynamixel2::{Instruction, frame, stuffing};
 
 /// How many messages, bodies or packets one measurement goes over. So many random lengths are
 /// more than a branch predictor learns.

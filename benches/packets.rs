@@ -6,7 +6,7 @@ use std::hint::black_box;
 
 use actucheck_benches::contender::OURS;
 use actucheck_benches::input::{Write, writes};
-use actucheck_codec::Frame;
+use actucheck_codec::dynamixel2::Frame;
 use cpu_time::CpuTime;
 use criterion::{
     BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group,

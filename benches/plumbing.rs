@@ -12,9 +12,9 @@ use actucheck_benches::input::{BATCH, Content, Random, messages, noise, writes};
 use actucheck_benches::measured::Measured;
 use actucheck_benches::traffic::{Traffic, count};
 use actucheck_benches::{chart, contender, measured, table};
-use actucheck_codec::dynamixel2::Instruction;
-use actucheck_codec::stuffing::{stuff, unstuff};
-use actucheck_codec::{EncodeError, Frame, crc};
+use actucheck_codec::dynamixel2::stuffing::{stuff, unstuff};
+use actucheck_codec::dynamixel2::{Frame, Instruction};
+use actucheck_codec::{EncodeError, crc};
 
 #[test]
 fn inputs_are_the_same_in_every_run() {

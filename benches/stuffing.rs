@@ -7,7 +7,7 @@ use std::hint::black_box;
 
 use actucheck_benches::contender::OURS;
 use actucheck_benches::input::Content;
-use actucheck_codec::stuffing::{stuff, stuffed_len, unstuff};
+use actucheck_codec::dynamixel2::stuffing::{stuff, stuffed_len, unstuff};
 use cpu_time::CpuTime;
 use criterion::{
     BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,

@@ -4,8 +4,8 @@ use std::hint::black_box;
 
 use actucheck_codec::EncodeError;
 use actucheck_codec::dynamixel2::HEADER;
-use actucheck_codec::status::{self, StatusError};
-use actucheck_codec::stream::{DEFAULT_MAX_PACKET, Event, Parser};
+use actucheck_codec::dynamixel2::status::{self, StatusError};
+use actucheck_codec::dynamixel2::stream::{DEFAULT_MAX_PACKET, Event, Parser};
 
 use crate::input::{Content, Random};
 

@@ -10,8 +10,8 @@
 //! tells the size needed.
 //!
 //! ```
-//! use actucheck_codec::dynamixel2::Instruction;
-//! use actucheck_codec::{Frame, ja40};
+//! use actucheck_codec::dynamixel2::{Frame, Instruction};
+//! use actucheck_codec::ja40;
 //!
 //! // Write 2,000 to Goal Position of device 1 (JA40 document, §1.6.3).
 //! let mut buffer = [0; 32];
@@ -33,19 +33,15 @@
 extern crate std;
 
 pub mod crc;
+pub mod dynamixel2;
 mod error;
-pub mod fast_status;
-pub mod frame;
 pub mod innfos;
-pub mod instruction;
 pub mod layout;
 mod number;
 pub mod register;
-pub mod status;
-pub mod stream;
-pub mod stuffing;
+mod simd;
 
-/// What the build script makes of the documents' YAML: a module a protocol and a module a device.
+/// What the build script makes of the devices' YAML: a module a device.
 #[allow(
     unused_imports,             // a small device has no use for every type
     clippy::unreadable_literal, // numbers keep the form that they have in the YAML
@@ -55,13 +51,8 @@ pub mod stuffing;
     clippy::match_wildcard_for_single_variants // sometimes one value has no row
 )]
 mod generated {
-    include!(concat!(env!("OUT_DIR"), "/dynamixel2.rs"));
     include!(concat!(env!("OUT_DIR"), "/devices.rs"));
 }
 
-pub use error::{BufferTooSmall, EncodeError, FrameError};
-pub use fast_status::FastStatus;
-pub use frame::Frame;
+pub use error::{BufferTooSmall, EncodeError};
 pub use generated::*;
-pub use instruction::{Request, RequestError};
-pub use status::{Status, StatusError};

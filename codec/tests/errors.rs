@@ -2,8 +2,8 @@
 
 #![allow(clippy::indexing_slicing)] // tests may stop at a surprise
 
-use actucheck_codec::stuffing::{UnstuffError, unstuff};
-use actucheck_codec::{FastStatus, Frame, FrameError};
+use actucheck_codec::dynamixel2::stuffing::{UnstuffError, unstuff};
+use actucheck_codec::dynamixel2::{FastStatus, Frame, FrameError};
 
 /// The status packet of §Read in the DYNAMIXEL document.
 const STATUS: [u8; 15] =

@@ -3,16 +3,17 @@
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing, clippy::panic)] // tests may stop
 
-use actucheck_codec::dynamixel2::{
-    ClearOption, ControlTableBackupOption, FactoryResetOption, Instruction,
-};
-use actucheck_codec::instruction::{
+use actucheck_codec::EncodeError;
+use actucheck_codec::dynamixel2::instruction::{
     Action, BulkRead, BulkWrite, Clear, ControlTableBackup, DeviceData, DeviceRange, DeviceWrite,
     FactoryReset, FastSyncRead, FastSyncWrite, Ping, Read, Reboot, RegWrite, SyncRead, SyncWrite,
     Write,
 };
+use actucheck_codec::dynamixel2::{
+    ClearOption, ControlTableBackupOption, FactoryResetOption, Frame, Instruction, Request,
+    RequestError,
+};
 use actucheck_codec::layout::{self, LayoutError};
-use actucheck_codec::{EncodeError, Frame, Request, RequestError};
 use actucheck_spec::Spec;
 use actucheck_spec::model::{Outcome, Packet};
 use proptest::collection::vec;
@@ -163,7 +164,12 @@ fn what_no_device_could_obey_is_refused() {
     assert_eq!(read.encode(1, &mut buffer), Err(EncodeError::Id { found: 1 }));
 
     let params = [0x44, 0x02, 0x04, 0x00, 0x01];
-    let packet = actucheck_codec::frame::encode(1, Instruction::SyncRead, &[&params], &mut buffer);
+    let packet = actucheck_codec::dynamixel2::frame::encode(
+        1,
+        Instruction::SyncRead,
+        &[&params],
+        &mut buffer,
+    );
     let frame = Frame::parse(packet.unwrap()).unwrap();
     let not_broadcast = RequestError::NotBroadcast { found: 1 };
     assert_eq!(Request::parse(&frame, &mut [0; 8]), Err(not_broadcast));

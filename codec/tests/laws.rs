@@ -2,12 +2,12 @@
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
-use actucheck_codec::dynamixel2::{CRC_CHECK, Instruction};
-use actucheck_codec::fast_status::{self, Block};
+use actucheck_codec::dynamixel2::fast_status::{self, Block};
+use actucheck_codec::dynamixel2::status::{self, StatusError};
+use actucheck_codec::dynamixel2::stuffing::{stuff, stuffed_len, unstuff};
+use actucheck_codec::dynamixel2::{CRC_CHECK, FastStatus, Frame, Instruction, frame};
 use actucheck_codec::layout;
-use actucheck_codec::status::{self, StatusError};
-use actucheck_codec::stuffing::{stuff, stuffed_len, unstuff};
-use actucheck_codec::{EncodeError, FastStatus, Frame, crc, frame};
+use actucheck_codec::{EncodeError, crc};
 use actucheck_spec::wire::dynamixel2::reference;
 use proptest::collection::vec;
 use proptest::prelude::*;

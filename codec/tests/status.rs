@@ -2,11 +2,11 @@
 
 #![allow(clippy::unwrap_used)] // tests may stop at a surprise
 
-use actucheck_codec::dynamixel2::Instruction;
+use actucheck_codec::dynamixel2::status::{self, PingStatus, StatusError};
+use actucheck_codec::dynamixel2::{Frame, FrameError, Instruction};
 use actucheck_codec::layout;
 use actucheck_codec::register::RegisterError;
-use actucheck_codec::status::{self, PingStatus, StatusError};
-use actucheck_codec::{BufferTooSmall, Frame, FrameError, ja40};
+use actucheck_codec::{BufferTooSmall, ja40};
 use proptest::prelude::*;
 
 #[test]

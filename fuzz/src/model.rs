@@ -1,7 +1,7 @@
 //! What the codec finds, in the words of the spec's model.
 
-use actucheck_codec::stream::{self, Reason};
-use actucheck_codec::{Frame, FrameError};
+use actucheck_codec::dynamixel2::stream::{self, Reason};
+use actucheck_codec::dynamixel2::{Frame, FrameError};
 use actucheck_spec::model::{Fault, Packet};
 use actucheck_spec::wire::dynamixel2::reference::{Event, encode};
 

@@ -1,6 +1,6 @@
 //! Streams as the reference reads them and as the parser does.
 
-use actucheck_codec::stream::Parser;
+use actucheck_codec::dynamixel2::stream::Parser;
 use actucheck_spec::wire::dynamixel2::reference::{self, Event};
 
 use crate::draw::Draw;

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
-use actucheck_codec::stream::{Event, Parser};
+use actucheck_codec::dynamixel2::stream::{Event, Parser};
 use actucheck_fuzz::targets::crc;
 use actucheck_fuzz::{Seeds, TARGETS};
 use actucheck_spec::Spec;

@@ -6,7 +6,7 @@
 use super::order::Order;
 
 /// The state after `bytes`, four at a time.
-pub(super) fn update<O: Order>(state: u16, bytes: &[u8]) -> u16 {
+pub(crate) fn update<O: Order>(state: u16, bytes: &[u8]) -> u16 {
     let (words, rest) = bytes.as_chunks();
     let state = words.iter().copied().fold(state, step4::<O>);
     rest.iter().copied().fold(state, step::<O>)
@@ -18,7 +18,7 @@ pub(super) fn update<O: Order>(state: u16, bytes: &[u8]) -> u16 {
 /// the quotient q of b x^16 by P satisfies q (x + 1) = b x + p. Then q P, but for what lies above
 /// x^15, is b x + b x^2 + p (x^15 + x + 1).
 #[inline]
-pub(super) fn step<O: Order>(state: u16, byte: u8) -> u16 {
+pub(crate) fn step<O: Order>(state: u16, byte: u8) -> u16 {
     let [high, low] = state.to_be_bytes();
     if O::REFLECTED {
         let b = u16::from(low ^ byte);

@@ -1,10 +1,8 @@
 //! The choice of a back end.
 
-use super::backend::{Portable, Task};
-#[cfg(target_arch = "x86_64")]
-use super::clmul::{Narrow, Wide};
 use super::order::{Lsb, Msb, Order};
 use super::{MODBUS_INIT, UMTS_INIT, portable};
+use crate::simd::Processor;
 
 /// The way this machine computes CRCs best, found once.
 ///
@@ -25,16 +23,7 @@ use super::{MODBUS_INIT, UMTS_INIT, portable};
 /// }
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct Engine(Kind);
-
-#[derive(Clone, Copy, Debug)]
-enum Kind {
-    Portable,
-    #[cfg(target_arch = "x86_64")]
-    Narrow(Narrow),
-    #[cfg(target_arch = "x86_64")]
-    Wide(Wide),
-}
+pub struct Engine(Processor);
 
 impl Default for Engine {
     fn default() -> Self {
@@ -47,33 +36,20 @@ impl Engine {
     #[must_use]
     #[inline]
     pub fn new() -> Self {
-        #[cfg(target_arch = "x86_64")]
-        {
-            if let Some(wide) = Wide::new() {
-                return Self(Kind::Wide(wide));
-            }
-            if let Some(narrow) = Narrow::new() {
-                return Self(Kind::Narrow(narrow));
-            }
-        }
-        Self::portable()
+        Self(Processor::new())
     }
 
     /// The engine that needs no particular processor.
     #[must_use]
     #[inline]
     pub const fn portable() -> Self {
-        Self(Kind::Portable)
+        Self(Processor::Portable)
     }
 
     /// Every engine that this machine can run, the portable one first: for tests that compare
     /// them.
     pub fn all() -> impl Iterator<Item = Self> {
-        #[cfg(target_arch = "x86_64")]
-        let special = [Narrow::new().map(Kind::Narrow), Wide::new().map(Kind::Wide)];
-        #[cfg(not(target_arch = "x86_64"))]
-        let special = [];
-        [Self::portable()].into_iter().chain(special.into_iter().flatten().map(Self))
+        Processor::all().map(Self)
     }
 
     /// As [`crc::umts`](super::umts).
@@ -107,29 +83,11 @@ impl Engine {
     #[inline]
     fn update<O: Order>(self, state: u16, bytes: &[u8]) -> u16 {
         match self.0 {
-            Kind::Portable => portable::update::<O>(state, bytes),
+            Processor::Portable => portable::update::<O>(state, bytes),
             #[cfg(target_arch = "x86_64")]
-            Kind::Narrow(narrow) => narrow.update::<O>(state, bytes),
+            Processor::Narrow(narrow) => narrow.update::<O>(state, bytes),
             #[cfg(target_arch = "x86_64")]
-            Kind::Wide(wide) => wide.update::<O>(state, bytes),
+            Processor::Wide(wide) => wide.update::<O>(state, bytes),
         }
     }
-
-    /// Does the task the way of this engine.
-    #[inline]
-    pub(crate) fn run<T: Task>(self, task: T) -> T::Output {
-        match self.0 {
-            Kind::Portable => portable(task),
-            #[cfg(target_arch = "x86_64")]
-            Kind::Narrow(narrow) => narrow.run(task),
-            #[cfg(target_arch = "x86_64")]
-            Kind::Wide(wide) => wide.run(task),
-        }
-    }
-}
-
-/// A function of its own, as the other engines' are.
-#[inline(never)]
-fn portable<T: Task>(task: T) -> T::Output {
-    task.run(Portable)
 }

@@ -9,7 +9,7 @@
 use super::order::Order;
 
 /// What is left of a folded message, in bytes.
-pub(super) const BYTES: usize = 256;
+pub(crate) const BYTES: usize = 256;
 
 /// A 16-byte block; an array, so that the compiler keeps it in a vector register.
 type Block = [u64; 2];
@@ -17,7 +17,7 @@ type Block = [u64; 2];
 /// The message in `chunks`, with `state` added to the first two bytes, modulo P^128: 32 words,
 /// the highest first.
 #[inline]
-pub(super) fn fold<O: Order>(state: u16, chunks: &[[u8; BYTES]]) -> [u64; 32] {
+pub(crate) fn fold<O: Order>(state: u16, chunks: &[[u8; BYTES]]) -> [u64; 32] {
     let mut sum = [[0; 2]; 16];
     let Some((first, rest)) = chunks.split_first() else {
         return [0; 32];

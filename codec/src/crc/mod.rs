@@ -18,34 +18,35 @@
 //! * [`Engine`]: the same, with the choice of processor instructions made once. It is for loops
 //!   over many short packets, and for tests that want one particular back end.
 
-mod backend;
-#[cfg(target_arch = "x86_64")]
-mod clmul;
-mod compact;
+pub(crate) mod compact;
 mod engine;
-mod fold;
-mod order;
-mod portable;
-mod shift;
-mod short;
+pub(crate) mod fold;
+pub(crate) mod order;
+pub(crate) mod portable;
+pub(crate) mod shift;
+pub(crate) mod short;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
-use crate::dynamixel2::{CRC_INITIAL, CRC_POLYNOMIAL};
+use crate::{dynamixel2, innfos};
 
-pub(crate) use backend::{Backend, Looked, Pieces, Places, Task, WINDOW};
 pub use engine::Engine;
 
-// The back ends are made for one polynomial. Should the documents' YAML say another, this stops
-// the build.
-const _: () = assert!(CRC_POLYNOMIAL == 0x8005 && CRC_INITIAL == UMTS_INIT);
+// The back ends are made for one polynomial, two bit orders and no inversion. Should the documents'
+// YAML say otherwise, this stops the build.
+const _: () = {
+    use {dynamixel2 as umts, innfos as modbus};
+    assert!(umts::CRC_POLYNOMIAL == 0x8005 && modbus::CRC_POLYNOMIAL == 0x8005);
+    assert!(!umts::CRC_REFLECTED && modbus::CRC_REFLECTED);
+    assert!(umts::CRC_FINAL_XOR == 0 && modbus::CRC_FINAL_XOR == 0);
+};
 
 /// The state of CRC-16/UMTS before the first byte (JA40 document, §1.4.7).
-pub const UMTS_INIT: u16 = 0;
+pub const UMTS_INIT: u16 = dynamixel2::CRC_INITIAL;
 
 /// The state of CRC-16/MODBUS before the first byte (INNFOS document, "CRC check code
 /// calculation method": both halves start as 0xFF).
-pub const MODBUS_INIT: u16 = 0xFFFF;
+pub const MODBUS_INIT: u16 = innfos::CRC_INITIAL;
 
 /// The CRC-16/UMTS of `bytes`, of any length.
 ///

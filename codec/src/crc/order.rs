@@ -5,7 +5,7 @@
 //! bit 0, so neither has to reverse a bit. "Raise" and "lower" multiply and divide by x^n.
 
 /// A bit order, and with it how a polynomial lies in a word.
-pub(super) trait Order {
+pub(crate) trait Order {
     /// Whether bit 0 of a word is its highest term.
     const REFLECTED: bool;
     /// The eight bytes as a polynomial, the first byte being the highest.
@@ -26,10 +26,10 @@ pub(super) trait Order {
 }
 
 /// Most significant bit first: CRC-16/UMTS.
-pub(super) struct Msb;
+pub(crate) struct Msb;
 
 /// Least significant bit first ("reflected"): CRC-16/MODBUS.
-pub(super) struct Lsb;
+pub(crate) struct Lsb;
 
 impl Order for Msb {
     const REFLECTED: bool = false;

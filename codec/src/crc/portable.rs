@@ -20,7 +20,7 @@ use super::order::Order;
 use super::short;
 
 /// The state after `bytes`.
-pub(super) fn update<O: Order>(state: u16, bytes: &[u8]) -> u16 {
+pub(crate) fn update<O: Order>(state: u16, bytes: &[u8]) -> u16 {
     if cfg!(not(any(target_pointer_width = "64", target_family = "wasm"))) {
         // No 64-bit registers.
         return compact::update::<O>(state, bytes);

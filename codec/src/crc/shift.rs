@@ -5,7 +5,7 @@
 #![expect(clippy::indexing_slicing, reason = "arrays of a fixed size, indices below it")]
 
 /// The order of x modulo P = (x + 1)(x^15 + x + 1): x^32767 = 1.
-pub(super) const ORDER: u64 = 32_767;
+pub(crate) const ORDER: u64 = 32_767;
 
 /// Row d holds x^(8 i 32^d) mod P for i from 0 to 31, a row for each five bits of a byte count
 /// below [`ORDER`]. 192 bytes.
@@ -27,7 +27,7 @@ static POWERS: [[u16; 32]; 3] = {
 };
 
 /// `state` x^(8 `count`) mod P: the state after `count` zero bytes.
-pub(super) fn shift(state: u16, count: u64) -> u16 {
+pub(crate) fn shift(state: u16, count: u64) -> u16 {
     // 8 is prime to the order, so the byte counts have the same period as the exponents.
     let mut count = count % ORDER;
     let mut state = state;
@@ -42,7 +42,7 @@ pub(super) fn shift(state: u16, count: u64) -> u16 {
 }
 
 /// x^`exponent` mod P.
-pub(super) const fn power_of_x(exponent: u64) -> u16 {
+pub(crate) const fn power_of_x(exponent: u64) -> u16 {
     let mut exponent = exponent % ORDER;
     let mut square = 0b10;
     let mut power = 1;

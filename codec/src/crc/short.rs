@@ -8,7 +8,7 @@ use super::order::Order;
 
 /// Four to eight bytes, with `state` added to the first two, as a word.
 #[inline]
-pub(super) fn word<O: Order>(state: u16, bytes: &[u8]) -> u64 {
+pub(crate) fn word<O: Order>(state: u16, bytes: &[u8]) -> u64 {
     let (Some(&first), Some(&last)) = (bytes.first_chunk(), bytes.last_chunk()) else {
         return 0; // never: callers see to the length
     };
@@ -20,7 +20,7 @@ pub(super) fn word<O: Order>(state: u16, bytes: &[u8]) -> u64 {
 
 /// Nine to 16 bytes, with `state` added to the first two, as (high word, low word).
 #[inline]
-pub(super) fn pair<O: Order>(state: u16, bytes: &[u8]) -> (u64, u64) {
+pub(crate) fn pair<O: Order>(state: u16, bytes: &[u8]) -> (u64, u64) {
     let (Some(&first), Some(&last)) = (bytes.first_chunk(), bytes.last_chunk()) else {
         return (0, 0); // never: callers see to the length
     };
@@ -35,7 +35,7 @@ pub(super) fn pair<O: Order>(state: u16, bytes: &[u8]) -> (u64, u64) {
 /// How many bits the message leaves unused in its highest word, at most 56.
 #[inline]
 #[expect(clippy::cast_possible_truncation, reason = "masked")]
-pub(super) fn spare_bits(bytes: &[u8]) -> u32 {
+pub(crate) fn spare_bits(bytes: &[u8]) -> u32 {
     (bytes.len().wrapping_neg() & 7) as u32 * 8
 }
 

@@ -1,8 +1,8 @@
 use core::marker::PhantomData;
 
 use super::{Data, Kind, RegisterError, Row};
-use crate::dynamixel2::Instruction;
-use crate::{EncodeError, frame};
+use crate::EncodeError;
+use crate::dynamixel2::{Instruction, frame};
 
 /// What a register holds: a number, an enum of named values, or a set of bits.
 pub trait Value: Copy {
@@ -62,7 +62,8 @@ impl<T: Value> Register<T> {
     /// The request for its value from the device `id`.
     ///
     /// ```
-    /// use actucheck_codec::{Frame, ja40};
+    /// use actucheck_codec::dynamixel2::Frame;
+    /// use actucheck_codec::ja40;
     /// let mut buffer = [0; 16];
     /// let packet = ja40::PRESENT_POSITION.read(1).encode(&mut buffer)?;
     /// assert_eq!(packet, b"\xFF\xFF\xFD\x00\x01\x07\x00\x02\x44\x02\x04\x00\x14\x95");

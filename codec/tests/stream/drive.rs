@@ -1,7 +1,7 @@
 //! Feeds a parser, and keeps what comes out.
 
-use actucheck_codec::stream::{self, Parser, Reason};
-use actucheck_codec::{Frame, frame};
+use actucheck_codec::dynamixel2::stream::{self, Parser, Reason};
+use actucheck_codec::dynamixel2::{Frame, frame};
 use actucheck_spec::model::{Fault, Packet};
 use actucheck_spec::wire::dynamixel2::reference::{Event, events};
 

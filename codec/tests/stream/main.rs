@@ -3,7 +3,7 @@
 // Tests may stop at the first surprise, and so may their helpers.
 #![allow(clippy::indexing_slicing, clippy::unwrap_used)]
 
-use actucheck_codec::stream::{self, Parser};
+use actucheck_codec::dynamixel2::stream::{self, Parser};
 use actucheck_spec::model::{Fault, Packet};
 use actucheck_spec::wire::dynamixel2::reference::{self, Event, frame};
 use drive::{drain, expected, owned, parse};

@@ -3,10 +3,11 @@
 use actucheck_spec::wire::dynamixel2::reference::Fast;
 use std::fmt::Write as _;
 
-use actucheck_codec::dynamixel2::{BROADCAST_ID, Instruction};
+use actucheck_codec::dynamixel2::{
+    BROADCAST_ID, FastStatus, Frame, FrameError, Instruction, StatusError,
+};
 use actucheck_codec::layout::{self, Item};
 use actucheck_codec::register::{Device, NamedValue, Row as Register};
-use actucheck_codec::{FastStatus, Frame, FrameError, StatusError};
 
 use super::table::{Explanation, Table, low_first, rounded};
 

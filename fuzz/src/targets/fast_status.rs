@@ -1,9 +1,10 @@
 //! Fast status packets: there and back, against the reference, for the request that fits and for
 //! any other.
 
-use actucheck_codec::fast_status::{self, Block};
-use actucheck_codec::status::StatusError;
-use actucheck_codec::{BufferTooSmall, EncodeError, FastStatus};
+use actucheck_codec::dynamixel2::FastStatus;
+use actucheck_codec::dynamixel2::fast_status::{self, Block};
+use actucheck_codec::dynamixel2::status::StatusError;
+use actucheck_codec::{BufferTooSmall, EncodeError};
 use actucheck_spec::model::{self, Fault, Packet};
 use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, Fast, HEADER, PREFIX, STATUS};
 use arbitrary::{Result, Unstructured};

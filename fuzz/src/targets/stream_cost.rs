@@ -1,6 +1,6 @@
 //! What the stream parser costs at most, counted in bytes looked at and bytes kept.
 
-use actucheck_codec::stream::{DEFAULT_MAX_PACKET, Parser, meter};
+use actucheck_codec::dynamixel2::stream::{DEFAULT_MAX_PACKET, Parser, meter};
 
 use crate::draw::Draw;
 pub use crate::targets::stream_raw::repair;

@@ -1,8 +1,8 @@
 //! Byte stuffing: there and back, against the reference, within its bound, at every split.
 
-use actucheck_codec::dynamixel2::Instruction;
-use actucheck_codec::stuffing::{stuff, stuffed_len, unstuff};
-use actucheck_codec::{BufferTooSmall, frame};
+use actucheck_codec::BufferTooSmall;
+use actucheck_codec::dynamixel2::stuffing::{stuff, stuffed_len, unstuff};
+use actucheck_codec::dynamixel2::{Instruction, frame};
 use actucheck_spec::wire::dynamixel2::reference;
 
 use crate::draw::Draw;

@@ -1,11 +1,11 @@
 //! The codec's DYNAMIXEL Protocol 2.0.
 
-use actucheck_codec::dynamixel2::Instruction;
-use actucheck_codec::fast_status::{self, Block};
-use actucheck_codec::status::{self, StatusError};
-use actucheck_codec::stream::{Event, Parser};
-use actucheck_codec::stuffing::{self, UnstuffError};
-use actucheck_codec::{FastStatus, Frame, FrameError, crc, frame};
+use actucheck_codec::crc;
+use actucheck_codec::dynamixel2::fast_status::{self, Block};
+use actucheck_codec::dynamixel2::status::{self, StatusError};
+use actucheck_codec::dynamixel2::stream::{Event, Parser};
+use actucheck_codec::dynamixel2::stuffing::{self, UnstuffError};
+use actucheck_codec::dynamixel2::{FastStatus, Frame, FrameError, Instruction, frame};
 use actucheck_spec::model::{self, Fault, HexBytes, Packet};
 use actucheck_spec::wire::dynamixel2::reference::Fast;
 

@@ -1,13 +1,13 @@
 //! Packets that are built of choices, beside the same by hand.
 
-use actucheck_codec::dynamixel2::{
-    ClearOption, ControlTableBackupOption, FactoryResetOption, Instruction,
-};
-use actucheck_codec::instruction::{
+use actucheck_codec::dynamixel2::instruction::{
     Action, Clear, ControlTableBackup, FactoryReset, Ping, Read, Reboot, RegWrite, Write,
 };
-use actucheck_codec::status::{self, PingStatus, StatusError};
-use actucheck_codec::{BufferTooSmall, EncodeError, Frame, Request};
+use actucheck_codec::dynamixel2::status::{self, PingStatus, StatusError};
+use actucheck_codec::dynamixel2::{
+    ClearOption, ControlTableBackupOption, FactoryResetOption, Frame, Instruction, Request,
+};
+use actucheck_codec::{BufferTooSmall, EncodeError};
 use actucheck_spec::wire::dynamixel2::reference;
 use arbitrary::{Result, Unstructured};
 

@@ -4,9 +4,9 @@
 mod build;
 mod several;
 
-use actucheck_codec::dynamixel2::Instruction;
-use actucheck_codec::status::{PingStatus, Status};
-use actucheck_codec::{Frame, Request, frame, ja40, layout};
+use actucheck_codec::dynamixel2::status::{PingStatus, Status};
+use actucheck_codec::dynamixel2::{Frame, Instruction, Request, frame};
+use actucheck_codec::{ja40, layout};
 use actucheck_spec::wire::dynamixel2::reference::{self, HEADER, PREFIX};
 use arbitrary::Unstructured;
 

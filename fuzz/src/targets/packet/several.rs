@@ -1,10 +1,11 @@
 //! Instructions to several devices.
 
-use actucheck_codec::instruction::{
+use actucheck_codec::EncodeError;
+use actucheck_codec::dynamixel2::Request;
+use actucheck_codec::dynamixel2::instruction::{
     BulkRead, BulkWrite, DeviceData, DeviceRange, DeviceWrite, FastSyncRead, FastSyncWrite,
     SyncRead, SyncWrite,
 };
-use actucheck_codec::{EncodeError, Request};
 use actucheck_spec::wire::dynamixel2::reference::BROADCAST;
 use arbitrary::{Result, Unstructured};
 

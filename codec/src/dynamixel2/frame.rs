@@ -1,0 +1,287 @@
+//! Whole packets: the checked view of one, and the building of one.
+
+mod direct;
+#[cfg(test)]
+mod tests;
+mod writer;
+
+use core::fmt;
+
+use super::header::{CRC, Header, PREFIX, is_device, is_id};
+use super::stuffing::{self, Matcher};
+use super::{FrameError, Instruction};
+use crate::simd::patterns;
+use crate::{BufferTooSmall, EncodeError, crc};
+
+pub(crate) use writer::Writer;
+
+/// A packet whose header, ID, length, CRC and stuffing are right. Its accessors can't fail.
+///
+/// The status packet that answers Fast Sync Read or Fast Sync Write is not stuffed and has CRCs
+/// of its own: [`FastStatus`](super::FastStatus) reads it.
+#[derive(Clone, Copy)]
+pub struct Frame<'a> {
+    id: u8,
+    /// The instruction's code. Which of the named ones it is costs a jump, and not everybody asks.
+    code: u8,
+    /// How many bytes the body has, on the wire, and the parameters without stuffing.
+    body_len: usize,
+    params_len: usize,
+    /// From the instruction on. What stands behind the body is of no meaning, but that it may be
+    /// read makes it faster to take stuffing away.
+    bytes: &'a [u8],
+}
+
+impl PartialEq for Frame<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        (self.id, self.code, self.stuffed_params())
+            == (other.id, other.code, other.stuffed_params())
+    }
+}
+
+impl Eq for Frame<'_> {}
+
+impl fmt::Debug for Frame<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Frame")
+            .field("id", &self.id)
+            .field("instruction", &self.instruction())
+            .field("stuffed_params", &self.stuffed_params())
+            .finish()
+    }
+}
+
+impl<'a> Frame<'a> {
+    /// The packet with which `bytes` begin, `len` of them, in which everything was found right,
+    /// with `patterns` bytes of stuffing.
+    #[inline]
+    pub(crate) fn checked(bytes: &'a [u8], len: usize, patterns: usize) -> Option<Self> {
+        let (&[.., id, _, _], bytes) = bytes.split_first_chunk::<PREFIX>()?;
+        let body_len = len - PREFIX - CRC;
+        Some(Self {
+            id,
+            code: *bytes.first()?,
+            body_len,
+            params_len: body_len - 1 - patterns,
+            bytes,
+        })
+    }
+
+    /// Reads `bytes`, which are one packet and nothing else.
+    ///
+    /// # Errors
+    /// The first rule that the bytes break, with the offset: header, ID, length, size, CRC,
+    /// stuffing, in this order.
+    pub fn parse(bytes: &'a [u8]) -> Result<Self, FrameError> {
+        let parts = Parts::split(bytes)?;
+        let patterns = parts.check()?;
+        let code = parts.body.first().copied().unwrap_or_default(); // a length of 3 has one
+        parts.header.check_instruction(code)?;
+        let (body_len, params_len) = (parts.body.len(), parts.body.len() - 1 - patterns);
+        Ok(Self { id: parts.header.id, code, body_len, params_len, bytes: parts.body })
+    }
+
+    /// Whom an instruction packet is for, or who sent a status packet.
+    #[must_use]
+    pub const fn id(&self) -> u8 {
+        self.id
+    }
+
+    /// What it asks for; [`Instruction::Status`] for a status packet.
+    #[must_use]
+    pub const fn instruction(&self) -> Instruction {
+        Instruction::from_code(self.code)
+    }
+
+    /// The bytes between instruction and CRC as they are on the wire, stuffing included. In a
+    /// status packet the first is the error byte.
+    #[must_use]
+    #[inline]
+    pub fn stuffed_params(&self) -> &'a [u8] {
+        self.bytes.get(1..self.body_len).unwrap_or_default()
+    }
+
+    /// How many bytes [`Frame::params`] yields.
+    #[must_use]
+    pub const fn params_len(&self) -> usize {
+        self.params_len
+    }
+
+    /// The parameters without stuffing. In a status packet the first is the error byte.
+    pub fn params(&self) -> impl Iterator<Item = u8> + Clone + use<'a> {
+        // The pattern may begin with the instruction, so the search begins there too.
+        let mut matcher = Matcher::default();
+        let mut skip = matcher.step(self.code);
+        self.stuffed_params().iter().copied().filter(move |byte| {
+            let keep = !skip;
+            skip = keep && matcher.step(*byte);
+            keep
+        })
+    }
+
+    /// Writes the parameters without stuffing to `buffer`; returns them. What is behind them in
+    /// `buffer` is lost: with 128 bytes of room, short packets are copied by moves of fixed size.
+    ///
+    /// # Errors
+    /// If `buffer` is smaller than [`Frame::params_len`].
+    #[inline]
+    pub fn copy_params<'b>(&self, buffer: &'b mut [u8]) -> Result<&'b [u8], BufferTooSmall> {
+        self.copy_behind(0, buffer)
+    }
+
+    /// The same without the first `front` of the parameters. A pattern may begin with the last of
+    /// these, but with no byte before it.
+    #[inline]
+    pub(crate) fn copy_behind<'b>(
+        &self,
+        front: usize,
+        buffer: &'b mut [u8],
+    ) -> Result<&'b [u8], BufferTooSmall> {
+        let (len, available) = (self.params_len.saturating_sub(front), buffer.len());
+        let too_small = BufferTooSmall { needed: len, available };
+        let target = buffer.get_mut(..len).ok_or(too_small)?;
+        let body_len = self.body_len.saturating_sub(front);
+        let bytes = self.bytes.get(front..).unwrap_or_default();
+        if len + 1 == body_len {
+            target.copy_from_slice(bytes.get(1..body_len).unwrap_or_default());
+        } else {
+            stuffing::remove(bytes, body_len, buffer, len);
+        }
+        buffer.get(..len).ok_or(too_small)
+    }
+}
+
+/// The parts of bytes that have a packet's header, ID, length and size.
+pub(crate) struct Parts<'a> {
+    pub(crate) header: Header,
+    /// From the instruction up to the CRC, as on the wire.
+    pub(crate) body: &'a [u8],
+    /// The whole packet.
+    bytes: &'a [u8],
+    /// Everything before the CRC.
+    before_crc: &'a [u8],
+    crc: u16,
+}
+
+impl<'a> Parts<'a> {
+    pub(crate) fn split(bytes: &'a [u8]) -> Result<Self, FrameError> {
+        let available = bytes.len();
+        let truncated = |needed| FrameError::Truncated { available, needed };
+        let header = Header::check(bytes)?.ok_or(truncated(PREFIX))?;
+        let end = header.packet_len();
+        if available > end {
+            return Err(FrameError::Trailing { end, available });
+        }
+        let (before_crc, crc) =
+            bytes.split_last_chunk::<CRC>().filter(|_| available == end).ok_or(truncated(end))?;
+        let body = before_crc.get(PREFIX..).ok_or(truncated(end))?;
+        Ok(Self { header, body, bytes, before_crc, crc: u16::from_le_bytes(*crc) })
+    }
+
+    /// Checks the CRC, then the stuffing; tells how many patterns the body has.
+    fn check(&self) -> Result<usize, FrameError> {
+        let looked = direct::look(self.before_crc);
+        self.compare_crc(looked.map_or_else(|| crc::umts(self.before_crc), |looked| looked.crc))?;
+        match looked {
+            Some(looked) if looked.patterns == 0 => Ok(0),
+            _ => self.patterns(),
+        }
+    }
+
+    fn patterns(&self) -> Result<usize, FrameError> {
+        let end = self.before_crc.len();
+        let up_to_crc = self.bytes.get(..=end).unwrap_or(self.bytes);
+        let bare = || stuffing::bare(self.body).unwrap_or_default();
+        patterns(up_to_crc, PREFIX, end).ok_or_else(|| FrameError::Stuffing { at: PREFIX + bare() })
+    }
+
+    pub(crate) fn check_crc(&self) -> Result<(), FrameError> {
+        self.compare_crc(crc::umts(self.before_crc))
+    }
+
+    fn compare_crc(&self, expected: u16) -> Result<(), FrameError> {
+        let (at, found) = (self.before_crc.len(), self.crc);
+        if found == expected { Ok(()) } else { Err(FrameError::Crc { at, found, expected }) }
+    }
+}
+
+/// Builds a packet in `buffer` from its parameters, which may come in several parts; returns the
+/// packet. What is behind it in `buffer` is lost.
+///
+/// ```
+/// use actucheck_codec::dynamixel2::{Instruction, frame};
+/// let mut buffer = [0; 16];
+/// let packet = frame::encode(1, Instruction::Ping, &[], &mut buffer)?;
+/// assert_eq!(packet, b"\xFF\xFF\xFD\x00\x01\x03\x00\x01\x19\x4E");
+/// # Ok::<(), actucheck_codec::EncodeError>(())
+/// ```
+///
+/// # Errors
+/// If the ID is none, the packet would be longer than its length field can say, or `buffer` is
+/// too small; the error tells the size needed.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "most of it goes where the number of parts is known")]
+pub fn encode<'b>(
+    id: u8,
+    instruction: Instruction,
+    params: &[&[u8]],
+    buffer: &'b mut [u8],
+) -> Result<&'b [u8], EncodeError> {
+    check_id(id)?;
+    if let Some(len) = direct::encode(id, instruction.code(), params, buffer) {
+        return Writer::after(buffer, len).into_written();
+    }
+    encode_parts(id, instruction, params, buffer)
+}
+
+#[inline(never)]
+fn encode_parts<'b>(
+    id: u8,
+    instruction: Instruction,
+    params: &[&[u8]],
+    buffer: &'b mut [u8],
+) -> Result<&'b [u8], EncodeError> {
+    let put_all = |put: &mut dyn FnMut(&[u8])| params.iter().for_each(|part| put(part));
+    encode_with(id, instruction, put_all, buffer)
+}
+
+/// As [`encode`], with the parameters from a function that puts one part of them behind the other.
+pub(crate) fn encode_with(
+    id: u8,
+    instruction: Instruction,
+    params: impl Fn(&mut dyn FnMut(&[u8])),
+    buffer: &mut [u8],
+) -> Result<&[u8], EncodeError> {
+    check_id(id)?;
+    let mut writer = Writer::new(buffer);
+    writer.skip_prefix();
+    writer.put(instruction.code());
+    params(&mut |part| writer.put_all(part));
+    if let Some(end) = writer.written().and_then(|end| stuffing::insert(buffer, PREFIX, end))
+        && end + CRC <= buffer.len()
+    {
+        return Writer::after(buffer, end).finish(id);
+    }
+    let mut matcher = Matcher::default();
+    let mut end = PREFIX;
+    let mut count = |part: &[u8]| {
+        end += part.len() + part.iter().filter(|byte| matcher.step(**byte)).count();
+    };
+    count(&[instruction.code()]);
+    params(&mut count);
+    Writer::after(buffer, end).finish(id)
+}
+
+pub(crate) fn length_field(length: usize) -> Result<u16, EncodeError> {
+    u16::try_from(length).map_err(|_| EncodeError::TooLong { length })
+}
+
+/// A packet may have this ID.
+fn check_id(id: u8) -> Result<(), EncodeError> {
+    if is_id(id) { Ok(()) } else { Err(EncodeError::Id { found: id }) }
+}
+
+/// A device may have this ID.
+pub(crate) fn check_device(id: u8) -> Result<(), EncodeError> {
+    if is_device(id) { Ok(()) } else { Err(EncodeError::Id { found: id }) }
+}

@@ -1,0 +1,117 @@
+//! What stands before a packet's parameters, and the rules by which it is accepted (DYNAMIXEL
+//! Protocol 2.0, Instruction Packet and Status Packet; JA40 document, §1.4 and §1.5).
+//!
+//! The rules stand here alone. Who holds bytes against them knows more or less of a packet:
+//! [`Frame::parse`](super::Frame::parse) has the whole of it, the stream's parser perhaps a part.
+
+use super::{
+    BROADCAST_ID, CRC_LOW_BYTE_FIRST, FrameError, HEADER, Instruction, LENGTH_LOW_BYTE_FIRST,
+    LENGTH_SIZE, MAX_ID, MIN_ID, MIN_LENGTH,
+};
+
+/// Bytes before the instruction: header, ID, length.
+pub(crate) const PREFIX: usize = HEADER.len() + size_of::<u8>() + LENGTH_SIZE;
+/// Bytes of the CRC, with which a packet ends.
+pub(crate) const CRC: usize = size_of::<u16>();
+/// The instruction of a status packet.
+pub(crate) const STATUS: u8 = Instruction::Status.code();
+
+// What the code of this module takes for granted of the YAML.
+const _: () = assert!(LENGTH_SIZE == size_of::<u16>() && LENGTH_LOW_BYTE_FIRST);
+const _: () = assert!(CRC_LOW_BYTE_FIRST);
+const _: () = assert!(MIN_ID == 0 && MAX_ID < BROADCAST_ID);
+const _: () = assert!(MIN_LENGTH as usize == size_of::<u8>() + CRC);
+
+/// ID and length of a packet, which break no rule.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Header {
+    pub(crate) id: u8,
+    length: u16,
+}
+
+impl Header {
+    /// Holds `bytes` against the rules, in the order of the bytes that can break them; `None` if
+    /// more bytes are needed to tell.
+    ///
+    /// # Errors
+    /// The first rule that they break: [`FrameError::Header`], [`FrameError::Id`] or
+    /// [`FrameError::Length`].
+    #[inline]
+    pub(crate) fn check(bytes: &[u8]) -> Result<Option<Self>, FrameError> {
+        if !bytes.starts_with(&HEADER) {
+            return other_header(bytes).map_or(Ok(None), Err);
+        }
+        let Some(&id) = bytes.get(HEADER.len()) else {
+            return Ok(None);
+        };
+        if !is_id(id) {
+            return Err(FrameError::Id { found: id });
+        }
+        let Some(&[.., low, high]) = bytes.first_chunk::<PREFIX>() else {
+            return Ok(None);
+        };
+        let header = Self { id, length: u16::from_le_bytes([low, high]) };
+        header.check_length(MIN_LENGTH)?;
+        Ok(Some(header))
+    }
+
+    /// Whether the length leaves room for what a packet with this instruction has at least: a
+    /// status packet has an error byte.
+    ///
+    /// # Errors
+    /// [`FrameError::Length`] if not.
+    #[inline]
+    pub(crate) const fn check_instruction(self, instruction: u8) -> Result<(), FrameError> {
+        self.check_length(if instruction == STATUS { MIN_LENGTH + 1 } else { MIN_LENGTH })
+    }
+
+    /// The same for a fast status packet, which has an ID beside its error byte.
+    ///
+    /// # Errors
+    /// [`FrameError::Length`] if not.
+    #[inline]
+    pub(crate) const fn check_fast(self) -> Result<(), FrameError> {
+        self.check_length(MIN_LENGTH + 2)
+    }
+
+    /// Whether such a packet in a stream is a fast status packet: a status packet from the
+    /// broadcast ID, which no device has.
+    #[inline]
+    pub(crate) const fn is_fast(self, instruction: u8) -> bool {
+        instruction == STATUS && self.id == BROADCAST_ID
+    }
+
+    /// Bytes of the whole packet.
+    #[inline]
+    pub(crate) const fn packet_len(self) -> usize {
+        PREFIX + self.length as usize
+    }
+
+    #[inline]
+    const fn check_length(self, least: u16) -> Result<(), FrameError> {
+        if self.length >= least {
+            return Ok(());
+        }
+        Err(FrameError::Length { found: self.length as usize, expected: least as usize })
+    }
+}
+
+/// Whether a packet may have this ID: a device's, or the broadcast ID.
+#[inline]
+pub(crate) const fn is_id(id: u8) -> bool {
+    is_device(id) || id == BROADCAST_ID
+}
+
+/// Whether a device may have this ID.
+#[inline]
+pub(crate) const fn is_device(id: u8) -> bool {
+    id <= MAX_ID
+}
+
+/// The first byte that a header has not there; `None` if `bytes` are the beginning of one.
+#[cold]
+fn other_header(bytes: &[u8]) -> Option<FrameError> {
+    let mut pairs = bytes.iter().zip(HEADER).enumerate();
+    let (at, (found, expected)) = pairs.find(|(_, (found, expected))| *found != expected)?;
+    Some(FrameError::Header { at, found: *found, expected })
+}

@@ -1,0 +1,60 @@
+//! What a host may ask, a type an instruction: building it, and reading it on the device's side.
+//!
+//! An instruction for one device or for all is built with `encode(id, buffer)`. One that names its
+//! devices in its parameters goes to the broadcast ID and is built with `encode(buffer)`. Devices
+//! come from any iterator that can be cloned, or from an array or slice. What is behind the packet in
+//! the buffer is lost.
+//!
+//! ```
+//! use actucheck_codec::dynamixel2::instruction::{DeviceData, Ping, SyncWrite};
+//! let mut buffer = [0; 64];
+//! assert_eq!(Ping.encode(1, &mut buffer)?, b"\xFF\xFF\xFD\x00\x01\x03\x00\x01\x19\x4E");
+//!
+//! let devices = [(1, 150_i32.to_le_bytes()), (2, 170_i32.to_le_bytes())];
+//! let devices = devices.iter().map(|(id, data)| DeviceData { id: *id, data });
+//! let packet = SyncWrite { address: 116, length: 4, devices }.encode(&mut buffer)?;
+//! assert_eq!(packet.len(), 24);
+//! # Ok::<(), actucheck_codec::EncodeError>(())
+//! ```
+//!
+//! [`Request::parse`] reads any of them.
+
+mod bulk;
+mod error;
+mod memory;
+mod option;
+mod params;
+mod plain;
+mod request;
+mod sync;
+
+pub use bulk::{BulkRead, BulkWrite, DeviceRange, DeviceWrite, RangeBlocks, WriteBlocks};
+pub use error::RequestError;
+pub use memory::{Read, RegWrite, Write};
+pub use option::{Clear, ControlTableBackup, FactoryReset};
+pub use plain::{Action, Ping, Reboot};
+pub use request::Request;
+pub use sync::{DataBlocks, DeviceData, FastSyncRead, FastSyncWrite, SyncRead, SyncWrite};
+
+/// Gives an instruction that goes to an ID its `encode`.
+macro_rules! addressed {
+    ($name:ident $(<$lifetime:lifetime>)?) => {
+        impl $(<$lifetime>)? $name $(<$lifetime>)? {
+            /// Builds the packet for device `id`, or for all with the broadcast ID 254, in
+            /// `buffer`; returns the packet.
+            ///
+            /// # Errors
+            /// As [`frame::encode`](crate::dynamixel2::frame::encode).
+            pub fn encode<'b>(
+                &self,
+                id: u8,
+                buffer: &'b mut [u8],
+            ) -> Result<&'b [u8], crate::EncodeError> {
+                let instruction = crate::dynamixel2::Instruction::$name;
+                self.with_params(|params| crate::dynamixel2::frame::encode(id, instruction, params, buffer))
+            }
+        }
+    };
+}
+
+use addressed;

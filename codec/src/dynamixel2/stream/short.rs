@@ -1,0 +1,128 @@
+//! Short packets, the most of what is on a bus: their CRC and stuffing by one window.
+//!
+//! Where the lengths of packets vary, a loop over their bytes ends where no processor expects it.
+//! So a short packet is looked at as the end of a window of fixed size.
+
+use super::candidate::Whole;
+use crate::dynamixel2::STUFFING_PATTERN;
+use crate::dynamixel2::header::{CRC, Header, PREFIX};
+use crate::simd::{Backend, Places, Task, WINDOW, meter, run};
+
+/// How many packets are looked for at once.
+const AHEAD: usize = 16;
+
+/// Packets found ahead, one directly behind the other. To look for several at once lets the
+/// processor begin with one before it is done with the last.
+#[derive(Clone, Debug)]
+pub(super) struct Ready {
+    packets: [Short; AHEAD],
+    next: usize,
+    count: usize,
+}
+
+/// A packet that is short, in which everything is right.
+#[derive(Clone, Copy, Debug, Default)]
+struct Short {
+    len: usize,
+    patterns: usize,
+}
+
+impl Ready {
+    pub(super) const fn new() -> Self {
+        Self { packets: [Short { len: 0, patterns: 0 }; AHEAD], next: 0, count: 0 }
+    }
+
+    /// The next of the packets found.
+    #[inline]
+    pub(super) fn pop(&mut self) -> Option<Whole> {
+        if self.next >= self.count {
+            return None;
+        }
+        let Short { len, patterns } = *self.packets.get(self.next)?;
+        self.next += 1;
+        Some(Whole { len, patterns, fast: false })
+    }
+
+    /// Looks for packets from `bytes` of the buffer on; none must be left from before.
+    #[inline(never)]
+    pub(super) fn find(&mut self, buffer: &[u8], start: usize, max_packet: usize) {
+        self.next = 0;
+        self.count = run(Find { packets: &mut self.packets, buffer, start, max_packet });
+    }
+}
+
+/// The task to find short packets in `buffer` from `start` on; gives how many.
+struct Find<'a> {
+    packets: &'a mut [Short],
+    buffer: &'a [u8],
+    start: usize,
+    max_packet: usize,
+}
+
+impl Task for Find<'_> {
+    type Output = usize;
+
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "see `Task`")]
+    fn run(self, backend: impl Backend) -> usize {
+        let mut start = self.start;
+        let mut count = 0;
+        for slot in self.packets {
+            let Some(packet) = packet(backend, self.buffer, start, self.max_packet) else {
+                break;
+            };
+            start += packet.len;
+            *slot = packet;
+            count += 1;
+        }
+        count
+    }
+}
+
+/// The short packet that begins at `start`, if all of it is there.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "part of a `Task`")]
+fn packet(backend: impl Backend, buffer: &[u8], start: usize, max_packet: usize) -> Option<Short> {
+    let len = len(buffer.get(start..)?, max_packet)?;
+    let window = buffer.get(..start + len)?.last_chunk()?;
+    meter::add(WINDOW);
+    if !backend.ends_in_crc(window, len) {
+        return None;
+    }
+    // Most packets have no pattern, nor its first bytes.
+    let patterns = match backend.pairs(window) & in_body(len) {
+        0 => 0,
+        _ => patterns(backend.places(window), len)?,
+    };
+    Some(Short { len, patterns })
+}
+
+/// Where a pattern begins that is in the body of a packet, which is the last `len` bytes of a
+/// window.
+#[inline]
+fn in_body(len: usize) -> u64 {
+    // Its last byte is in the body too.
+    u64::MAX >> (CRC + STUFFING_PATTERN.len() - 1) & u64::MAX << (WINDOW - len + PREFIX)
+}
+
+/// How long a packet is if it begins with these bytes, is short, and breaks no rule before its
+/// body.
+#[inline]
+fn len(bytes: &[u8], max_packet: usize) -> Option<usize> {
+    let front: &[u8; PREFIX + 1] = bytes.first_chunk()?;
+    let [.., instruction] = *front;
+    let header = Header::check(front).ok()??;
+    header.check_instruction(instruction).ok()?;
+    let len = header.packet_len();
+    (len <= max_packet.min(WINDOW) && !header.is_fast(instruction)).then_some(len)
+}
+
+/// How many patterns the body of such a packet has; `None` if one of them lacks the byte that
+/// belongs behind it.
+#[inline]
+fn patterns(places: Places, len: usize) -> Option<usize> {
+    let patterns = places.patterns & in_body(len);
+    // And so must be its stuffing.
+    let stuffed = (places.stuffing & u64::MAX >> CRC) >> STUFFING_PATTERN.len();
+    (patterns & !stuffed == 0).then_some(patterns.count_ones() as usize)
+}

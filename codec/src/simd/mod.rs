@@ -1,0 +1,171 @@
+//! Windows of 64 bytes, and what is looked for in them, the best way that the processor has.
+//!
+//! A [`Task`] is a loop over windows. [`run`] compiles it once for each back end and picks the one
+//! for this machine. A [`Backend`] says what stands where in a window, and whether a window ends in
+//! its CRC. All of the crate's `unsafe` is in [`x86_64`]; the arithmetic of CRCs is in
+//! [`crc`](crate::crc).
+
+#[cfg(any(test, feature = "meter"))]
+pub mod meter;
+#[cfg(not(any(test, feature = "meter")))]
+pub(crate) mod meter;
+mod portable;
+mod search;
+#[cfg(test)]
+mod tests;
+mod words;
+#[cfg(target_arch = "x86_64")]
+mod x86_64;
+
+use portable::Portable;
+pub(crate) use search::{header, patterns};
+#[cfg(target_arch = "x86_64")]
+use x86_64::{Narrow, Wide};
+
+/// Bytes of a window.
+pub(crate) const WINDOW: usize = 64;
+
+/// Work that is compiled once for each back end, with that back end's processor features. A call
+/// of code for a particular processor is never inlined into code for any processor, so it is the
+/// caller's whole inner loop that becomes a task. Its `run` has to be `inline(always)`: what stays
+/// a function of its own is compiled for any processor.
+pub(crate) trait Task {
+    type Output;
+    fn run(self, backend: impl Backend) -> Self::Output;
+}
+
+/// What stands where in a window; bit i of a set stands for byte i.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Places {
+    /// Where FF FF FD begins.
+    pub(crate) patterns: u64,
+    /// Where the byte of stuffing, FD, stands. Only those that can be behind a pattern matter.
+    pub(crate) stuffing: u64,
+}
+
+/// A packet, up to its CRC, that is not in one piece yet.
+///
+/// The prefix and the lead are not neighbours: a processor waits when it loads at once what it has
+/// just stored in two pieces.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub(crate) struct Pieces<'a> {
+    /// Header, ID, length and instruction, the first byte lowest.
+    pub(crate) prefix: u64,
+    /// How many parameters the lead has, less than eight.
+    pub(crate) lead_len: usize,
+    /// The first parameters, the first of them lowest, with zeros behind.
+    pub(crate) lead: u64,
+    /// The other parameters.
+    pub(crate) tail: &'a [u8],
+}
+
+/// The task to look at it.
+impl Task for Pieces<'_> {
+    type Output = Option<Looked>;
+
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "see `Task`")]
+    fn run(self, backend: impl Backend) -> Option<Looked> {
+        backend.look(self)
+    }
+}
+
+/// What is known of a packet in pieces in which no pattern begins before the tail.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Looked {
+    /// Its CRC-16/UMTS, as it is without stuffing.
+    pub(crate) crc: u16,
+    /// Where in the tail FF FF FD begins; bit i stands for byte i.
+    pub(crate) patterns: u64,
+}
+
+/// What a processor does best its own way.
+pub(crate) trait Backend: Copy {
+    /// As [`crc::umts`](crate::crc::umts).
+    fn umts(self, bytes: &[u8]) -> u16;
+
+    /// What a packet needs. `None` if a pattern begins before its tail, the tail is longer than a
+    /// window, or this back end is no faster with pieces than with the whole.
+    fn look(self, pieces: Pieces<'_>) -> Option<Looked>;
+
+    /// Whether the last `len` bytes of the window, at least two, end in the CRC-16/UMTS of those
+    /// before, low byte first.
+    fn ends_in_crc(self, window: &[u8; WINDOW], len: usize) -> bool;
+
+    /// The patterns that are wholly in the window, and stuffing.
+    fn places(self, window: &[u8; WINDOW]) -> Places;
+
+    /// Where patterns may begin: if it is faster to tell, where FF FF does.
+    fn pairs(self, window: &[u8; WINDOW]) -> u64;
+}
+
+/// Zeros, then as many ones: what to keep of a window's end.
+static KEEP: [[u8; WINDOW]; 2] = [[0; WINDOW], [0xFF; WINDOW]];
+
+/// Ones in the last `len` bytes of a window, zeros before.
+#[inline]
+fn keep_last(len: usize) -> &'static [u8; WINDOW] {
+    let kept = KEEP.as_flattened().get(len..).and_then(<[u8]>::first_chunk);
+    kept.unwrap_or(&[0xFF; WINDOW]) // a window has no more
+}
+
+/// What this machine's processor can do, found once.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Processor {
+    Portable,
+    #[cfg(target_arch = "x86_64")]
+    Narrow(Narrow),
+    #[cfg(target_arch = "x86_64")]
+    Wide(Wide),
+}
+
+impl Processor {
+    /// The best that this machine has.
+    #[inline]
+    pub(crate) fn new() -> Self {
+        #[cfg(target_arch = "x86_64")]
+        {
+            if let Some(wide) = Wide::new() {
+                return Self::Wide(wide);
+            }
+            if let Some(narrow) = Narrow::new() {
+                return Self::Narrow(narrow);
+            }
+        }
+        Self::Portable
+    }
+
+    /// Everything that this machine can run, [`Processor::Portable`] first.
+    pub(crate) fn all() -> impl Iterator<Item = Self> {
+        #[cfg(target_arch = "x86_64")]
+        let special = [Narrow::new().map(Self::Narrow), Wide::new().map(Self::Wide)];
+        #[cfg(not(target_arch = "x86_64"))]
+        let special = [];
+        [Self::Portable].into_iter().chain(special.into_iter().flatten())
+    }
+
+    /// Does the task this processor's way.
+    #[inline]
+    pub(crate) fn run<T: Task>(self, task: T) -> T::Output {
+        match self {
+            Self::Portable => portable(task),
+            #[cfg(target_arch = "x86_64")]
+            Self::Narrow(narrow) => narrow.run(task),
+            #[cfg(target_arch = "x86_64")]
+            Self::Wide(wide) => wide.run(task),
+        }
+    }
+}
+
+/// Does the task the best way that this machine has.
+#[inline]
+pub(crate) fn run<T: Task>(task: T) -> T::Output {
+    Processor::new().run(task)
+}
+
+/// A function of its own, as the other back ends' are.
+#[inline(never)]
+fn portable<T: Task>(task: T) -> T::Output {
+    task.run(Portable)
+}

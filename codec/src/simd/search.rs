@@ -1,0 +1,162 @@
+//! Looks for headers and for the pattern of byte stuffing: many places at a time the way of the
+//! processor while there are as many, then eight at a time.
+//!
+//! Eight neighbouring places are one `u64`, the first in its lowest byte; the words that begin
+//! one, two and three bytes later hold what stands behind each. A byte of the combined word is
+//! zero where everything matches.
+
+use super::words::{everywhere, zero_bytes};
+use super::{Backend, Task, WINDOW as LARGE, meter, run};
+use crate::dynamixel2::{HEADER, STUFFING_BYTE, STUFFING_PATTERN};
+
+/// Places that are looked at together.
+const PLACES: usize = 8;
+/// The bytes that decide about them: the last place's pattern and one byte behind it.
+const WINDOW: usize = PLACES + 3;
+
+/// The eight bytes of a window from `AT` on.
+#[inline]
+fn word<const AT: usize, const N: usize>(window: &[u8; N]) -> u64 {
+    let (_, bytes) = window.split_at(AT);
+    bytes.first_chunk().copied().map_or(0, u64::from_le_bytes)
+}
+
+/// Zero in the places where FF FF FD begins.
+#[inline]
+fn mismatches<const N: usize>(window: &[u8; N]) -> u64 {
+    let [first, second, third] = STUFFING_PATTERN;
+    (word::<0, _>(window) ^ everywhere(first))
+        | (word::<1, _>(window) ^ everywhere(second))
+        | (word::<2, _>(window) ^ everywhere(third))
+}
+
+/// Whether `bytes` begin with a header, as far as they go.
+#[inline]
+fn may_be_header(bytes: &[u8]) -> bool {
+    bytes.iter().zip(HEADER).all(|(byte, header)| *byte == header)
+}
+
+/// The offset of the first header, be it cut off by the end; all of `bytes` if there is none.
+pub(crate) fn header(bytes: &[u8]) -> usize {
+    let [_, _, _, fourth] = HEADER;
+    let mut at = match run(FindHeader { bytes }) {
+        Ok(at) => {
+            meter::add(at + HEADER.len());
+            return at;
+        }
+        Err(at) => at,
+    };
+    while let Some(window) = bytes.get(at..).and_then(<[u8]>::first_chunk::<WINDOW>) {
+        let found = zero_bytes(mismatches(window) | (word::<3, _>(window) ^ everywhere(fourth)));
+        if found != 0 {
+            at += found.trailing_zeros() as usize / 8;
+            meter::add(at + WINDOW);
+            return at;
+        }
+        at += PLACES;
+    }
+    meter::add(bytes.len());
+    let is_header = |at: &usize| bytes.get(*at..).is_some_and(may_be_header);
+    (at..bytes.len()).find(is_header).unwrap_or(bytes.len())
+}
+
+/// Counts the patterns that begin at `from`, not before the body, or later; `None` if one of them
+/// lacks the byte that belongs behind it, and nothing behind that one is looked at.
+///
+/// `bytes` are those of a packet from its header on, at most up to its first CRC byte; the body
+/// ends at `body_end`. A pattern counts as soon as the byte behind it is there.
+#[inline]
+pub(crate) fn patterns(bytes: &[u8], from: usize, body_end: usize) -> Option<usize> {
+    let large = bytes.len() >= from + LARGE;
+    let (mut count, mut at) =
+        if large { run(CountPatterns { bytes, from, body_end })? } else { (0, from) };
+    while let Some(window) = bytes.get(at..).and_then(<[u8]>::first_chunk::<WINDOW>) {
+        count += patterns_in(window, 0, at + WINDOW > body_end)?;
+        at += PLACES;
+    }
+    // The places left are fewer than a window has. The last window has them; header, ID and
+    // length leave room for it in front of the body.
+    if at + WINDOW < bytes.len() + PLACES
+        && let Some(window) = bytes.last_chunk()
+    {
+        let looked_at = at + WINDOW - bytes.len();
+        count += patterns_in(window, looked_at, bytes.len() > body_end)?;
+    }
+    Some(count)
+}
+
+/// Counts the patterns in a window, except for the first `looked_at` places. At the body's end
+/// the last byte of the window is the CRC's, whatever its value.
+#[inline]
+fn patterns_in(window: &[u8; WINDOW], looked_at: usize, ends_body: bool) -> Option<usize> {
+    meter::add(WINDOW);
+    let mismatches = mismatches(window) | ((1 << (8 * looked_at)) - 1);
+    let patterns = zero_bytes(mismatches);
+    let mut stuffed = zero_bytes(word::<3, _>(window) ^ everywhere(STUFFING_BYTE));
+    if ends_body {
+        stuffed &= !(0xFF << (8 * (PLACES - 1)));
+    }
+    (patterns & !stuffed == 0).then_some(patterns.count_ones() as usize)
+}
+
+/// How many places a large window decides about.
+const LARGE_PLACES: usize = LARGE - 3;
+const DECIDED: u64 = u64::MAX >> 3;
+
+/// The task to find the first header: its offset, or up to where there is none as `Err`.
+struct FindHeader<'a> {
+    bytes: &'a [u8],
+}
+
+impl Task for FindHeader<'_> {
+    type Output = Result<usize, usize>;
+
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "see `Task`")]
+    fn run(self, backend: impl Backend) -> Result<usize, usize> {
+        let mut at = 0;
+        while let Some(window) = self.bytes.get(at..).and_then(<[u8]>::first_chunk) {
+            let mut patterns = backend.places(window).patterns & DECIDED;
+            while patterns != 0 {
+                let found = at + patterns.trailing_zeros() as usize;
+                if self.bytes.get(found..).is_some_and(may_be_header) {
+                    return Ok(found);
+                }
+                patterns &= patterns - 1;
+            }
+            at += LARGE_PLACES;
+        }
+        Err(at)
+    }
+}
+
+/// As [`patterns`], but only as far as large windows reach: the count, and up to where.
+struct CountPatterns<'a> {
+    bytes: &'a [u8],
+    from: usize,
+    body_end: usize,
+}
+
+impl Task for CountPatterns<'_> {
+    type Output = Option<(usize, usize)>;
+
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "see `Task`")]
+    fn run(self, backend: impl Backend) -> Option<(usize, usize)> {
+        let (mut count, mut at) = (0, self.from);
+        while let Some(window) = self.bytes.get(at..).and_then(<[u8]>::first_chunk) {
+            let places = backend.places(window);
+            let ends_body = at + LARGE > self.body_end;
+            let stuffed = (places.stuffing & u64::MAX >> u32::from(ends_body)) >> 3;
+            let patterns = places.patterns & DECIDED;
+            let bare = patterns & !stuffed;
+            meter::add(3 + LARGE_PLACES.min(bare.trailing_zeros() as usize));
+            if bare != 0 {
+                return None;
+            }
+            count += patterns.count_ones() as usize;
+            at += LARGE_PLACES;
+        }
+        Some((count, at))
+    }
+}
