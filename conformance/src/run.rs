@@ -1,125 +1,105 @@
-//! Asks an implementation every check, and keeps what was found whatever happens.
+//! Asks subjects the checks of a plan, and hands on what comes out as it comes.
 
-use std::collections::BTreeSet;
+mod merge;
+mod worker;
+
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 
 use actucheck_spec::model::Level;
 
-use crate::adapter::{Hello, Op};
+use self::merge::Merge;
+use self::worker::Worker;
+use crate::adapter::Op;
 use crate::subject::{Answer, Subject};
-use crate::suite::check::Check;
+use crate::suite::plan::{Group, Plan};
 use crate::verdict::{Outcome, Verdict};
 
-/// Asks all `checks` of some subjects that are the same implementation, each of which works through
-/// them beside the others. `watch` hears of each outcome as it comes and may end the run; what is
-/// outstanding then is still waited for. Outcomes are in the order of the checks, those of checks
-/// that were not asked are missing. An adapter that answers an op that does not exist is shown as
-/// a fault before all else.
-pub fn run(
+/// Takes what comes out of a run, an outcome after the other in the order of the plan. With a break
+/// the run ends, and that outcome was the last.
+pub type Sink<'s> = dyn FnMut(Outcome) -> ControlFlow<()> + Send + 's;
+
+/// Asks all checks of `plan` of some subjects that are the same implementation, each of which works
+/// through them beside the others. A subject takes some groups at a time; a check that requires
+/// another of its group is skipped where that one was. `sink` is given the same in the same order
+/// however many subjects there are. When `interrupted` is set, what is outstanding is waited for, and
+/// what was answered is handed on. An adapter that answers an op that does not exist is shown as a
+/// fault before all else.
+pub fn run<'s>(
     subjects: &mut [Box<dyn Subject + Send>],
-    checks: &[Check],
-    watch: impl FnMut(&Outcome) -> ControlFlow<()> + Send,
-) -> Vec<Outcome> {
+    plan: &'s Plan<'_>,
+    interrupted: &'s AtomicBool,
+    sink: &'s mut Sink<'s>,
+) {
     let fault = subjects.first_mut().and_then(|subject| invented_op(subject.as_mut()));
-    let (requiring, others): (Vec<_>, Vec<_>) = checks
-        .iter()
-        .enumerate()
-        .map(|(place, _)| place)
-        .partition(|place| checks.get(*place).is_some_and(|check| check.requires.is_some()));
-    let ledger = Mutex::new(Ledger {
-        outcomes: checks.iter().map(|_| None).collect(),
-        skipped: BTreeSet::new(),
-        watch,
+    if fault.is_some_and(|fault| sink(fault).is_break()) {
+        return;
+    }
+    let source = Mutex::new(Source { groups: Box::new(plan.groups()), next: 0 });
+    let work = Work { plan, source, merge: Merge::new(sink, interrupted) };
+    thread::scope(|scope| {
+        for subject in subjects {
+            let worker = Worker::new(&work, subject.hello().clone());
+            scope.spawn(|| worker.ask(subject.as_mut()));
+        }
     });
-    let stopped = AtomicBool::new(false);
-    // Whether a check makes sense is known only when the one that it requires is answered.
-    for places in [others, requiring] {
-        let next = AtomicUsize::new(0);
-        let round = Round { checks, places, next, stopped: &stopped, ledger: &ledger };
-        thread::scope(|scope| {
-            for subject in &mut *subjects {
-                scope.spawn(|| round.ask(subject.as_mut()));
-            }
-        });
-    }
-    let ledger = ledger.into_inner().unwrap_or_else(PoisonError::into_inner);
-    fault.into_iter().chain(ledger.outcomes.into_iter().flatten()).collect()
+    work.merge.finish();
 }
 
-/// What has come out so far.
-struct Ledger<W> {
-    outcomes: Vec<Option<Outcome>>,
-    /// Ids of checks that were skipped.
-    skipped: BTreeSet<String>,
-    watch: W,
+/// Asks all checks of a plan that is known to be short, and keeps every outcome.
+pub fn outcomes(subjects: &mut [Box<dyn Subject + Send>], plan: &Plan<'_>) -> Vec<Outcome> {
+    let mut outcomes = Vec::new();
+    run(subjects, plan, &AtomicBool::new(false), &mut |outcome| {
+        outcomes.push(outcome);
+        ControlFlow::Continue(())
+    });
+    outcomes
 }
 
-/// Checks that may be asked in any order, side by side.
-struct Round<'a, W> {
-    /// All checks.
-    checks: &'a [Check],
-    /// Those of this round, by their place among all.
-    places: Vec<usize>,
-    /// The first of them that was not yet taken.
-    next: AtomicUsize,
-    stopped: &'a AtomicBool,
-    ledger: &'a Mutex<Ledger<W>>,
+/// What the workers share.
+struct Work<'s, 'a> {
+    plan: &'s Plan<'a>,
+    source: Mutex<Source<'s, 'a>>,
+    merge: Merge<'s>,
 }
 
-impl<W: FnMut(&Outcome) -> ControlFlow<()>> Round<'_, W> {
-    /// Asks one subject until no check is left.
-    fn ask(&self, subject: &mut (dyn Subject + Send)) {
-        let hello = subject.hello().clone();
-        let mut questions = std::iter::from_fn(|| {
-            loop {
-                let (place, check) = self.take()?;
-                match self.not_asked(&hello, check) {
-                    Some(reason) => self.enter(place, Answer::Skipped(reason)),
-                    None => return Some((place, &check.op)),
-                }
-            }
-        });
-        subject.ask_all(&mut questions, &mut |place, answer| self.enter(place, answer));
-    }
+/// The groups that nobody has taken yet.
+struct Source<'p, 'a> {
+    groups: Box<dyn Iterator<Item = Group<'a>> + Send + 'p>,
+    /// The number of the next batch.
+    next: u64,
+}
 
-    fn take(&self) -> Option<(usize, &Check)> {
-        if self.stopped.load(Ordering::Relaxed) {
-            return None;
-        }
-        let place = *self.places.get(self.next.fetch_add(1, Ordering::Relaxed))?;
-        Some((place, self.checks.get(place)?))
-    }
+/// The most checks of a batch, but for a group that has more.
+const BATCH: usize = 64;
 
-    /// Why a check is not even asked.
-    fn not_asked(&self, hello: &Hello, check: &Check) -> Option<String> {
-        let required = check.requires.as_ref();
-        if required.is_some_and(|id| self.ledger().skipped.contains(id.as_str())) {
-            return Some("the check that it requires is skipped too".to_owned());
+impl<'a> Source<'_, 'a> {
+    /// The groups of the next batch; none if all were taken. The first batches are small, so that
+    /// there is some for every subject of a short run.
+    fn take(&mut self) -> Vec<Group<'a>> {
+        let most = usize::try_from(self.next).unwrap_or(BATCH).saturating_add(2).min(BATCH);
+        let (mut groups, mut size) = (Vec::new(), 0);
+        while size < most
+            && let Some(group) = self.groups.next()
+        {
+            size += group.size();
+            groups.push(group);
         }
-        not_offered(hello, check)
+        self.next += 1;
+        groups
     }
+}
 
-    fn enter(&self, place: usize, answer: Answer) {
-        let Some(check) = self.checks.get(place) else { return };
-        let outcome = check.judge(answer);
-        let mut ledger = self.ledger();
-        if outcome.verdict == Verdict::Skip {
-            ledger.skipped.insert(outcome.id.clone());
-        }
-        if (ledger.watch)(&outcome).is_break() {
-            self.stopped.store(true, Ordering::Relaxed);
-        }
-        if let Some(slot) = ledger.outcomes.get_mut(place) {
-            *slot = Some(outcome);
-        }
-    }
+/// Locks what no panic can leave half done.
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
-    fn ledger(&self) -> MutexGuard<'_, Ledger<W>> {
-        self.ledger.lock().unwrap_or_else(PoisonError::into_inner)
-    }
+/// Whether a flag is set that only ever goes one way.
+fn is_set(flag: &AtomicBool) -> bool {
+    flag.load(Ordering::Relaxed)
 }
 
 /// What a good adapter skips, so that it can skip what a later suite asks.
@@ -145,19 +125,4 @@ fn invented_op(subject: &mut dyn Subject) -> Option<Outcome> {
         actual: None,
         behaviour: None,
     })
-}
-
-/// Why a check is not asked, by the adapter's own word.
-fn not_offered(hello: &Hello, check: &Check) -> Option<String> {
-    let name = check.op.name();
-    if !hello.ops.iter().any(|op| op == name) {
-        return Some(format!("the adapter offers no {name}"));
-    }
-    if let Some(wire) = check.op.wire()
-        && !hello.wires.iter().any(|offered| offered == wire.id())
-    {
-        return Some(format!("the adapter offers no {}", wire.id()));
-    }
-    let (limit, size) = (hello.limits.max_packet?, check.packet_size()?);
-    (size > limit).then(|| format!("{size} bytes, the adapter's limit is {limit}"))
 }

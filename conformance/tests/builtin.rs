@@ -4,13 +4,13 @@
 #![allow(clippy::unwrap_used)] // in what the tests share
 
 use std::collections::BTreeSet;
-use std::ops::ControlFlow;
 
 use actucheck::adapter::{Hello, Op, Output, Wire};
-use actucheck::run::run;
+use actucheck::run;
 use actucheck::subject::{Answer, Builtin, Subject};
 use actucheck::suite;
 use actucheck::suite::check::{Check, Demand};
+use actucheck::suite::plan::Plan;
 use actucheck::verdict::{Outcome, Totals, Verdict};
 use actucheck_spec::Spec;
 use actucheck_spec::coverage::{self, CheckName, Cover};
@@ -18,7 +18,7 @@ use actucheck_spec::model::{CheckedBy, Fault, Packet, Role};
 
 fn checks() -> Vec<Check> {
     let options = suite::Options { cases: 100, ..suite::Options::new(Wire::Dynamixel2) };
-    suite::all(&Spec::embedded().unwrap(), &options)
+    suite::plan(&Spec::embedded().unwrap(), &options).checks().collect()
 }
 
 /// The built-in codec with its answers to one op bent.
@@ -40,7 +40,7 @@ impl<F: Fn(&Op, Answer) -> Answer + Send> Subject for Bent<F> {
 
 fn outcomes(bend: impl Fn(&Op, Answer) -> Answer + Send + 'static) -> Vec<Outcome> {
     let subject = Bent { codec: Builtin::default(), bend };
-    run(&mut [Box::new(subject)], &checks(), |_| ControlFlow::Continue(()))
+    run::outcomes(&mut [Box::new(subject)], &Plan::of(checks()))
 }
 
 /// The ops whose checks failed.
@@ -167,8 +167,11 @@ fn rejecting_everything_fails_all_that_is_valid_but_not_what_is_open() {
 #[test]
 fn requirements_say_whether_the_suite_checks_them() {
     let spec = Spec::embedded().unwrap();
-    let all = Wire::ALL.into_iter().flat_map(|wire| suite::all(&spec, &suite::Options::new(wire)));
-    let named: BTreeSet<_> = all.map(|check| check.requirement).collect();
+    let mut named = BTreeSet::new();
+    for wire in Wire::ALL {
+        let plan = suite::plan(&spec, &suite::Options::new(wire));
+        named.extend(plan.checks().map(|check| check.requirement));
+    }
     for row in spec.requirements.iter().flat_map(|file| &file.content.requirements) {
         let said = match row.checked_by {
             Some(CheckedBy::Suite) => true,
@@ -182,10 +185,8 @@ fn requirements_say_whether_the_suite_checks_them() {
 #[test]
 fn no_requirement_on_a_codec_is_left_uncovered() {
     let spec = Spec::embedded().unwrap();
-    let all: Vec<_> = Wire::ALL
-        .into_iter()
-        .flat_map(|wire| suite::all(&spec, &suite::Options::new(wire)))
-        .collect();
+    let plans = Wire::ALL.map(|wire| suite::plan(&spec, &suite::Options::new(wire)));
+    let all: Vec<_> = plans.iter().flat_map(Plan::checks).collect();
     let names = all.iter().map(|check| CheckName {
         id: &check.id,
         requirement: &check.requirement,

@@ -2,10 +2,8 @@
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
-use std::ops::ControlFlow;
-
 use actucheck::adapter::{Hello, Op, Output, Rejection, Wire};
-use actucheck::run::run;
+use actucheck::run::outcomes;
 use actucheck::subject::{Answer, Builtin, Subject};
 use actucheck::suite;
 use actucheck::suite::check::Demand;
@@ -21,7 +19,7 @@ fn no_check_judges_where_a_search_goes_on() {
     let spec = Spec::embedded().unwrap();
     let options = suite::Options { cases: 1000, ..suite::Options::new(Wire::Dynamixel2) };
     let mut streams = 0;
-    for check in suite::all(&spec, &options) {
+    for check in suite::plan(&spec, &options).checks() {
         let (Op::Stream { chunks, .. }, Demand::Yield(_)) = (&check.op, &check.demand) else {
             continue;
         };
@@ -84,12 +82,12 @@ fn the_reference_passes_every_check() {
     let spec = Spec::embedded().unwrap();
     for wire in Wire::ALL {
         let options = suite::Options { cases: 100, ..suite::Options::new(wire) };
-        let checks = suite::all(&spec, &options);
+        let plan = suite::plan(&spec, &options);
         let model = Model(Builtin::default());
-        let outcomes = run(&mut [Box::new(model)], &checks, |_| ControlFlow::Continue(()));
+        let outcomes = outcomes(&mut [Box::new(model)], &plan);
         let bad = outcomes
             .iter()
             .find(|outcome| !matches!(outcome.verdict, Verdict::Pass | Verdict::Recorded));
-        assert_eq!((bad, outcomes.len()), (None, checks.len()));
+        assert_eq!((bad, outcomes.len()), (None, plan.ids().count()));
     }
 }

@@ -87,7 +87,7 @@ impl Failure {
             Answer::Rejected(rejection) => Some(rejection.class),
             _ => None,
         };
-        let outcome = check.judge(answer);
+        let outcome = check.clone().judge(answer);
         let symptom = match (outcome.verdict, class, &check.demand) {
             (Verdict::Timeout, ..) => Symptom::TimedOut,
             (Verdict::Crash, ..) => Symptom::Crashed,

@@ -17,8 +17,8 @@ use proptest::test_runner::TestRunner;
 
 use self::finding::Failure;
 use self::probe::Probe;
-use crate::adapter::Wire;
-use crate::subject::{Answer, Subject};
+use crate::adapter::{Op, Wire};
+use crate::subject::{Answer, Questions, Subject};
 use crate::suite::Author;
 use crate::suite::check::Check;
 use crate::suite::codec::dynamixel2::generated::runner;
@@ -140,25 +140,46 @@ fn ask(
     over: &Cell<bool>,
     watch: &mut dyn FnMut(u64),
 ) -> Vec<(usize, Result<Failure, String>)> {
-    let mut failures = Vec::new();
-    let mut answered = 0;
-    let mut questions = batch
-        .iter()
-        .enumerate()
-        .take_while(|_| !over.get())
-        .map(|(number, drawn)| (number, &drawn.check.op));
-    subject.ask_all(&mut questions, &mut |number, answer| {
-        answered += 1;
-        watch(answered);
-        let Some(drawn) = batch.get(number) else { return };
-        match answer {
-            Answer::NotAsked(reason) => failures.push((number, Err(reason))),
-            answer => failures
-                .extend(Failure::of(&drawn.check, answer).map(|failure| (number, Ok(failure)))),
-        }
-    });
+    let mut asking = Asking { batch, next: 0, answered: 0, failures: Vec::new(), over, watch };
+    subject.ask_all(&mut asking);
+    let mut failures = asking.failures;
     failures.sort_by_key(|(number, _)| *number);
     failures
+}
+
+/// A batch that is being asked.
+struct Asking<'a> {
+    batch: &'a [Drawn],
+    next: usize,
+    answered: u64,
+    failures: Vec<(usize, Result<Failure, String>)>,
+    over: &'a Cell<bool>,
+    watch: &'a mut dyn FnMut(u64),
+}
+
+impl Questions for Asking<'_> {
+    fn next(&mut self) -> Option<usize> {
+        let number = self.next;
+        self.next += 1;
+        (number < self.batch.len() && !self.over.get()).then_some(number)
+    }
+
+    fn question(&self, number: usize) -> Option<&Op> {
+        self.batch.get(number).map(|drawn| &drawn.check.op)
+    }
+
+    fn answered(&mut self, number: usize, answer: Answer) {
+        self.answered += 1;
+        (self.watch)(self.answered);
+        let Some(drawn) = self.batch.get(number) else { return };
+        match answer {
+            Answer::NotAsked(reason) => self.failures.push((number, Err(reason))),
+            answer => {
+                let failure = Failure::of(&drawn.check, answer);
+                self.failures.extend(failure.map(|failure| (number, Ok(failure))));
+            }
+        }
+    }
 }
 
 /// Makes a failing probe smaller as long as it fails in the same way and the time lasts.

@@ -5,8 +5,7 @@ use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 use actucheck::adapter::Op;
@@ -72,28 +71,33 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     let outputs = Outputs::open(&options.reports)?;
     let mut subjects = Subjects::start(&options.adapter, options.jobs)?;
     let hello = subjects.hello.clone();
-    let mut all = selection.growth.checks(&spec, selection.wire, Some(&hello));
+    let mut plan = selection.growth.plan(&spec, selection.wire, Some(&hello));
     let mut records = BTreeMap::new();
     for path in &options.also {
         let more = saved::read(path).map_err(Failure::usage)?;
-        for (_, check) in more.into_iter().filter(|(wire, _)| *wire == selection.wire) {
-            records.insert(check.id.clone(), path.clone());
-            all.push(check);
-        }
+        let more = more.into_iter().filter(|(wire, _)| *wire == selection.wire);
+        let more: Vec<_> = more.map(|(_, check)| check).collect();
+        records.extend(more.iter().map(|check| (check.id.clone(), path.clone())));
+        plan.add(more);
     }
     let expectations = match &options.expect {
-        Some(path) => Expectations::read(path, &all).map_err(Failure::usage)?,
+        Some(path) => Expectations::read(path, &plan).map_err(Failure::usage)?,
         None => Expectations::default(),
     };
-    let checks = selection.of(all)?;
+    selection.restrict(&mut plan)?;
+    let size = plan.ids().count();
 
     let template = "{bar:30} {pos}/{len} checks  {per_sec}  {eta} left";
-    let progress = shared::progress(Some(checks.len() as u64), template);
+    let progress = shared::progress(Some(size as u64), template);
     let started = Instant::now();
-    let mut limit = Limit::new(options.max_fail, shared::interrupted()?);
-    let mut outcomes = run::run(&mut subjects.all, &checks, |outcome| {
+    let interrupted = shared::interrupted()?;
+    let mut limit = Limit::new(options.max_fail);
+    let mut outcomes = Vec::new();
+    run::run(&mut subjects.all, &plan, &interrupted, &mut |outcome| {
         progress.inc(1);
-        limit.after(outcome, &expectations)
+        let goes_on = limit.after(&outcome, &expectations);
+        outcomes.push(outcome);
+        goes_on
     });
     let seconds = started.elapsed().as_secs_f64();
     progress.finish_and_clear();
@@ -107,9 +111,13 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
         options: selection.growth.options(selection.wire, Some(&hello)),
         command: &options.adapter.command,
         records,
-        left: checks.len().saturating_sub(asked),
+        left: size.saturating_sub(asked),
         outcomes,
-        stopped: limit.stopped,
+        stopped: if limit.is_reached() {
+            Some(Stopped::MaxFail)
+        } else {
+            interrupted.load(Ordering::Relaxed).then_some(Stopped::Interrupted)
+        },
         seconds,
         log: subjects.end()?,
     });
@@ -119,15 +127,17 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
 
 /// What ends a run early.
 struct Limit {
-    interrupted: Arc<AtomicBool>,
     max_fail: Option<NonZeroUsize>,
     failed: usize,
-    stopped: Option<Stopped>,
 }
 
 impl Limit {
-    fn new(max_fail: Option<NonZeroUsize>, interrupted: Arc<AtomicBool>) -> Self {
-        Self { interrupted, max_fail, failed: 0, stopped: None }
+    const fn new(max_fail: Option<NonZeroUsize>) -> Self {
+        Self { max_fail, failed: 0 }
+    }
+
+    fn is_reached(&self) -> bool {
+        self.max_fail.is_some_and(|most| self.failed >= most.get())
     }
 
     /// Whether the run goes on after this outcome.
@@ -135,13 +145,6 @@ impl Limit {
         if outcome.verdict.is_failure() && !expectations.expect(&outcome.id) {
             self.failed += 1;
         }
-        if self.interrupted.load(Ordering::Relaxed) {
-            self.stopped = Some(Stopped::Interrupted);
-        } else if self.max_fail.is_some_and(|most| self.failed >= most.get()) {
-            self.stopped = Some(Stopped::MaxFail);
-        } else {
-            return ControlFlow::Continue(());
-        }
-        ControlFlow::Break(())
+        if self.is_reached() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }

@@ -24,9 +24,10 @@ pub(crate) struct List {
 pub(crate) fn run(options: &List) -> Result<ExitCode, Failure> {
     let spec = shared::spec()?;
     let selection = &options.selection;
-    let checks = selection.of(selection.growth.checks(&spec, selection.wire, None))?;
+    let mut plan = selection.growth.plan(&spec, selection.wire, None);
+    selection.restrict(&mut plan)?;
     let mut out = io::BufWriter::new(io::stdout().lock());
-    for check in &checks {
+    for check in plan.checks() {
         // A reader that has seen enough is no failure.
         if writeln!(out, "{}  {}  {}", check.id, check.level, check.requirement).is_err() {
             break;

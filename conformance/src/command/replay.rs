@@ -1,6 +1,5 @@
 //! `actucheck replay`.
 
-use std::ops::ControlFlow;
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -8,6 +7,7 @@ use actucheck::adapter::{Hello, Wire};
 use actucheck::report::{Report, Run, text};
 use actucheck::run;
 use actucheck::suite::check::Check;
+use actucheck::suite::plan::Plan;
 use actucheck::suite::saved;
 use actucheck_spec::Spec;
 
@@ -46,7 +46,7 @@ pub(crate) fn run(options: &Replay) -> Result<ExitCode, Failure> {
     let path = Path::new(&options.what);
     let ids = checks.iter().filter(|_| path.is_file()).map(|check| check.id.clone());
     let records = ids.map(|id| (id, path.to_owned())).collect();
-    let outcomes = run::run(&mut subjects.all, &checks, |_| ControlFlow::Continue(()));
+    let outcomes = run::outcomes(&mut subjects.all, &Plan::of(checks.clone()));
     let report = Report::from(Run {
         spec: &spec,
         implementation: &hello.implementation,

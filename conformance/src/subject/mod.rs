@@ -16,15 +16,12 @@ pub trait Subject {
     /// Asks it. Never blocks for longer than its time limits.
     fn ask(&mut self, op: &Op) -> Answer;
 
-    /// Asks it all `questions`, several at once where it takes them, and hands on each answer with
-    /// the number of its question, in any order.
-    fn ask_all(
-        &mut self,
-        questions: &mut dyn Iterator<Item = (usize, &Op)>,
-        answered: &mut dyn FnMut(usize, Answer),
-    ) {
-        for (number, op) in questions {
-            answered(number, self.ask(op));
+    /// Asks it all `questions`, several at once where it takes them, and answers them in any order.
+    fn ask_all(&mut self, questions: &mut dyn Questions) {
+        while let Some(number) = questions.next() {
+            let Some(op) = questions.question(number) else { continue };
+            let answer = self.ask(op);
+            questions.answered(number, answer);
         }
     }
 
@@ -32,6 +29,19 @@ pub trait Subject {
     fn log(&self) -> String {
         String::new()
     }
+}
+
+/// Questions to a subject, and who waits for the answers.
+pub trait Questions {
+    /// The number of the next question; `None` if there is none, or none before something that is
+    /// outstanding is answered.
+    fn next(&mut self) -> Option<usize>;
+
+    /// The question with this number; `None` if there is no such question without an answer.
+    fn question(&self, number: usize) -> Option<&Op>;
+
+    /// Takes the answer to the question with this number.
+    fn answered(&mut self, number: usize, answer: Answer);
 }
 
 /// What came of a question.

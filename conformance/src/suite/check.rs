@@ -96,7 +96,7 @@ impl Unspecified {
 impl Check {
     /// What an answer comes to.
     #[must_use]
-    pub fn judge(&self, answer: Answer) -> Outcome {
+    pub fn judge(self, answer: Answer) -> Outcome {
         let broken = matches!(&answer, Answer::Rejected(why) if why.class == Fault::Internal);
         let open = match &self.demand {
             Demand::Record(open) => open.behaviour(&answer),
@@ -125,13 +125,13 @@ impl Check {
         };
         let unmet = !matches!(verdict, Verdict::Pass | Verdict::Recorded | Verdict::Skip);
         Outcome {
-            id: self.id.clone(),
-            requirement: self.requirement.clone(),
+            expected: self.expected().filter(|_| unmet).cloned(),
+            id: self.id,
+            requirement: self.requirement,
             level: self.level,
             verdict,
             detail: if behaviour.is_some() { String::new() } else { detail },
-            request: unmet.then(|| self.op.clone()),
-            expected: self.expected().filter(|_| unmet).cloned(),
+            request: unmet.then_some(self.op),
             actual: actual.filter(|_| unmet),
             behaviour,
         }

@@ -4,12 +4,12 @@ use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
-use globset::GlobMatcher;
+use globset::{Glob, GlobMatcher};
 use serde::Deserialize;
 use thiserror::Error;
 
-use super::check::Check;
-use super::select::glob;
+use super::plan::Plan;
+use super::select::Patterns;
 use crate::verdict::{Outcome, Verdict};
 
 /// Why an expected-failures file is of no use.
@@ -80,21 +80,26 @@ impl Expectations {
     /// Reads the file at `path`.
     ///
     /// # Errors
-    /// If it can't be read, is malformed, or has a row that is about none of `checks`.
-    pub fn read(path: &Path, checks: &[Check]) -> Result<Self, ExpectError> {
+    /// If it can't be read, is malformed, or has a row that is about no check of the plan.
+    pub fn read(path: &Path, plan: &Plan<'_>) -> Result<Self, ExpectError> {
         let name = path.display().to_string();
         let text = std::fs::read_to_string(path)
             .map_err(|error| ExpectError::Read { path: name.clone(), error })?;
         let file: ExpectationsFile = serde_yaml::from_str(&text).map_err(|error| {
             ExpectError::Parse { path: name.clone(), message: error.to_string() }
         })?;
+        let texts = file.expected_failures.iter().flat_map(|row| &row.ids).map(String::as_str);
+        let patterns = Patterns::new(texts)
+            .map_err(|message| ExpectError::Parse { path: name.clone(), message })?;
+        let mut counts = plan.count_matches(&patterns).into_iter();
         let mut globs = Vec::new();
         for (index, row) in file.expected_failures.into_iter().enumerate() {
             let fault = |message| ExpectError::Row { path: name.clone(), row: index + 1, message };
             let row = Arc::new(row);
             for id in &row.ids {
-                let glob = glob(id).map_err(fault)?.compile_matcher();
-                let checks = checks.iter().filter(|check| glob.is_match(&check.id)).count();
+                let glob =
+                    Glob::new(id).map_err(|error| fault(error.to_string()))?.compile_matcher();
+                let checks = counts.next().unwrap_or_default();
                 if checks == 0 {
                     return Err(fault(format!("`{id}` is the id of no check")));
                 }

@@ -7,6 +7,7 @@
 pub mod check;
 pub(crate) mod codec;
 pub mod expect;
+pub mod plan;
 pub mod saved;
 pub mod select;
 
@@ -15,6 +16,7 @@ use actucheck_spec::model::{Citation, Level, Packet};
 use actucheck_spec::wire::dynamixel2::reference::{self, Call};
 
 use self::check::{Check, Demand};
+use self::plan::{Family, Plan, by_stem};
 use crate::adapter::{Called, Op, Output, Wire};
 
 /// What decides which checks there are.
@@ -46,12 +48,15 @@ impl Options {
 
 /// Every check, in a fixed order.
 #[must_use]
-pub fn all(spec: &Spec, options: &Options) -> Vec<Check> {
+pub fn plan<'a>(spec: &'a Spec, options: &Options) -> Plan<'a> {
     let author = Author { spec, wire: options.wire };
-    codec::checks(&author, options)
+    let options = *options;
+    let family = Family::new("", move || by_stem(codec::checks(&author, &options)));
+    Plan::new(vec![family])
 }
 
 /// Writes checks about one wire.
+#[derive(Clone, Copy)]
 pub(crate) struct Author<'a> {
     pub(crate) spec: &'a Spec,
     pub(crate) wire: Wire,

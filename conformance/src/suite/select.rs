@@ -1,47 +1,111 @@
 //! Globs over the ids of checks: `*` is any text, `?` any character.
 
+use std::collections::BTreeMap;
+use std::ops::Bound;
+
 use globset::{GlobBuilder, GlobSet, GlobSetBuilder};
 
-use super::check::Check;
-
-/// Reads a glob over ids.
-///
-/// # Errors
-/// What is wrong with the glob, in a sentence.
-pub fn glob(pattern: &str) -> Result<globset::Glob, String> {
-    GlobBuilder::new(pattern)
-        .build()
-        .map_err(|error| format!("`{pattern}` is no glob: {}", error.kind()))
+/// Ids, and globs over ids.
+#[derive(Debug, Default)]
+pub struct Patterns {
+    texts: Vec<String>,
+    /// Those that are ids, with their places in the list.
+    ids: BTreeMap<String, Vec<usize>>,
+    /// The others.
+    globs: GlobSet,
+    /// The place of each glob in the list, and what the ids that it matches begin with.
+    starts: Vec<(usize, String)>,
 }
 
-/// Keeps the checks whose id matches any of `select`, or all if there are none, and takes out
-/// those whose id matches any of `skip`.
-///
-/// # Errors
-/// In a sentence, if a pattern is no glob or matches no check.
-pub fn select(
-    mut checks: Vec<Check>,
-    select: &[String],
-    skip: &[String],
-) -> Result<Vec<Check>, String> {
-    let (wanted, unwanted) = (set(&checks, select)?, set(&checks, skip)?);
-    checks.retain(|check| {
-        (wanted.is_empty() || wanted.is_match(&check.id)) && !unwanted.is_match(&check.id)
-    });
-    Ok(checks)
-}
-
-fn set(checks: &[Check], patterns: &[String]) -> Result<GlobSet, String> {
-    let mut set = GlobSetBuilder::new();
-    for pattern in patterns {
-        let glob = glob(pattern)?;
-        let matcher = glob.compile_matcher();
-        if !checks.iter().any(|check| matcher.is_match(&check.id)) {
-            return Err(format!(
-                "`{pattern}` matches no check; `*` stands for any text, as in `*stuffing*`"
-            ));
+impl Patterns {
+    /// Reads globs over ids.
+    ///
+    /// # Errors
+    /// What is wrong with the first that is none, in a sentence.
+    pub fn new<'a>(patterns: impl IntoIterator<Item = &'a str>) -> Result<Self, String> {
+        let mut new = Self::default();
+        let mut globs = GlobSetBuilder::new();
+        for (place, text) in patterns.into_iter().enumerate() {
+            new.texts.push(text.to_owned());
+            let glob = GlobBuilder::new(text)
+                .build()
+                .map_err(|error| format!("`{text}` is no glob: {}", error.kind()))?;
+            let special = |letter: char| "*?[]{}!\\".contains(letter);
+            match text.split_once(special) {
+                None => new.ids.entry(text.to_owned()).or_default().push(place),
+                Some((start, _)) => {
+                    globs.add(glob);
+                    new.starts.push((place, start.to_owned()));
+                }
+            }
         }
-        set.add(glob);
+        new.globs = globs.build().map_err(|error| error.to_string())?;
+        Ok(new)
     }
-    set.build().map_err(|error| error.to_string())
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.texts.is_empty()
+    }
+
+    /// The patterns as they were given.
+    #[must_use]
+    pub fn texts(&self) -> &[String] {
+        &self.texts
+    }
+
+    /// Whether one of them matches this id.
+    #[must_use]
+    pub fn is_match(&self, id: &str) -> bool {
+        self.ids.contains_key(id) || self.globs.is_match(id)
+    }
+
+    /// The places of those that match this id, in order.
+    #[must_use]
+    pub fn matches(&self, id: &str) -> Vec<usize> {
+        let globs = self.globs.matches(id).into_iter();
+        let globs = globs.filter_map(|glob| self.starts.get(glob).map(|(place, _)| *place));
+        let mut places: Vec<_> = self.ids.get(id).into_iter().flatten().copied().collect();
+        places.extend(globs);
+        places.sort_unstable();
+        places
+    }
+
+    /// Whether one of them may match an id that begins so.
+    #[must_use]
+    pub fn may_match(&self, beginning: &str) -> bool {
+        let from = (Bound::Included(beginning), Bound::Unbounded);
+        let id = self.ids.range::<str, _>(from).next();
+        id.is_some_and(|(id, _)| id.starts_with(beginning))
+            || self.starts.iter().any(|(_, start)| {
+                start.starts_with(beginning) || beginning.starts_with(start.as_str())
+            })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ids_and_globs_match_alike() {
+        let patterns = ["a.b/c", "a.*", "*/c", "a.{b,d}/?"];
+        let patterns = Patterns::new(patterns).unwrap();
+        assert_eq!(patterns.matches("a.b/c"), [0, 1, 2, 3]);
+        assert_eq!(patterns.matches("a.d/e"), [1, 3]);
+        assert!(!patterns.is_match("b.b/e"));
+        assert!(Patterns::new(["["]).is_err());
+    }
+
+    #[test]
+    fn what_can_not_match_is_told_by_its_beginning() {
+        let patterns = Patterns::new(["a.b/c", "d.e*"]).unwrap();
+        for beginning in ["", "a.", "a.b/c", "d", "d.e", "d.efg"] {
+            assert!(patterns.may_match(beginning), "{beginning}");
+        }
+        for beginning in ["b", "a.b/cd", "d.f"] {
+            assert!(!patterns.may_match(beginning), "{beginning}");
+        }
+    }
 }

@@ -4,8 +4,9 @@ use std::ops::ControlFlow;
 
 use actucheck::adapter::{Op, Wire};
 use actucheck::blackbox::{Fuzzed, Symptom, fuzz};
-use actucheck::run::run;
+use actucheck::run;
 use actucheck::subject::{Answer, Builtin, Subject};
+use actucheck::suite::plan::Plan;
 use actucheck::suite::saved;
 use actucheck::verdict::Verdict;
 use actucheck_spec::Spec;
@@ -66,7 +67,7 @@ fn what_was_found_is_kept_and_fails_again() {
     let read: Vec<_> = saved::read(&file).unwrap().into_iter().map(|(_, check)| check).collect();
     assert_eq!(read, checks);
     let verdicts = |subject: Box<dyn Subject + Send>| -> Vec<_> {
-        let outcomes = run(&mut [subject], &read, |_| ControlFlow::Continue(()));
+        let outcomes = run::outcomes(&mut [subject], &Plan::of(read.clone()));
         outcomes.into_iter().map(|outcome| outcome.verdict).collect()
     };
     assert!(

@@ -9,13 +9,12 @@ mod innfos;
 mod killing;
 mod stubs;
 
-use std::ops::ControlFlow;
-
 use actucheck::adapter::{Hello, Op, Output, Rejection, Wire};
-use actucheck::run::run;
+use actucheck::run;
 use actucheck::subject::{Answer, Builtin, Subject};
 use actucheck::suite;
 use actucheck::suite::check::Check;
+use actucheck::suite::plan::Plan;
 use actucheck::verdict::Outcome;
 use actucheck_spec::Spec;
 use actucheck_spec::model::{Fault, HexBytes};
@@ -76,9 +75,9 @@ impl Subject for Mutated {
 
 fn checks(wire: Wire) -> Vec<Check> {
     let options = suite::Options { cases: 50, ..suite::Options::new(wire) };
-    suite::all(&Spec::embedded().unwrap(), &options)
+    suite::plan(&Spec::embedded().unwrap(), &options).checks().collect()
 }
 
 fn outcomes(subject: impl Subject + Send + 'static, checks: &[Check]) -> Vec<Outcome> {
-    run(&mut [Box::new(subject)], checks, |_| ControlFlow::Continue(()))
+    run::outcomes(&mut [Box::new(subject)], &Plan::of(checks.to_vec()))
 }

@@ -1,19 +1,16 @@
 //! Reports to look at.
 
 use std::collections::BTreeMap;
-use std::ops::ControlFlow;
 use std::sync::LazyLock;
 
 use actucheck::adapter::{Hello, Implementation, Op, Output, Rejection, Wire};
 use actucheck::report::{Report, Run, Stopped};
-use actucheck::run::run;
+use actucheck::run::outcomes;
 use actucheck::subject::{Answer, Builtin, Subject};
-use actucheck::suite::check::Check;
 use actucheck::suite::expect::Expectations;
-use actucheck::suite::select::select;
 use actucheck::suite::{self, Options};
 use actucheck_spec::Spec;
-use actucheck_spec::model::{Fault, Packet};
+use actucheck_spec::model::{Fault, Level, Packet};
 use actucheck_spec::wire::dynamixel2::reference;
 
 /// A name that must stay one.
@@ -71,10 +68,6 @@ fn odd(op: &Op, answer: Answer) -> Answer {
 
 /// What every sample is taken from; it takes a while to make.
 static SPEC: LazyLock<Spec> = LazyLock::new(|| Spec::embedded().unwrap());
-static CHECKS: LazyLock<Vec<Check>> = LazyLock::new(|| {
-    let checks = suite::all(&SPEC, &OPTIONS);
-    select(checks, &[], &["*.stuffing.body.*".to_owned()]).unwrap()
-});
 const OPTIONS: Options = Options { cases: 10, ..Options::new(Wire::Dynamixel2) };
 
 /// Reads without taking the byte stuffing out.
@@ -89,7 +82,9 @@ fn left_in(op: &Op, answer: Answer) -> Answer {
 }
 
 fn report(name: &str, only: &str, bend: fn(&Op, Answer) -> Answer, expect: &str) -> Report {
-    let checks = select(CHECKS.clone(), &[only.to_owned()], &[]).unwrap();
+    let mut plan = suite::plan(&SPEC, &OPTIONS);
+    let not = ["*.stuffing.body.*".to_owned()];
+    plan.restrict(&[only.to_owned()], &not, Level::May).unwrap();
     let codec = Builtin::default();
     let mut hello = codec.hello().clone();
     hello.implementation = Implementation {
@@ -100,11 +95,11 @@ fn report(name: &str, only: &str, bend: fn(&Op, Answer) -> Answer, expect: &str)
     };
     let implementation = hello.implementation.clone();
     let subject = Odd { codec, hello, bend };
-    let mut outcomes = run(&mut [Box::new(subject)], &checks, |_| ControlFlow::Continue(()));
+    let mut outcomes = outcomes(&mut [Box::new(subject)], &plan);
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("expected-failures.yaml");
     std::fs::write(&file, format!("expected_failures: {expect}\n")).unwrap();
-    Expectations::read(&file, &checks).unwrap().apply(&mut outcomes);
+    Expectations::read(&file, &plan).unwrap().apply(&mut outcomes);
     Report::from(Run {
         spec: &SPEC,
         implementation: &implementation,

@@ -6,6 +6,7 @@ use super::talk::Answer;
 use super::{Problem, shape};
 use crate::adapter::{Hello, Op, Output, Rejection};
 use crate::suite::check::{Check, Demand};
+use crate::suite::plan::Plan;
 
 /// The checks whose questions are asked, and what they ask for. An op and wire is there at least
 /// once, and what only one side of a line does for itself.
@@ -38,11 +39,11 @@ pub(super) struct Example {
 }
 
 impl Example {
-    /// The questions, taken out of the checks of all wires.
-    pub(super) fn all(checks: &[Check]) -> Vec<Self> {
+    /// The questions, taken out of the plans of all wires.
+    pub(super) fn all(plans: &[Plan<'_>]) -> Vec<Self> {
         let example = |(id, name): &(&str, &'static str)| {
-            let check = checks.iter().find(|check| check.id == *id)?;
-            Some(Self::of(check, name))
+            let check = plans.iter().find_map(|plan| plan.find(id))?;
+            Some(Self::of(&check, name))
         };
         CHECKS.iter().filter_map(example).collect()
     }
@@ -147,8 +148,8 @@ mod tests {
     #[test]
     fn every_question_is_there_with_its_right_answer() {
         let spec = Spec::embedded().unwrap();
-        let checks = Wire::ALL.map(|wire| suite::all(&spec, &Options::new(wire))).concat();
-        let examples = Example::all(&checks);
+        let plans = Wire::ALL.map(|wire| suite::plan(&spec, &Options::new(wire)));
+        let examples = Example::all(&plans);
         assert_eq!(examples.len(), CHECKS.len());
         for example in examples {
             assert!(!example.right.is_empty(), "{}", example.name);

@@ -12,7 +12,7 @@ use std::fmt;
 
 use crate::adapter::Hello;
 use crate::adapter::Settings;
-use crate::suite::check::Check;
+use crate::suite::plan::Plan;
 
 /// What came out for one point of the contract.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -83,15 +83,15 @@ impl Report {
     }
 }
 
-/// Checks the adapter that `command`, a program and its arguments, starts. `checks` are those of
-/// all wires, out of which the questions are taken.
+/// Checks the adapter that `command`, a program and its arguments, starts. The questions are taken out of
+/// the `plans` of all wires.
 ///
 /// # Errors
 /// If the command can't be run.
 pub fn check(
     command: &[String],
     settings: &Settings,
-    checks: &[Check],
+    plans: &[Plan<'_>],
 ) -> Result<Report, std::io::Error> {
-    points::look(command, settings, &example::Example::all(checks))
+    points::look(command, settings, &example::Example::all(plans))
 }

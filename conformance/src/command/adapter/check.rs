@@ -38,12 +38,10 @@ const WIDTH: usize = 400;
 /// Looks at an adapter and prints what came out.
 pub(crate) fn run(options: &Check) -> Result<ExitCode, Failure> {
     let spec = shared::spec()?;
-    // The questions are the documents'; none is generated.
-    let of = |wire| suite::all(&spec, &Options { cases: 0, ..Options::new(wire) });
-    let checks: Vec<_> = Wire::ALL.into_iter().flat_map(of).collect();
+    let plans = Wire::ALL.map(|wire| suite::plan(&spec, &Options::new(wire)));
     let settings = options.exchange.settings()?;
     let command = options.command.join(" ");
-    let report = lint::check(&options.command, &settings, &checks).map_err(|error| {
+    let report = lint::check(&options.command, &settings, &plans).map_err(|error| {
         let message = format!("cannot run `{command}`: {error}; give the command after `--`");
         Failure::not_started(message)
     })?;

@@ -2,7 +2,7 @@
 
 use actucheck::adapter::{Hello, Wire};
 use actucheck::suite::check::Check;
-use actucheck::suite::select::select;
+use actucheck::suite::plan::Plan;
 use actucheck::suite::{self, Options};
 use actucheck_spec::Spec;
 use actucheck_spec::model::Level;
@@ -51,19 +51,17 @@ pub(crate) struct Growth {
 }
 
 impl Selection {
-    /// Those of these checks that are meant.
-    pub(crate) fn of(&self, checks: Vec<Check>) -> Result<Vec<Check>, Failure> {
-        let mut checks = select(checks, &self.select, &self.skip).map_err(Failure::usage)?;
-        checks.retain(|check| check.level <= self.level);
-        Ok(checks)
+    /// Leaves in a plan what is meant.
+    pub(crate) fn restrict(&self, plan: &mut Plan<'_>) -> Result<(), Failure> {
+        plan.restrict(&self.select, &self.skip, self.level).map_err(Failure::usage)
     }
 }
 
 impl Growth {
     /// Every check of a wire. An implementation that states the length of its longest packet gets
     /// checks around that length.
-    pub(crate) fn checks(&self, spec: &Spec, wire: Wire, hello: Option<&Hello>) -> Vec<Check> {
-        suite::all(spec, &self.options(wire, hello))
+    pub(crate) fn plan<'a>(&self, spec: &'a Spec, wire: Wire, hello: Option<&Hello>) -> Plan<'a> {
+        suite::plan(spec, &self.options(wire, hello))
     }
 
     /// What decides which checks a wire has.
@@ -82,12 +80,9 @@ impl Growth {
     ) -> Result<(Wire, Check), Failure> {
         let longest = Self { body_length: Options::LONGEST_BODY, ..*self };
         let growths = [*self, longest].into_iter();
-        let found = growths.flat_map(|growth| Wire::ALL.map(|wire| (growth, wire))).find_map(
-            |(growth, wire)| {
-                let checks = growth.checks(spec, wire, hello);
-                Some((wire, checks.into_iter().find(|check| check.id == id)?))
-            },
-        );
+        let found = growths
+            .flat_map(|growth| Wire::ALL.map(|wire| (growth, wire)))
+            .find_map(|(growth, wire)| Some((wire, growth.plan(spec, wire, hello).find(id)?)));
         found.ok_or_else(|| {
             Failure::usage(format!("no check has the id `{id}`; `actucheck list` has them all"))
         })

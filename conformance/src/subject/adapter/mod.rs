@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use thiserror::Error;
 
-use super::{Answer, Subject};
+use super::{Answer, Questions, Subject};
 use crate::adapter::{Hello, Line, Op, Output, Reply, Request, Running, Settings, VERSION};
 
 /// The most questions that are outstanding, whatever the adapter offers.
@@ -122,16 +122,14 @@ impl Subject for Process {
         answer
     }
 
-    fn ask_all(
-        &mut self,
-        questions: &mut dyn Iterator<Item = (usize, &Op)>,
-        answered: &mut dyn FnMut(usize, Answer),
-    ) {
+    fn ask_all(&mut self, questions: &mut dyn Questions) {
         if self.at_once > 1 {
-            self.ask_together(questions, answered);
+            self.ask_together(questions);
         }
-        for (number, op) in questions {
-            answered(number, self.ask(op));
+        while let Some(number) = questions.next() {
+            let Some(op) = questions.question(number) else { continue };
+            let answer = self.ask(op);
+            questions.answered(number, answer);
         }
     }
 

@@ -1,0 +1,116 @@
+//! What several workers found, brought into the order of the plan.
+
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Condvar, Mutex, PoisonError};
+use std::time::Duration;
+
+use super::{Sink, is_set, lock};
+use crate::verdict::Outcome;
+
+/// How many batches a worker may be ahead of the slowest one; what they found is held back so long.
+const AHEAD: u64 = 64;
+/// How soon an interrupt is seen while nothing else happens.
+const INTERRUPT: Duration = Duration::from_millis(100);
+
+/// Hands the outcomes of batches on in the order of the batches.
+pub(super) struct Merge<'s> {
+    state: Mutex<State<'s>>,
+    /// The first batch that is not yet done is another one.
+    moved: Condvar,
+    /// The sink wants no more.
+    over: AtomicBool,
+    interrupted: &'s AtomicBool,
+}
+
+struct State<'s> {
+    sink: &'s mut Sink<'s>,
+    /// The first batch that is not yet done. Its outcomes go straight to the sink.
+    first: u64,
+    /// What came of later ones, and whether they are done.
+    held: BTreeMap<u64, (Vec<Outcome>, bool)>,
+}
+
+impl<'s> Merge<'s> {
+    pub(super) fn new(sink: &'s mut Sink<'s>, interrupted: &'s AtomicBool) -> Self {
+        let state = State { sink, first: 0, held: BTreeMap::new() };
+        let (moved, over) = (Condvar::new(), AtomicBool::new(false));
+        Self { state: Mutex::new(state), moved, over, interrupted }
+    }
+
+    /// Whether nothing more is to be asked.
+    pub(super) fn is_over(&self) -> bool {
+        is_set(&self.over) || is_set(self.interrupted)
+    }
+
+    /// Has nothing more asked.
+    pub(super) fn end(&self) {
+        self.over.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether the batch with this number may be begun.
+    pub(super) fn has_room(&self, number: u64) -> bool {
+        number < lock(&self.state).first + AHEAD
+    }
+
+    /// Waits a moment, or until the batch with this number may be begun.
+    pub(super) fn wait_for_room(&self, number: u64) {
+        let state = lock(&self.state);
+        let full = |state: &mut State<'_>| number >= state.first + AHEAD && !self.is_over();
+        // Nobody tells of an interrupt.
+        let waited = self.moved.wait_timeout_while(state, INTERRUPT, full);
+        drop(waited.unwrap_or_else(PoisonError::into_inner));
+    }
+
+    /// Takes outcomes of a batch, in order behind those that were put before; `done` with the last.
+    pub(super) fn put(&self, number: u64, outcomes: Vec<Outcome>, done: bool) {
+        let mut state = lock(&self.state);
+        if number != state.first {
+            let held = state.held.entry(number).or_default();
+            held.0.extend(outcomes);
+            held.1 = done;
+            return;
+        }
+        self.hand_on(&mut state, outcomes);
+        if done {
+            state.first += 1;
+            while let Some((outcomes, done)) = state.next_held() {
+                self.hand_on(&mut state, outcomes);
+                if !done {
+                    break;
+                }
+                state.first += 1;
+            }
+        }
+        drop(state);
+        self.moved.notify_all();
+    }
+
+    /// Hands on what an early end left behind.
+    pub(super) fn finish(self) {
+        let mut state = self.state.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let held = std::mem::take(&mut state.held).into_values();
+        for outcome in held.flat_map(|(outcomes, _)| outcomes) {
+            if is_set(&self.over) || (state.sink)(outcome).is_break() {
+                return;
+            }
+        }
+    }
+
+    fn hand_on(&self, state: &mut State<'_>, outcomes: Vec<Outcome>) {
+        for outcome in outcomes {
+            if is_set(&self.over) {
+                return;
+            }
+            if (state.sink)(outcome).is_break() {
+                self.over.store(true, Ordering::Relaxed);
+            }
+        }
+    }
+}
+
+impl State<'_> {
+    fn next_held(&mut self) -> Option<(Vec<Outcome>, bool)> {
+        self.held.remove(&self.first)
+    }
+}

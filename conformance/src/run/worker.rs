@@ -1,0 +1,262 @@
+//! A subject at work: takes batches of checks, asks them, and gives back what came out.
+
+use std::collections::{HashMap, VecDeque};
+use std::time::{Duration, Instant};
+
+use super::{Work, lock};
+use crate::adapter::{Hello, Op};
+use crate::subject::{Answer, Questions, Subject};
+use crate::suite::check::Check;
+use crate::verdict::{Outcome, Verdict};
+
+/// How long what came out is held back at the most, while more comes.
+const PATIENCE: Duration = Duration::from_millis(50);
+
+/// What one subject is asked.
+pub(super) struct Worker<'r, 's, 'a> {
+    work: &'r Work<'s, 'a>,
+    hello: Hello,
+    /// Batches of which something is not answered yet.
+    batches: VecDeque<Batch>,
+    /// The number of the next question.
+    next: usize,
+    /// The number of the first question that is not loaded.
+    end: usize,
+    /// Questions that wait for the answer to another.
+    waiting: VecDeque<usize>,
+    flushed: Instant,
+}
+
+/// Checks that were taken together.
+struct Batch {
+    number: u64,
+    /// The number of its first question.
+    first: usize,
+    slots: Vec<Slot>,
+    /// How many outcomes were given back.
+    given: usize,
+}
+
+struct Slot {
+    state: State,
+    /// The question that has to be answered before.
+    requires: Option<usize>,
+}
+
+enum State {
+    Open(Check),
+    Answered(Outcome),
+    /// Given back; whether it was skipped.
+    Given(bool),
+}
+
+impl State {
+    /// Whether it was skipped; `None` if it is not answered yet.
+    const fn is_skipped(&self) -> Option<bool> {
+        match self {
+            Self::Open(_) => None,
+            Self::Answered(outcome) => Some(matches!(outcome.verdict, Verdict::Skip)),
+            Self::Given(skipped) => Some(*skipped),
+        }
+    }
+}
+
+impl<'r, 's, 'a> Worker<'r, 's, 'a> {
+    pub(super) fn new(work: &'r Work<'s, 'a>, hello: Hello) -> Self {
+        let (batches, waiting) = (VecDeque::new(), VecDeque::new());
+        let flushed = Instant::now();
+        Self { work, hello, batches, next: 0, end: 0, waiting, flushed }
+    }
+
+    /// Asks until no check is left.
+    pub(super) fn ask(mut self, subject: &mut dyn Subject) {
+        subject.ask_all(&mut self);
+        self.flush();
+    }
+
+    /// Takes and builds the next batch; whether there was one.
+    fn load(&mut self) -> bool {
+        self.flush();
+        let (number, groups) = loop {
+            let mut source = lock(&self.work.source);
+            let number = source.next;
+            if self.work.merge.is_over() {
+                return false;
+            }
+            if self.work.merge.has_room(number) {
+                break (number, source.take());
+            }
+            drop(source);
+            // It may be this one's own answers for which the others wait.
+            if !self.batches.is_empty() {
+                return false;
+            }
+            self.work.merge.wait_for_room(number);
+        };
+        if groups.is_empty() {
+            return false;
+        }
+        let mut slots = Vec::new();
+        for group in groups {
+            let checks = self.work.plan.build(group);
+            let required = required(&checks, self.end + slots.len());
+            let slot = |(check, requires)| Slot { state: State::Open(check), requires };
+            slots.extend(checks.into_iter().zip(required).map(slot));
+        }
+        let first = self.end;
+        self.end += slots.len();
+        self.batches.push_back(Batch { number, first, slots, given: 0 });
+        true
+    }
+
+    /// Gives back what is answered, as far as nothing before it is open.
+    fn flush(&mut self) {
+        for batch in &mut self.batches {
+            let outcomes = batch.take();
+            let done = batch.given == batch.slots.len();
+            if done || !outcomes.is_empty() {
+                self.work.merge.put(batch.number, outcomes, done);
+            }
+        }
+        self.batches.retain(|batch| batch.given < batch.slots.len());
+        self.flushed = Instant::now();
+    }
+
+    fn slot(&self, number: usize) -> Option<&Slot> {
+        let batch = self.batches.iter().rev().find(|batch| batch.first <= number)?;
+        batch.slots.get(number - batch.first)
+    }
+
+    fn slot_mut(&mut self, number: usize) -> Option<&mut Slot> {
+        let batch = self.batches.iter_mut().rev().find(|batch| batch.first <= number)?;
+        batch.slots.get_mut(number - batch.first)
+    }
+
+    /// Whether the check that this one requires was skipped; `None` if it is not answered yet.
+    fn is_required_skipped(&self, number: usize) -> Option<bool> {
+        match self.slot(number)?.requires {
+            Some(required) => self.slot(required)?.state.is_skipped(),
+            None => Some(false),
+        }
+    }
+
+    /// Whether the question is to be asked; if not, it is answered.
+    fn is_asked(&mut self, number: usize, required_skipped: bool) -> bool {
+        let reason = if required_skipped {
+            Some("the check that it requires is skipped too".to_owned())
+        } else {
+            self.slot(number).and_then(|slot| match &slot.state {
+                State::Open(check) => not_offered(&self.hello, check),
+                _ => None,
+            })
+        };
+        match reason {
+            Some(reason) => {
+                self.answered(number, Answer::Skipped(reason));
+                false
+            }
+            None => true,
+        }
+    }
+}
+
+/// A panic goes on in the thread that started the run, once no other works.
+impl Drop for Worker<'_, '_, '_> {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            self.work.merge.end();
+        }
+    }
+}
+
+impl Batch {
+    /// Takes out the outcomes that nothing open stands before.
+    fn take(&mut self) -> Vec<Outcome> {
+        let mut outcomes = Vec::new();
+        for slot in self.slots.iter_mut().skip(self.given) {
+            let Some(skipped) = slot.state.is_skipped() else { break };
+            let state = std::mem::replace(&mut slot.state, State::Given(skipped));
+            if let State::Answered(outcome) = state {
+                outcomes.push(outcome);
+            }
+            self.given += 1;
+        }
+        outcomes
+    }
+}
+
+/// For each check the number of the one that it requires, if that stands before it; `first` is the
+/// number of the first.
+fn required(checks: &[Check], first: usize) -> Vec<Option<usize>> {
+    let mut places = HashMap::new();
+    let requires = checks.iter().any(|check| check.requires.is_some());
+    let place = |(place, check): (usize, &'_ Check)| {
+        let earlier = check.requires.as_ref().and_then(|id| places.get(id.as_str()).copied());
+        if requires {
+            places.insert(check.id.clone(), first + place);
+        }
+        earlier
+    };
+    checks.iter().enumerate().map(place).collect()
+}
+
+impl Questions for Worker<'_, '_, '_> {
+    fn next(&mut self) -> Option<usize> {
+        while !self.work.merge.is_over() {
+            if let Some(number) = self.waiting.front().copied()
+                && let Some(skipped) = self.is_required_skipped(number)
+            {
+                self.waiting.pop_front();
+                if self.is_asked(number, skipped) {
+                    return Some(number);
+                }
+            } else if self.next < self.end {
+                let number = self.next;
+                self.next += 1;
+                match self.is_required_skipped(number) {
+                    None => self.waiting.push_back(number),
+                    Some(skipped) if self.is_asked(number, skipped) => return Some(number),
+                    Some(_) => {}
+                }
+            } else if !self.load() {
+                return None;
+            }
+        }
+        None
+    }
+
+    fn question(&self, number: usize) -> Option<&Op> {
+        match &self.slot(number)?.state {
+            State::Open(check) => Some(&check.op),
+            _ => None,
+        }
+    }
+
+    fn answered(&mut self, number: usize, answer: Answer) {
+        let Some(slot) = self.slot_mut(number) else { return };
+        let State::Open(check) = std::mem::replace(&mut slot.state, State::Given(false)) else {
+            return;
+        };
+        let outcome = check.judge(answer);
+        let failed = outcome.verdict.is_failure();
+        slot.state = State::Answered(outcome);
+        if failed || self.flushed.elapsed() > PATIENCE {
+            self.flush();
+        }
+    }
+}
+
+/// Why a check is not asked, by the adapter's own word.
+fn not_offered(hello: &Hello, check: &Check) -> Option<String> {
+    let name = check.op.name();
+    if !hello.ops.iter().any(|op| op == name) {
+        return Some(format!("the adapter offers no {name}"));
+    }
+    if let Some(wire) = check.op.wire()
+        && !hello.wires.iter().any(|offered| offered == wire.id())
+    {
+        return Some(format!("the adapter offers no {}", wire.id()));
+    }
+    let (limit, size) = (hello.limits.max_packet?, check.packet_size()?);
+    (size > limit).then(|| format!("{size} bytes, the adapter's limit is {limit}"))
+}

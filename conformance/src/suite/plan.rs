@@ -1,0 +1,235 @@
+//! Checks that cost nothing until they are asked.
+//!
+//! A plan is a list of families; a family yields groups, and a group builds its checks. An id or a
+//! glob is compared with what the ids of a family begin with, then with the ids that a group names, so
+//! that nothing else is built. No more than a few groups are in memory at any time.
+
+use std::collections::BTreeSet;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use actucheck_spec::model::Level;
+
+use super::check::Check;
+use super::select::Patterns;
+
+/// Every check of a run, in a fixed order.
+pub struct Plan<'a> {
+    families: Vec<Family<'a>>,
+    only: Patterns,
+    not: Patterns,
+    level: Level,
+}
+
+/// Groups whose checks' ids begin alike.
+pub(crate) struct Family<'a> {
+    prefix: String,
+    groups: Box<dyn Fn() -> Groups<'a> + Send + Sync + 'a>,
+}
+
+/// Groups, one after the other.
+pub(crate) type Groups<'a> = Box<dyn Iterator<Item = Group<'a>> + Send + 'a>;
+
+/// Checks that one subject is asked in order. A check may require another of its group, before it.
+pub(crate) struct Group<'a> {
+    stem: String,
+    /// What follows the stem in the id of each check.
+    names: Vec<String>,
+    build: Box<dyn FnOnce() -> Vec<Check> + Send + 'a>,
+}
+
+impl<'a> Plan<'a> {
+    pub(crate) fn new(families: Vec<Family<'a>>) -> Self {
+        let (only, not) = (Patterns::default(), Patterns::default());
+        Self { families, only, not, level: Level::May }
+    }
+
+    /// These checks and no others. They are one group: one subject is asked them all.
+    #[must_use]
+    pub fn of(checks: Vec<Check>) -> Self {
+        let mut plan = Self::new(Vec::new());
+        plan.add(checks);
+        plan
+    }
+
+    /// Has these checks asked behind all others, as one group.
+    pub fn add(&mut self, checks: Vec<Check>) {
+        let checks: Arc<[Check]> = checks.into();
+        self.families.push(Family::new("", move || {
+            let names = checks.iter().map(|check| check.id.clone()).collect();
+            let checks = Arc::clone(&checks);
+            std::iter::once(Group::new(String::new(), names, move || checks.to_vec()))
+        }));
+    }
+
+    /// Keeps the checks whose id matches any of `only`, or all if there are none, but none whose
+    /// id matches any of `not`, and of those the ones that bind at least as `level` says.
+    ///
+    /// # Errors
+    /// In a sentence, if a pattern is no glob or matches no check.
+    pub fn restrict(
+        &mut self,
+        only: &[String],
+        not: &[String],
+        level: Level,
+    ) -> Result<(), String> {
+        (self.only, self.not) = (self.patterns(only)?, self.patterns(not)?);
+        self.level = level;
+        Ok(())
+    }
+
+    /// Patterns each of which matches a check.
+    fn patterns(&self, texts: &[String]) -> Result<Patterns, String> {
+        let patterns = Patterns::new(texts.iter().map(String::as_str))?;
+        let mut idle: BTreeSet<_> = (0..texts.len()).collect();
+        self.each_match(&patterns, |place| {
+            idle.remove(&place);
+            if idle.is_empty() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        match idle.first().and_then(|place| texts.get(*place)) {
+            Some(text) => Err(format!(
+                "`{text}` matches no check; `*` stands for any text, as in `*stuffing*`"
+            )),
+            None => Ok(patterns),
+        }
+    }
+
+    /// How many checks each pattern matches, whatever the plan is restricted to.
+    #[must_use]
+    pub fn count_matches(&self, patterns: &Patterns) -> Vec<usize> {
+        let mut counts = vec![0; patterns.texts().len()];
+        self.each_match(patterns, |place| {
+            counts.get_mut(place).into_iter().for_each(|count| *count += 1);
+            ControlFlow::Continue(())
+        });
+        counts
+    }
+
+    /// Hands on the place of each pattern for each id that it matches; nothing is built for it.
+    fn each_match(&self, patterns: &Patterns, mut matched: impl FnMut(usize) -> ControlFlow<()>) {
+        for group in self.groups_of(|beginning| patterns.may_match(beginning)) {
+            for id in group.ids() {
+                for place in patterns.matches(&id) {
+                    if matched(place).is_break() {
+                        return;
+                    }
+                }
+            }
+        }
+    }
+
+    /// The groups whose ids may begin so.
+    fn groups_of<'p>(
+        &'p self,
+        may_begin: impl Fn(&str) -> bool + Clone + Send + 'p,
+    ) -> impl Iterator<Item = Group<'a>> + Send + 'p {
+        let may = may_begin.clone();
+        self.families
+            .iter()
+            .filter(move |family| may(&family.prefix))
+            .flat_map(|family| (family.groups)())
+            .filter(move |group| may_begin(&group.stem))
+    }
+
+    /// The groups that have something to ask, in order.
+    pub(crate) fn groups(&self) -> impl Iterator<Item = Group<'a>> + Send + '_ {
+        let all = self.only.is_empty();
+        self.groups_of(move |beginning| all || self.only.may_match(beginning))
+            .filter(|group| self.is_whole() || group.ids().any(|id| self.has(&id)))
+    }
+
+    /// Whether every check of it is meant.
+    fn is_whole(&self) -> bool {
+        self.only.is_empty() && self.not.is_empty() && self.level == Level::May
+    }
+
+    /// The checks of a group that are meant.
+    pub(crate) fn build(&self, group: Group<'a>) -> Vec<Check> {
+        let mut checks = (group.build)();
+        if self.is_whole() {
+            return checks;
+        }
+        checks.retain(|check| self.has(&check.id) && check.level <= self.level);
+        checks
+    }
+
+    fn has(&self, id: &str) -> bool {
+        (self.only.is_empty() || self.only.is_match(id)) && !self.not.is_match(id)
+    }
+
+    /// Every check, each built when it is asked for.
+    pub fn checks(&self) -> impl Iterator<Item = Check> + '_ {
+        self.groups().flat_map(|group| self.build(group))
+    }
+
+    /// The id of every check; nothing is built for it unless the level is restricted.
+    #[must_use]
+    pub fn ids(&self) -> Box<dyn Iterator<Item = String> + '_> {
+        if self.level == Level::May {
+            let ids = self.groups().flat_map(|group| group.ids().collect::<Vec<_>>());
+            Box::new(ids.filter(|id| self.has(id)))
+        } else {
+            Box::new(self.checks().map(|check| check.id))
+        }
+    }
+
+    /// The check with this id, whatever the plan is restricted to.
+    #[must_use]
+    pub fn find(&self, id: &str) -> Option<Check> {
+        let group = self
+            .groups_of(|beginning| id.starts_with(beginning))
+            .find(|group| group.ids().any(|other| other == id))?;
+        (group.build)().into_iter().find(|check| check.id == id)
+    }
+}
+
+impl<'a> Family<'a> {
+    /// A family whose checks' ids begin with `prefix`.
+    pub(crate) fn new<I>(
+        prefix: impl Into<String>,
+        groups: impl Fn() -> I + Send + Sync + 'a,
+    ) -> Self
+    where
+        I: Iterator<Item = Group<'a>> + Send + 'a,
+    {
+        Self { prefix: prefix.into(), groups: Box::new(move || Box::new(groups())) }
+    }
+}
+
+/// Checks that are built already, as groups of those whose ids are alike but for what follows the
+/// last slash.
+pub(crate) fn by_stem<'a>(checks: Vec<Check>) -> impl Iterator<Item = Group<'a>> + Send {
+    let mut checks = checks.into_iter().peekable();
+    std::iter::from_fn(move || {
+        let first = checks.next()?;
+        let (before, _) = first.id.rsplit_once('/').unwrap_or_default();
+        let stem = format!("{before}/");
+        let mut group = vec![first];
+        while let Some(check) = checks.next_if(|check| check.id.starts_with(&stem)) {
+            group.push(check);
+        }
+        let name = |check: &Check| check.id.strip_prefix(&stem).unwrap_or_default().to_owned();
+        let names = group.iter().map(name).collect();
+        Some(Group::new(stem, names, move || group))
+    })
+}
+
+impl<'a> Group<'a> {
+    /// A group whose checks' ids are `stem` and each of `names`.
+    pub(crate) fn new(
+        stem: String,
+        names: Vec<String>,
+        build: impl FnOnce() -> Vec<Check> + Send + 'a,
+    ) -> Self {
+        Self { stem, names, build: Box::new(build) }
+    }
+
+    fn ids(&self) -> impl Iterator<Item = String> {
+        self.names.iter().map(|name| format!("{}{name}", self.stem))
+    }
+
+    /// How many checks it has.
+    pub(crate) fn size(&self) -> usize {
+        self.names.len()
+    }
+}
