@@ -42,9 +42,15 @@ fn named_values_are_those_of_the_document() {
 }
 
 #[test]
-fn a_value_that_is_named_but_not_in_the_range_is_refused() {
-    let error = ja40::OPERATING_MODE.write(1, OperatingMode::CurrentControlMode).unwrap_err();
+fn a_range_binds_only_where_the_documents_agree_on_it() {
+    let other = ja_variant::OperatingMode::Unknown(0);
+    let error = ja_variant::OPERATING_MODE.write(1, other).unwrap_err();
     assert_eq!(error.to_string(), "Operating Mode is one of [4, 17], not 0");
+    assert!(ja_variant::OPERATING_MODE.write_unchecked(1, other).is_ok());
+
+    // The JA40's table has 4 and 17, its text describes 0 too.
+    assert!(ja40::OPERATING_MODE.write(1, OperatingMode::CurrentControlMode).is_ok());
+    assert!(ja40::PRESENT_POSITION.write_unchecked(1, 0).is_err(), "read-only");
 }
 
 #[test]

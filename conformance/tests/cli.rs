@@ -139,6 +139,9 @@ fn an_innfos_frame_is_explained_if_it_is_told_which_way_it_goes() {
         actucheck(&["decode", "--wire", "innfos", "--direction", "reply", alarms]);
     assert_eq!(status, 1, "the CRC is wrong");
     insta::assert_snapshot!(stderr, @"actucheck: no valid packet, from byte 7 on: crc: bytes 7 and 8 are E1 83, C1 B3 is expected");
+    let others = "EE 01 FF 00 02 08 00 06 70 ED";
+    let (_, stdout, _) = actucheck(&["decode", "--wire", "innfos", "--kind", "reply", others]);
+    assert!(stdout.contains("Equipment error"), "{stdout}");
     let (status, _, stderr) = actucheck(&["decode", "--wire", "innfos", frame]);
     assert_eq!(status, 2);
     assert!(stderr.contains("--direction request"), "{stderr}");

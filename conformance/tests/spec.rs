@@ -20,19 +20,21 @@ fn two_devices_are_compared_fact_by_fact() {
     JA40 and JA variant
 
     Devices
-                                                        ja40                          ja-variant
-      model number                                      5210                          -
-      instruction Sync Read                             yes                           -
-      instruction Sync Write                            yes                           -
-      backup of Feedforward 1st Gain                    yes                           -
-      backup of Feedforward 2nd Gain                    yes                           -
-      backup of Position D Gain                         yes                           -
-      backup of Position I Gain                         yes                           -
-      backup of Position P Gain                         yes                           -
-      backup of Velocity I Gain                         yes                           -
-      backup of Velocity P Gain                         yes                           -
-      alarm, Present Position above Max Position Limit  Position Limit Reached Error  Position Limit Error
-      alarm, Present Position below Min Position Limit  Position Limit Reached Error  Position Limit Error
+                                                        ja40                                     ja-variant
+      model number                                      5210                                     not told
+      instruction Sync Read                             yes                                      -
+      instruction Sync Write                            yes                                      -
+      backup of Feedforward 1st Gain                    yes                                      not told
+      backup of Feedforward 2nd Gain                    yes                                      not told
+      backup of Position D Gain                         yes                                      not told
+      backup of Position I Gain                         yes                                      not told
+      backup of Position P Gain                         yes                                      not told
+      backup of Velocity I Gain                         yes                                      not told
+      backup of Velocity P Gain                         yes                                      not told
+      alarm, Present Position above Max Position Limit  Position Limit Reached Error             Position Limit Error
+      alarm, Present Position below Min Position Limit  Position Limit Reached Error             Position Limit Error
+      when, Present Position above Max Position Limit   Operating Mode is Position Control Mode  always
+      when, Present Position below Min Position Limit   Operating Mode is Position Control Mode  always
 
     Registers at whose address only ja40 has one
       2    Model Information     u32  EEPROM  R
@@ -46,7 +48,7 @@ fn two_devices_are_compared_fact_by_fact() {
 
     Registers at the same address
                                              ja40                          ja-variant
-      0    Model Number           initial    5210                          -
+      0    Model Number           initial    5210                          not told
       10   Drive Mode             initial    0                             2
                                   bit 1      Disable Profile               Enable Profile
                                   bit 2      Profile Configuration         -
@@ -58,8 +60,7 @@ fn two_devices_are_compared_fact_by_fact() {
                                   value 1    Velocity Control Mode         -
                                   value 3    Position Control Mode         -
       36   PWM Limit              initial    1500                          30000
-      518  Hardware Error Status  range      0 to 254                      -
-                                  bit 1      Velocity Limit Reached Error  -
+      518  Hardware Error Status  bit 1      Velocity Limit Reached Error  -
                                   bit 3      Encoder Error                 Motor Encoder Error
                                   bit 4      -                             Electrical Shock Error
                                   bit 6      Position Limit Reached Error  Position Limit Error

@@ -22,6 +22,12 @@ pub struct Diff<'a> {
     pub registers: Vec<Changed<'a>>,
 }
 
+/// What a list that the document gives in full does not have.
+pub const NONE: &str = "-";
+
+/// What the document does not say.
+pub const NOT_TOLD: &str = "not told";
+
 /// A register at whose address the other device has none.
 #[derive(Clone, Copy, Debug)]
 pub struct Only<'a> {
@@ -47,10 +53,10 @@ pub struct Changed<'a> {
 pub struct Difference {
     /// What it is about.
     pub fact: String,
-    /// What holds for the first; `None` if nothing does.
-    pub left: Option<String>,
-    /// What holds for the second; `None` if nothing does.
-    pub right: Option<String>,
+    /// What holds for the first; [`NONE`] or [`NOT_TOLD`] where nothing does.
+    pub left: String,
+    /// What holds for the second; [`NONE`] or [`NOT_TOLD`] where nothing does.
+    pub right: String,
 }
 
 impl<'a> Diff<'a> {
@@ -59,7 +65,11 @@ impl<'a> Diff<'a> {
     pub fn of(left: &'a Device, right: &'a Device) -> Self {
         let changed = left.registers.iter().filter_map(|register| {
             let other = at(right, register.address)?;
-            let differences = differences(&register_facts(register), &register_facts(other));
+            let differences = differences(
+                &register_facts(left, register),
+                &register_facts(right, other),
+                |fact, _| fact.is_listed(),
+            );
             (!differences.is_empty()).then_some(Changed {
                 left: register,
                 right: other,
@@ -69,7 +79,12 @@ impl<'a> Diff<'a> {
         Self {
             left,
             right,
-            device: differences(&device_facts(left), &device_facts(right)),
+            device: differences(&device_facts(left), &device_facts(right), |fact, side| {
+                fact.is_listed(match side {
+                    Side::Left => left,
+                    Side::Right => right,
+                })
+            }),
             only_left: only(left, right),
             only_right: only(right, left),
             registers: changed.collect(),
@@ -103,15 +118,32 @@ fn only<'a>(device: &'a Device, other: &Device) -> Vec<Only<'a>> {
 /// Facts in the order of their keys.
 type Facts<K> = BTreeMap<K, String>;
 
-fn differences<K: Ord + fmt::Display>(left: &Facts<K>, right: &Facts<K>) -> Vec<Difference> {
+/// One of the devices.
+#[derive(Clone, Copy)]
+enum Side {
+    Left,
+    Right,
+}
+
+/// `listed` tells whether the document would have told the fact of the device if it held.
+fn differences<K: Ord + fmt::Display>(
+    left: &Facts<K>,
+    right: &Facts<K>,
+    listed: impl Fn(&K, Side) -> bool,
+) -> Vec<Difference> {
+    let told = |value: Option<&String>, key: &K, side| match value {
+        Some(value) => value.clone(),
+        None if listed(key, side) => NONE.to_owned(),
+        None => NOT_TOLD.to_owned(),
+    };
     let keys: BTreeSet<_> = left.keys().chain(right.keys()).collect();
     keys.into_iter()
         .map(|key| (key, left.get(key), right.get(key)))
         .filter(|(_, left, right)| left != right)
         .map(|(key, left, right)| Difference {
             fact: key.to_string(),
-            left: left.cloned(),
-            right: right.cloned(),
+            left: told(left, key, Side::Left),
+            right: told(right, key, Side::Right),
         })
         .collect()
 }
@@ -125,6 +157,7 @@ enum DeviceFact {
     Instruction(String),
     Backup(String),
     Alarm(String),
+    AlarmWhile(String),
 }
 
 impl fmt::Display for DeviceFact {
@@ -135,7 +168,23 @@ impl fmt::Display for DeviceFact {
             Self::EepromLock => f.write_str("EEPROM lock"),
             Self::Instruction(name) => write!(f, "instruction {name}"),
             Self::Backup(name) => write!(f, "backup of {name}"),
-            Self::Alarm(name) => write!(f, "alarm, {name}"),
+            Self::Alarm(case) => write!(f, "alarm, {case}"),
+            Self::AlarmWhile(case) => write!(f, "when, {case}"),
+        }
+    }
+}
+
+impl DeviceFact {
+    /// Whether the document lists what is of this kind, so that absence is an answer.
+    fn is_listed(&self, device: &Device) -> bool {
+        match self {
+            Self::Instruction(_) => true,
+            Self::Backup(_) => !device.backup.is_empty(),
+            Self::Protocol
+            | Self::ModelNumber
+            | Self::EepromLock
+            | Self::Alarm(_)
+            | Self::AlarmWhile(_) => false,
         }
     }
 }
@@ -151,8 +200,11 @@ fn device_facts(device: &Device) -> Facts<DeviceFact> {
     facts.extend(backup.map(|name| (DeviceFact::Backup(name), yes())));
     for alarm in &device.alarms {
         for (word, limit) in [("below", &alarm.below), ("above", &alarm.above)] {
-            let case = limit.as_ref().map(|limit| format!("{} {word} {limit}", alarm.register));
-            facts.extend(case.map(|case| (DeviceFact::Alarm(case), alarm.bit.clone())));
+            let Some(limit) = limit else { continue };
+            let case = format!("{} {word} {limit}", alarm.register);
+            let when = alarm.when.as_ref().map(|when| when.in_words(device));
+            facts.insert(DeviceFact::Alarm(case.clone()), alarm.bit.clone());
+            facts.insert(DeviceFact::AlarmWhile(case), when.unwrap_or_else(|| "always".to_owned()));
         }
     }
     facts
@@ -168,6 +220,7 @@ enum RegisterFact {
     Initial,
     Range,
     Unit,
+    While(usize),
     Bit(u8),
     BitValue(u8, i64),
     Value(i64),
@@ -183,6 +236,7 @@ impl fmt::Display for RegisterFact {
             Self::Initial => f.write_str("initial"),
             Self::Range => f.write_str("range"),
             Self::Unit => f.write_str("unit"),
+            Self::While(index) => write!(f, "other meaning {}", index + 1),
             Self::Bit(lowest) => write!(f, "bit {lowest}"),
             Self::BitValue(lowest, value) => write!(f, "bit {lowest} = {value}"),
             Self::Value(value) => write!(f, "value {value}"),
@@ -190,7 +244,14 @@ impl fmt::Display for RegisterFact {
     }
 }
 
-fn register_facts(register: &Register) -> Facts<RegisterFact> {
+impl RegisterFact {
+    /// Whether a register's row or table has it, so that absence is an answer.
+    const fn is_listed(&self) -> bool {
+        matches!(self, Self::Bit(_) | Self::BitValue(..) | Self::Value(_))
+    }
+}
+
+fn register_facts(device: &Device, register: &Register) -> Facts<RegisterFact> {
     let mut facts = Facts::from([
         (RegisterFact::Name, register.name.clone()),
         (RegisterFact::Type, register.kind.to_string()),
@@ -200,6 +261,8 @@ fn register_facts(register: &Register) -> Facts<RegisterFact> {
     facts.extend(register.initial.map(|value| (RegisterFact::Initial, value.to_string())));
     facts.extend(register.range.as_ref().map(|range| (RegisterFact::Range, range.to_string())));
     facts.extend(register.unit.as_ref().map(|unit| (RegisterFact::Unit, unit.to_string())));
+    let meanings = register.meanings.iter().enumerate();
+    facts.extend(meanings.map(|(index, row)| (RegisterFact::While(index), row.in_words(device))));
     let values = register.values.iter();
     facts.extend(values.map(|row| (RegisterFact::Value(row.value), row.to_string())));
     for bits in &register.bits {
@@ -238,9 +301,7 @@ registers:
     }
 
     fn told(differences: &[Difference]) -> Vec<String> {
-        let shown = |value: &Option<String>| value.clone().unwrap_or_else(|| "-".to_owned());
-        let row =
-            |row: &Difference| format!("{}: {}, {}", row.fact, shown(&row.left), shown(&row.right));
+        let row = |row: &Difference| format!("{}: {}, {}", row.fact, row.left, row.right);
         differences.iter().map(row).collect()
     }
 
@@ -277,7 +338,7 @@ registers:
         assert_eq!(
             registers,
             [
-                vec!["type: u8, i16", "area: EEPROM, RAM", "access: R, RW", "initial: 3, -"],
+                vec!["type: u8, i16", "area: EEPROM, RAM", "access: R, RW", "initial: 3, not told"],
                 vec!["value 0: Off, Off, or so"],
                 vec!["bit 0: A, B, 2 bits", "bit 2: -, C"],
             ]

@@ -85,7 +85,7 @@ fn a_broken_yaml_file_does_not_fit() {
         ("devices/ja40.yaml", "type: u16", "type: u17"),
         ("devices/ja40.yaml", "access: r\n", "acess: r\n"),
         ("devices/ja40.yaml", "[ja40 §2.2]", "[ja40 2.2]"),
-        ("devices/ja40.yaml", "{min: 0, max: 252}", "{min: 0, max: [252]}"),
+        ("devices/ja40.yaml", "{min: 0, max: 252", "{min: 0, max: [252]"),
         ("protocols/dynamixel2.yaml", "size: rest", "size: -1"),
         ("protocols/innfos.yaml", "direction: read", "direction: both"),
         ("vectors/dynamixel2/ping.yaml", "kind: status", "kind: answer"),

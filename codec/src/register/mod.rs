@@ -21,6 +21,7 @@
 mod data;
 mod device;
 mod error;
+mod meaning;
 mod range;
 mod row;
 mod typed;
@@ -28,6 +29,7 @@ mod typed;
 pub use data::Data;
 pub use device::Device;
 pub use error::RegisterError;
+pub use meaning::{Condition, Meaning};
 pub use range::{Bound, Range};
 pub use row::{Access, Area, BitField, Kind, NamedValue, Row, Unit};
 pub use typed::{Register, RegisterRead, RegisterWrite, Value};

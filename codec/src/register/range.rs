@@ -42,7 +42,7 @@ impl Bound {
 
 impl Row {
     /// The smallest and the largest value that the register takes: those of its range, cut to its
-    /// size. `limits` is as in [`Row::encode`]. For a list of values the ends of the list.
+    /// size. `limits` is as in [`Row::encode`], and tells of modes too. For a list of values the ends of the list.
     ///
     /// ```
     /// use actucheck_codec::ja40;
@@ -53,7 +53,7 @@ impl Row {
     #[must_use]
     pub fn bounds(&self, limits: impl Fn(u16) -> Option<i64>) -> (i64, i64) {
         let (smallest, largest) = self.kind.limits();
-        let (min, max) = match self.range {
+        let (min, max) = match self.range_while(&limits) {
             Range::Any => (None, None),
             Range::Between { min, max } => (min.value(&limits), max.value(&limits)),
             Range::OneOf(values) => (values.iter().min().copied(), values.iter().max().copied()),
@@ -73,7 +73,7 @@ impl Row {
         limits: impl Fn(u16) -> Option<i64>,
     ) -> Result<(), RegisterError> {
         let register = self.name;
-        if let Range::OneOf(listed) = self.range
+        if let Range::OneOf(listed) = self.range_while(&limits)
             && !listed.contains(&value)
         {
             return Err(RegisterError::NotListed { register, value, listed });

@@ -1,4 +1,4 @@
-use super::{Data, Range, RegisterError};
+use super::{Data, Meaning, Range, RegisterError};
 use crate::number::{nearest, to_f64};
 
 /// A row of a control table: a register's bare facts, its values plain numbers.
@@ -18,8 +18,14 @@ pub struct Row {
     pub initial: Option<i64>,
     /// The values that it may have.
     pub range: Range,
+    /// Whether the documents agree on the range. Where they do not, [`Row::encode`] takes every
+    /// value of the register's size.
+    pub settled: bool,
     /// What one count of its value is.
     pub unit: Option<Unit>,
+    /// What else range and unit are while another register holds something; the first whose
+    /// condition holds counts.
+    pub meanings: &'static [Meaning],
     /// Values with a name.
     pub values: &'static [NamedValue],
     /// Bits with a meaning of their own.
@@ -48,8 +54,9 @@ impl Row {
     }
 
     /// The bytes to write for `value`. `limits` tells what the register at an address holds: the
-    /// ends of some ranges are other registers' values. Where it tells `None`, only the size of
-    /// the register limits that end.
+    /// ends of some ranges are other registers' values, and some ranges depend on a mode. Where it
+    /// tells `None`, only the size of the register limits that end. A range that is not
+    /// [settled](Row::settled) limits nothing.
     ///
     /// ```
     /// use actucheck_codec::ja40;
@@ -68,11 +75,34 @@ impl Row {
         value: i64,
         limits: impl Fn(u16) -> Option<i64>,
     ) -> Result<Data, RegisterError> {
+        if self.settled && self.access == Access::ReadWrite {
+            self.check(value, limits)?;
+        }
+        self.encode_unchecked(value)
+    }
+
+    /// The bytes to write for any `value` that the register's size holds, also outside its range.
+    ///
+    /// ```
+    /// use actucheck_codec::ja40;
+    /// let limit = ja40::DEVICE.register_named("Temperature Limit").unwrap(); // 0 to 100
+    /// assert!(limit.encode(101, |_| None).is_err());
+    /// assert_eq!(limit.encode_unchecked(101)?.as_bytes(), b"\x65");
+    /// # Ok::<(), actucheck_codec::register::RegisterError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If the register is read-only or too small for the value.
+    pub fn encode_unchecked(&self, value: i64) -> Result<Data, RegisterError> {
         if self.access == Access::ReadOnly {
             return Err(RegisterError::ReadOnly { register: self.name });
         }
-        self.check(value, limits)?;
-        Ok(Data::of(self.kind, value))
+        let (min, max) = self.kind.limits();
+        if (min..=max).contains(&value) {
+            Ok(Data::of(self.kind, value))
+        } else {
+            Err(RegisterError::OutOfRange { register: self.name, value, min, max })
+        }
     }
 
     /// The name of a value, if it has one.
@@ -82,6 +112,7 @@ impl Row {
     }
 
     /// A value in the register's [`Unit`]: the count times the factor; `None` if it has no unit.
+    /// For one that depends on a mode see [`Row::unit_while`].
     #[must_use]
     pub fn physical(&self, value: i64) -> Option<f64> {
         self.unit.map(|unit| to_f64(value) * unit.factor)

@@ -113,6 +113,15 @@ impl<T: Value> Register<T> {
         Ok(RegisterWrite { id, address: self.row.address, data, instruction: Instruction::Write })
     }
 
+    /// The request to set it on the device `id` to any value, also outside its range.
+    ///
+    /// # Errors
+    /// If the register is read-only.
+    pub fn write_unchecked(self, id: u8, value: T) -> Result<RegisterWrite, RegisterError> {
+        let data = self.row.encode_unchecked(value.raw())?;
+        Ok(RegisterWrite { id, address: self.row.address, data, instruction: Instruction::Write })
+    }
+
     /// The value that these bytes hold.
     ///
     /// # Errors

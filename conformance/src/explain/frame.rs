@@ -7,7 +7,7 @@ use actucheck_codec::dynamixel2::{
     BROADCAST_ID, FastStatus, Frame, FrameError, Instruction, StatusError,
 };
 use actucheck_codec::layout::{self, Item};
-use actucheck_codec::register::{Device, NamedValue, Row as Register};
+use actucheck_codec::register::{Device, NamedValue, Row as Register, Unit};
 
 use super::table::{Explanation, Table, low_first, rounded};
 
@@ -252,11 +252,15 @@ fn value_words(register: &Register, value: i64) -> String {
     let mut words = format!("{} = {value}", register.name);
     let mut notes = Vec::new();
     notes.extend(register.value_name(value).map(str::to_owned));
-    notes.extend(register.unit.map(|unit| {
+    let physical = |unit: Unit| {
         // Registers have 32 bits at most, which a double holds exactly.
         #[allow(clippy::cast_precision_loss)]
         let physical = value as f64 * unit.factor;
         format!("{} {}", rounded(physical), unit.symbol)
+    };
+    notes.extend(register.unit.map(physical));
+    notes.extend(register.meanings.iter().filter_map(|meaning| {
+        Some(format!("{} while {}", physical(meaning.unit?), meaning.when.words))
     }));
     for field in register.bits {
         let part = field.of(value);

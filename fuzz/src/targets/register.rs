@@ -5,7 +5,9 @@ use std::sync::LazyLock;
 
 use actucheck_codec::register::{self, Device, Row, Value};
 use actucheck_codec::{ja_variant, ja40, xm430_w210};
-use actucheck_spec::model::{self, Access, Bound, Packet, Range, Register, Type};
+use actucheck_spec::model::{
+    self, Access, Bound, Condition, ErrataFile, Packet, Range, Register, Status, Type,
+};
 use actucheck_spec::wire::dynamixel2::reference;
 use arbitrary::{Result, Unstructured};
 
@@ -15,6 +17,13 @@ use crate::yaml;
 const DEVICES: [Device; 3] = [ja40::DEVICE, ja_variant::DEVICE, xm430_w210::DEVICE];
 static SAID: LazyLock<[model::Device; 3]> =
     LazyLock::new(|| DEVICES.map(|device| yaml::read(&format!("devices/{}.yaml", device.id))));
+
+/// Ids of the open errata.
+static OPEN: LazyLock<Vec<String>> = LazyLock::new(|| {
+    let file: ErrataFile = yaml::read("errata.yaml");
+    let open = file.errata.into_iter().filter(|row| row.status == Status::Open);
+    open.map(|row| row.id).collect()
+});
 
 /// The input is a device, a register, what the registers hold that limit it, and a value.
 ///
@@ -70,6 +79,19 @@ impl Limits<'_> {
     }
 }
 
+impl Limits<'_> {
+    fn hold(&self, when: &Condition) -> bool {
+        let register = self.device.register(&when.register).unwrap();
+        self.at(register.address).is_some_and(|held| {
+            let part = when.bits.as_ref().map_or(held, |name| {
+                let bits = register.bit_field(name).unwrap();
+                (held >> bits.lowest) & ((1 << bits.width) - 1)
+            });
+            when.one_of.contains(&part)
+        })
+    }
+}
+
 /// One in, at, just outside or far outside what the register takes, or any.
 fn value(choices: &mut Unstructured<'_>, register: &Register, limits: &Limits<'_>) -> Result<i64> {
     let (smallest, largest) = width(register.kind);
@@ -97,9 +119,14 @@ fn width(kind: Type) -> (i64, i64) {
     }
 }
 
-/// Whether hosts may write it, and the register may have it.
+/// Whether hosts may write it, and the register may have it. A range that rests on an open erratum
+/// forbids nothing.
 fn allowed(register: &Register, limits: &Limits<'_>, value: i64) -> bool {
     let (smallest, largest) = width(register.kind);
+    let settled = |range: &&Range| !range.errata.iter().any(|id| OPEN.contains(id));
+    let range = register.range.as_ref().filter(settled);
+    let meaning = register.meanings.iter().find(|meaning| limits.hold(&meaning.when));
+    let range = range.map(|range| meaning.and_then(|row| row.range.as_ref()).unwrap_or(range));
     let in_range = |range: &Range| {
         let min = range.min.as_ref().and_then(|min| limits.of(min));
         let max = range.max.as_ref().and_then(|max| limits.of(max));
@@ -109,7 +136,7 @@ fn allowed(register: &Register, limits: &Limits<'_>, value: i64) -> bool {
     };
     register.access == Access::Rw
         && (smallest..=largest).contains(&value)
-        && register.range.as_ref().is_none_or(in_range)
+        && range.is_none_or(in_range)
 }
 
 fn write(row: &Row, register: &Register, limits: &Limits<'_>, value: i64) {

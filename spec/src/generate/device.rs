@@ -7,9 +7,12 @@ use super::token::{
     capitalised, constant_name, module_name, named_values, number, option, type_name,
 };
 use super::{places, value};
-use crate::model::{Access, Area, BitField, Bound, Device, Range, Register};
+use crate::Spec;
+use crate::model::{
+    Access, Area, BitField, Bound, Condition, Device, Meaning, Range, Register, Unit,
+};
 
-pub(super) fn module(device: &Device) -> TokenStream {
+pub(super) fn module(spec: &Spec, device: &Device) -> TokenStream {
     let name = module_name(&device.device);
     let doc = format!(" The {} control table: {}.", device.title, places(&device.source));
     let (id, title) = (&device.device, &device.title);
@@ -22,7 +25,7 @@ pub(super) fn module(device: &Device) -> TokenStream {
     let names: Vec<_> =
         device.registers.iter().map(|register| constant_name(&register.name)).collect();
     let registers = device.registers.iter().zip(&names).map(|(row, name)| {
-        let (doc, value) = (register_doc(row), register(device, row));
+        let (doc, value) = (register_doc(device, row), register(spec, device, row));
         let (value_type, declarations) = (value::of(row), value::declarations(row));
         quote! {
             #(#[doc = #doc])*
@@ -36,8 +39,8 @@ pub(super) fn module(device: &Device) -> TokenStream {
         pub mod #name {
             use crate::dynamixel2::Instruction;
             use crate::register::{
-                Access, Area, BitField, Bound, Device, Kind, NamedValue, Range, Register, Row, Unit,
-                Value,
+                Access, Area, BitField, Bound, Condition, Device, Kind, Meaning, NamedValue, Range,
+                Register, Row, Unit, Value,
             };
 
             /// The device as a whole.
@@ -55,7 +58,7 @@ pub(super) fn module(device: &Device) -> TokenStream {
     }
 }
 
-fn register_doc(register: &Register) -> Vec<String> {
+fn register_doc(device: &Device, register: &Register) -> Vec<String> {
     let area = match register.area {
         Area::Eeprom => "EEPROM area",
         Area::Ram => "RAM area",
@@ -80,11 +83,14 @@ fn register_doc(register: &Register) -> Vec<String> {
     if !facts.is_empty() {
         lines.push(format!(" {}.", capitalised(&facts.join(", "))));
     }
+    for meaning in &register.meanings {
+        lines.push(format!(" {}.", capitalised(&meaning.in_words(device))));
+    }
     lines.push(format!(" Source: {}.", places(&register.source)));
     lines
 }
 
-fn register(device: &Device, register: &Register) -> TokenStream {
+fn register(spec: &Spec, device: &Device, register: &Register) -> TokenStream {
     let (name, address) = (&register.name, register.address);
     let kind = value::kind(register.kind);
     let area = match register.area {
@@ -98,10 +104,9 @@ fn register(device: &Device, register: &Register) -> TokenStream {
     let initial = option(register.initial.map(number));
     let range =
         register.range.as_ref().map_or_else(|| quote!(Range::Any), |row| range(device, row));
-    let unit = option(register.unit.as_ref().map(|unit| {
-        let (factor, symbol) = (Literal::f64_unsuffixed(unit.factor), &unit.symbol);
-        quote!(Unit { factor: #factor, symbol: #symbol })
-    }));
+    let settled = register.range.iter().all(|range| spec.settles(range));
+    let unit = unit(register.unit.as_ref());
+    let meanings = register.meanings.iter().map(|row| meaning(device, row));
     let values = named_values(&register.values);
     let bits = register.bits.iter().map(bit_field);
     quote! {
@@ -113,9 +118,48 @@ fn register(device: &Device, register: &Register) -> TokenStream {
             access: Access::#access,
             initial: #initial,
             range: #range,
+            settled: #settled,
             unit: #unit,
+            meanings: &[#(#meanings),*],
             values: #values,
             bits: &[#(#bits),*],
+        }
+    }
+}
+
+fn unit(unit: Option<&Unit>) -> TokenStream {
+    option(unit.map(|unit| {
+        let (factor, symbol) = (Literal::f64_unsuffixed(unit.factor), &unit.symbol);
+        quote!(Unit { factor: #factor, symbol: #symbol })
+    }))
+}
+
+fn meaning(device: &Device, meaning: &Meaning) -> TokenStream {
+    let condition = condition(device, &meaning.when);
+    let range = option(meaning.range.as_ref().map(|row| range(device, row)));
+    let unit = unit(meaning.unit.as_ref());
+    quote!(Meaning { when: #condition, range: #range, unit: #unit })
+}
+
+/// A checked spec has the register and the bits; else the source won't compile.
+fn condition(device: &Device, condition: &Condition) -> TokenStream {
+    let Some(register) = device.register(&condition.register) else {
+        return quote!(compile_error!("unknown register"));
+    };
+    let bits = condition.bits.as_ref().and_then(|name| register.bit_field(name));
+    let whole = register.kind.size() * 8;
+    let (lowest, width) =
+        bits.map_or_else(|| (0, whole), |bits| (bits.lowest.into(), bits.width.into()));
+    let (address, values) = (register.address, condition.one_of.iter().map(|value| number(*value)));
+    let (lowest, width) = (Literal::u16_unsuffixed(lowest), Literal::u16_unsuffixed(width));
+    let words = condition.in_words(device);
+    quote! {
+        Condition {
+            address: #address,
+            lowest: #lowest,
+            width: #width,
+            one_of: &[#(#values),*],
+            words: #words,
         }
     }
 }

@@ -204,16 +204,17 @@ fn alarms(alarms: &Alarms) -> TokenStream {
     let masks = alarms.rows.iter().map(|row| hex16(row.mask));
     let names = alarms.rows.iter().map(|row| &row.name);
     let known = hex16(alarms.rows.iter().fold(0, |named, row| named | row.mask));
-    let other = format!(" The bits that mean an {}.", alarms.other.to_lowercase());
+    let other_name = &alarms.other;
+    let other = format!(" The bits that mean an {}.", other_name.to_lowercase());
     quote! {
         #[doc = #doc]
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
         pub struct Alarms(pub u16);
 
         impl Alarms {
-            /// The names of those that are set and have one.
+            /// What is set, by name: each that has one, then the one name of all others.
             pub fn names(self) -> impl Iterator<Item = &'static str> {
-                let rows = [#((#masks, #names)),*];
+                let rows = [#((#masks, #names),)* (!#known, #other_name)];
                 rows.into_iter().filter(move |row: &(u16, _)| self.0 & row.0 != 0).map(|row| row.1)
             }
 

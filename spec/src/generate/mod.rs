@@ -51,7 +51,7 @@ pub fn codec(spec: &Spec) -> Result<Vec<Module>, GenerateError> {
         modules.push(protocol(&file.content)?);
     }
     modules.push(innfos(&spec.innfos.content)?);
-    let devices = spec.devices.iter().map(|file| device::module(&file.content));
+    let devices = spec.devices.iter().map(|file| device::module(spec, &file.content));
     modules.push(format("devices", &quote!(#(#devices)*))?);
     Ok(modules)
 }
@@ -72,12 +72,12 @@ pub fn innfos(innfos: &Innfos) -> Result<Module, GenerateError> {
     format(&innfos.protocol, &innfos::module(innfos))
 }
 
-/// The module of one device.
+/// The module of one device of the spec.
 ///
 /// # Errors
 /// If a name of the spec can't be turned into a Rust name.
-pub fn device(device: &Device) -> Result<Module, GenerateError> {
-    format(&device.device, &device::module(device))
+pub fn device(spec: &Spec, device: &Device) -> Result<Module, GenerateError> {
+    format(&device.device, &device::module(spec, device))
 }
 
 fn format(name: &str, tokens: &TokenStream) -> Result<Module, GenerateError> {

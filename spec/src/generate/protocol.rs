@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::token::{hex8, module_name, named_values, type_name};
+use super::token::{constant_name, hex8, module_name, named_values, type_name};
 use super::wire_enum::wire_enum;
 use super::{constants, places};
 use crate::model::{Field, Instruction, Protocol, Size};
@@ -90,6 +90,7 @@ fn instructions(protocol: &Protocol) -> TokenStream {
     let name = type_name("Instruction");
     let declaration = wire_enum(&name, " What a packet asks for, or that it is an answer.", &rows);
     let options = protocol.instructions.iter().flat_map(options);
+    let fixed = protocol.instructions.iter().flat_map(fixed);
 
     let arms = |pick: fn(&Instruction) -> Option<&Vec<Field>>| {
         let arms = protocol.instructions.iter().filter_map(|row| {
@@ -115,6 +116,7 @@ fn instructions(protocol: &Protocol) -> TokenStream {
     quote! {
         #declaration
         #(#options)*
+        #(#fixed)*
 
         impl Instruction {
             /// Layout of the parameters of an instruction packet; `None` for
@@ -185,6 +187,26 @@ fn options(instruction: &Instruction) -> Vec<TokenStream> {
         wire_enum(&name, &doc, &rows)
     });
     options.collect()
+}
+
+/// A constant for each parameter whose bytes the document gives: `CLEAR_KEY`.
+fn fixed(instruction: &Instruction) -> Vec<TokenStream> {
+    let constant = |field: &Field| {
+        let bytes = field.fixed.as_ref()?;
+        let name = constant_name(&format!("{} {}", instruction.name, field.name));
+        let (size, bytes) = (bytes.len(), bytes.iter().map(|byte| hex8(*byte)));
+        let doc = format!(
+            " The {} of {} ({}).",
+            field.name,
+            instruction.name,
+            places(&instruction.source)
+        );
+        Some(quote! {
+            #[doc = #doc]
+            pub const #name: [u8; #size] = [#(#bytes),*];
+        })
+    };
+    instruction.parameters.iter().filter_map(constant).collect()
 }
 
 fn errors(protocol: &Protocol) -> TokenStream {

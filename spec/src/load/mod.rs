@@ -11,8 +11,8 @@ use serde::de::DeserializeOwned;
 use crate::Diagnostic;
 use crate::check;
 use crate::model::{
-    Citation, Device, Document, DocumentsFile, ErrataFile, Erratum, Innfos, Protocol, Requirement,
-    RequirementsFile, Vector, VectorsFile,
+    Citation, Device, Document, DocumentsFile, ErrataFile, Erratum, Innfos, Protocol, Range,
+    Requirement, RequirementsFile, Status, Vector, VectorsFile,
 };
 
 /// The text of one YAML file.
@@ -186,6 +186,13 @@ impl Spec {
     #[must_use]
     pub fn erratum(&self, id: &str) -> Option<&Erratum> {
         self.errata.content.errata.iter().find(|erratum| erratum.id == id)
+    }
+
+    /// Whether the documents agree on a range: no open erratum is behind it.
+    #[must_use]
+    pub fn settles(&self, range: &Range) -> bool {
+        let open = |id: &String| self.erratum(id).is_some_and(|row| row.status == Status::Open);
+        !range.errata.iter().any(open)
     }
 
     /// Every vector with the file it stands in, in the order of files and of rows.

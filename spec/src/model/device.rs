@@ -56,6 +56,65 @@ pub struct Alarm {
     pub below: Option<String>,
     /// The register that holds the largest value without an alarm.
     pub above: Option<String>,
+    /// What has to hold besides; absent where nothing has to.
+    pub when: Option<Condition>,
+    /// Ids of the errata that it depends on.
+    #[serde(default)]
+    pub errata: Vec<String>,
+}
+
+/// What another register has to hold: `{register: Drive Mode, bits: Profile Configuration,
+/// one_of: [1]}`.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Condition {
+    /// The register.
+    pub register: String,
+    /// The bits of it that count, if not all do.
+    pub bits: Option<String>,
+    /// The values for which the condition holds; those of the bits shifted down to bit 0.
+    pub one_of: Vec<i64>,
+}
+
+impl Condition {
+    /// The condition in words, with the names that `device` gives the values:
+    /// `Operating Mode is Position Control Mode`.
+    #[must_use]
+    pub fn in_words(&self, device: &Device) -> String {
+        let register = device.register(&self.register);
+        let bits = self.bits.as_ref().and_then(|name| register?.bit_field(name));
+        let named = bits.map_or_else(
+            || register.map_or(&[][..], |register| &register.values),
+            |bits| &bits.values,
+        );
+        let value = |value: &i64| {
+            let name = named.iter().find(|row| row.value == *value);
+            name.map_or_else(|| value.to_string(), |row| row.name.clone())
+        };
+        let values: Vec<_> = self.one_of.iter().map(value).collect();
+        let what = self
+            .bits
+            .as_ref()
+            .map_or_else(|| self.register.clone(), |bits| format!("{bits} of {}", self.register));
+        format!("{what} is {}", values.join(" or "))
+    }
+}
+
+/// What a register's value means while a condition holds, where that is not what it means else.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Meaning {
+    /// When it holds.
+    pub when: Condition,
+    /// The values that the register then may have; as else if absent.
+    pub range: Option<Range>,
+    /// What one count then is; as else if absent.
+    pub unit: Option<Unit>,
+    /// Where this stands.
+    pub source: Vec<Citation>,
+    /// Ids of the errata that it depends on.
+    #[serde(default)]
+    pub errata: Vec<String>,
 }
 
 /// A row of a control table.
@@ -79,6 +138,10 @@ pub struct Register {
     pub range: Option<Range>,
     /// What one count of its value is.
     pub unit: Option<Unit>,
+    /// What else its range and its unit are while another register holds something; the first
+    /// whose condition holds counts.
+    #[serde(default)]
+    pub meanings: Vec<Meaning>,
     /// Where this stands.
     pub source: Vec<Citation>,
     /// Ids of the errata that it depends on.
@@ -90,6 +153,33 @@ pub struct Register {
     /// Bits with a meaning of their own, by rising place.
     #[serde(default)]
     pub bits: Vec<BitField>,
+}
+
+impl Register {
+    /// The bits with this name.
+    #[must_use]
+    pub fn bit_field(&self, name: &str) -> Option<&BitField> {
+        self.bits.iter().find(|bits| bits.name == name)
+    }
+
+    /// Ids of all errata that it depends on: its own, and those of its range and its meanings.
+    pub fn all_errata(&self) -> impl Iterator<Item = &String> {
+        let ranges = self.range.iter().chain(self.meanings.iter().flat_map(|row| &row.range));
+        let meanings = self.meanings.iter().flat_map(|row| &row.errata);
+        self.errata.iter().chain(ranges.flat_map(|range| &range.errata)).chain(meanings)
+    }
+}
+
+impl Meaning {
+    /// Range, unit and condition in words: `0 to 32767, one count is 1 ms, while …`.
+    #[must_use]
+    pub fn in_words(&self, device: &Device) -> String {
+        let range = self.range.as_ref().map(ToString::to_string);
+        let unit = self.unit.as_ref().map(|unit| format!("one count is {unit}"));
+        let when = format!("while {}", self.when.in_words(device));
+        let facts: Vec<_> = range.into_iter().chain(unit).chain([when]).collect();
+        facts.join(", ")
+    }
 }
 
 /// Size and signedness of a register.
@@ -203,6 +293,10 @@ pub struct Range {
     pub max: Option<Bound>,
     /// All of them.
     pub one_of: Option<Vec<i64>>,
+    /// Ids of the errata that it rests on. While one of them is open, who writes is not held to
+    /// the range.
+    #[serde(default)]
+    pub errata: Vec<String>,
 }
 
 impl fmt::Display for Range {

@@ -15,7 +15,8 @@ mod vector;
 pub use bytes::HexBytes;
 pub use citation::Citation;
 pub use device::{
-    Access, Alarm, Area, BitField, Bound, Device, NamedValue, Range, Register, Type, Unit,
+    Access, Alarm, Area, BitField, Bound, Condition, Device, Meaning, NamedValue, Range, Register,
+    Type, Unit,
 };
 pub use document::{Document, DocumentsFile};
 pub use erratum::{ErrataFile, Erratum, Proof, ProofKind, Status};

@@ -1,7 +1,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Citation, NamedValue};
+use super::{Citation, HexBytes, NamedValue};
 
 /// A file of `protocols/`: the wire and its instructions.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
@@ -217,6 +217,8 @@ pub struct Field {
     /// Whether the layout may end before it.
     #[serde(default)]
     pub optional: bool,
+    /// The bytes that it always has, if the document gives them.
+    pub fixed: Option<HexBytes>,
     /// Values with a name.
     #[serde(default)]
     pub values: Vec<NamedValue>,

@@ -25,6 +25,9 @@ pub struct Requirement {
     pub text: String,
     /// Where the document demands it.
     pub source: Citation,
+    /// Ids of the errata that it rests on: what it says differs with how they are decided.
+    #[serde(default)]
+    pub errata: Vec<String>,
     /// Who has to obey.
     pub binds: Vec<Role>,
     /// Tests of this repository that hold the built-in codec to it, beside the suite's checks,

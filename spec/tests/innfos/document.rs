@@ -1,7 +1,8 @@
 //! The document as text, tables and frames.
 
-use std::fs;
-use std::path::Path;
+use std::io::{Write, stderr};
+use std::path::{Path, PathBuf};
+use std::{env, fs};
 
 /// A table as rows of cells, without tags.
 pub(crate) type Table = Vec<Vec<String>>;
@@ -9,10 +10,12 @@ pub(crate) type Table = Vec<Vec<String>>;
 /// The document; `None` with a printed line where it is not at hand.
 pub(crate) fn read(spec: &actucheck_spec::Spec) -> Option<String> {
     let file = &spec.document("innfos").expect("no such document").file;
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/documents").join(file);
+    let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/documents");
+    let path = env::var_os("ACTUCHECK_DOCUMENTS").map_or_else(beside, PathBuf::from).join(file);
     let text = fs::read_to_string(&path).ok();
     if text.is_none() {
-        println!("skipped: {} is not there", path.display());
+        // Past the test harness, which hides what a test that passes prints.
+        let _ = writeln!(stderr(), "skipped: {} is not there", path.display());
     }
     text
 }

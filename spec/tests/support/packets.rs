@@ -12,6 +12,8 @@ const FEWEST: usize = 4;
 pub(crate) struct Example<'a> {
     /// The line of its first row.
     pub(crate) line: &'a Line,
+    /// The line of its last row, on which its CRC stands.
+    pub(crate) last: &'a Line,
     /// Its bytes; where a cell is empty, none.
     pub(crate) bytes: Vec<u8>,
 }
@@ -25,8 +27,11 @@ pub(crate) fn examples<'a>(protocol: &Protocol, document: &'a Document) -> Vec<E
             continue;
         };
         match examples.last_mut() {
-            Some(last) if !bytes.starts_with(header) => last.bytes.extend(bytes),
-            _ => examples.push(Example { line, bytes }),
+            Some(example) if !bytes.starts_with(header) => {
+                example.bytes.extend(bytes);
+                example.last = line;
+            }
+            _ => examples.push(Example { line, last: line, bytes }),
         }
     }
     examples
@@ -67,7 +72,7 @@ pub(crate) fn findings(protocol: &Protocol, document: &Document) -> Vec<Finding>
         .filter(|example| !is_intact(protocol, &example.bytes))
         .map(|example| Finding {
             document: document.id.clone(),
-            line: example.line.number,
+            line: example.last.number,
             kind: ProofKind::Packet,
             what: format!("length or CRC of {} is wrong", HexBytes(example.bytes.clone())),
         })

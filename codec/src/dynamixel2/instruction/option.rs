@@ -2,7 +2,9 @@
 
 use super::addressed;
 use super::params::Params;
-use crate::dynamixel2::{ClearOption, ControlTableBackupOption, FactoryResetOption};
+use crate::dynamixel2::{
+    CLEAR_KEY, CONTROL_TABLE_BACKUP_KEY, ClearOption, ControlTableBackupOption, FactoryResetOption,
+};
 use crate::layout::LayoutError;
 
 /// Sets the control table back to its factory defaults, then reboots (DYNAMIXEL Protocol 2.0,
@@ -56,10 +58,8 @@ pub enum Clear<'a> {
 
 impl Clear<'static> {
     /// Sets Present Position back into one turn.
-    pub const MULTI_TURN: Self = Self::Option {
-        option: ClearOption::ClearMultiTurnInformation,
-        key: &[0x44, 0x58, 0x4C, 0x22],
-    };
+    pub const MULTI_TURN: Self =
+        Self::Option { option: ClearOption::ClearMultiTurnInformation, key: &CLEAR_KEY };
 }
 
 impl<'a> Clear<'a> {
@@ -101,7 +101,7 @@ pub struct ControlTableBackup {
 
 impl ControlTableBackup {
     /// The letters `CTRL`.
-    pub const KEY: [u8; 4] = [0x43, 0x54, 0x52, 0x4C];
+    pub const KEY: [u8; 4] = CONTROL_TABLE_BACKUP_KEY;
     /// Stores the EEPROM area and the gains.
     pub const STORE: Self = Self { option: ControlTableBackupOption::Store, key: Self::KEY };
     /// Restores what was stored. The document prints only the option to store; this is the one of

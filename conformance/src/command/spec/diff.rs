@@ -76,8 +76,7 @@ fn facts(left: &str, right: &str) -> [String; 3] {
 }
 
 fn row(difference: &Difference) -> [String; 3] {
-    let shown = |value: &Option<String>| value.clone().unwrap_or_else(|| "-".to_owned());
-    [difference.fact.clone(), shown(&difference.left), shown(&difference.right)]
+    [difference.fact.clone(), difference.left.clone(), difference.right.clone()]
 }
 
 fn only(text: &mut String, device: &Device, other: &Device, rows: &[Only<'_>]) {

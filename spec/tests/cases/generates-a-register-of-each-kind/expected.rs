@@ -323,9 +323,9 @@ pub mod board {
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
     pub struct Alarms(pub u16);
     impl Alarms {
-        /// The names of those that are set and have one.
+        /// What is set, by name: each that has one, then the one name of all others.
         pub fn names(self) -> impl Iterator<Item = &'static str> {
-            let rows = [];
+            let rows = [(!0x0000, "None")];
             rows.into_iter()
                 .filter(move |row: &(u16, _)| self.0 & row.0 != 0)
                 .map(|row| row.1)
@@ -346,8 +346,8 @@ pub mod board {
 pub mod motor {
     use crate::dynamixel2::Instruction;
     use crate::register::{
-        Access, Area, BitField, Bound, Device, Kind, NamedValue, Range, Register, Row,
-        Unit, Value,
+        Access, Area, BitField, Bound, Condition, Device, Kind, Meaning, NamedValue,
+        Range, Register, Row, Unit, Value,
     };
     /// The device as a whole.
     pub const DEVICE: Device = Device {
@@ -374,7 +374,9 @@ pub mod motor {
                 min: Bound::Value(0),
                 max: Bound::Value(10),
             },
+            settled: true,
             unit: None,
+            meanings: &[],
             values: &[],
             bits: &[],
         },
@@ -391,7 +393,9 @@ pub mod motor {
             access: Access::ReadWrite,
             initial: None,
             range: Range::Any,
+            settled: true,
             unit: None,
+            meanings: &[],
             values: &[],
             bits: &[],
         },
@@ -418,7 +422,9 @@ pub mod motor {
                     negated: false,
                 },
             },
+            settled: true,
             unit: None,
+            meanings: &[],
             values: &[],
             bits: &[],
         },
@@ -436,7 +442,9 @@ pub mod motor {
             access: Access::ReadWrite,
             initial: Some(4),
             range: Range::OneOf(&[4, 17]),
+            settled: true,
             unit: None,
+            meanings: &[],
             values: &[
                 NamedValue {
                     value: 4,
@@ -494,10 +502,12 @@ pub mod motor {
             access: Access::ReadOnly,
             initial: None,
             range: Range::Any,
+            settled: true,
             unit: Some(Unit {
                 factor: 0.01,
                 symbol: "rev/min",
             }),
+            meanings: &[],
             values: &[],
             bits: &[
                 BitField {

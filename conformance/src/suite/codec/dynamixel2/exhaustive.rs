@@ -134,7 +134,11 @@ fn instruction(author: &Author<'_>, code: u8) -> Vec<Check> {
     let requirement = "dynamixel2.packet.layout";
     let id = format!("dynamixel2.instruction.{code:02x}");
     // No parameters of an instruction fit these two, so they go out as they are.
-    let without = author.both_ways(&id, "dynamixel2.packet.instruction.codes", &packet(&[]));
+    let codes = match code {
+        0x20 | 0x8A | 0x8B => "ja40.instruction.codes", // in no table of the DYNAMIXEL document
+        _ => "dynamixel2.packet.instruction.codes",
+    };
+    let without = author.both_ways(&id, codes, &packet(&[]));
     let with = author.both_ways(&format!("{id}-with-params"), requirement, &packet(&[1, 2, 3]));
     without.into_iter().chain(with).map(without_call).collect()
 }

@@ -54,6 +54,11 @@ fn packets() -> Vec<(&'static str, &'static str, Packet)> {
         ("ja40.fast-sync-read.same-registers", "three", to_all(0x8A, &[132, 0, 4, 0, 7, 3, 9])),
         ("ja40.fast-sync-write.broadcast-id", "one", to_all(0x8B, &[64, 0, 1, 0, 7, 1])),
         ("ja40.fast-sync-write.broadcast-id", "two", to_all(0x8B, &[64, 0, 1, 0, 7, 1, 3, 0])),
+        (
+            "ja40.fast-sync-write.same-registers",
+            "three",
+            to_all(0x8B, &[64, 0, 1, 0, 7, 1, 3, 0, 9, 1]),
+        ),
     ]
 }
 
