@@ -1,5 +1,5 @@
-//! Byte stuffing: what keeps a header from appearing in a body (DYNAMIXEL Protocol 2.0, Packet
-//! 처리).
+//! Byte stuffing: what keeps a header from appearing in a body (DYNAMIXEL Protocol 2.0, Packet 처리,
+//! "packet handling").
 //!
 //! A *body* is the bytes from the instruction up to the CRC. A sender puts FD behind every
 //! FF FF FD in it, a receiver takes it away.

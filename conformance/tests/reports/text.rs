@@ -18,7 +18,7 @@ fn a_terminal_shows_the_worst_last() {
 
     FAIL dynamixel2.stuffing.transmit
       must      A sender adds FD after every FF FF FD between the instruction and the last parameter, then sets the length and computes the CRC.
-      says who  DYNAMIXEL Protocol 2.0, Packet 처리
+      says who  DYNAMIXEL Protocol 2.0, Packet 처리 (packet handling)
       check     dynamixel2.stuffing.goal-position/encode
       request   {"op":"encode","wire":"dynamixel2","packet":{"kind":"instruction","id":1,"instruction":3,"params":"3402fffffdff","call":{"name":"write","address":564,"data":"fffffdff"}}}
       expected  ff ff fd 00 01 [0a] 00 03 34 02 ff ff fd [fd] ff [23 51]
@@ -51,7 +51,7 @@ fn a_summary_in_markdown_is_short() {
 
     #### `dynamixel2.stuffing.transmit`: 1 of 2 checks
 
-    > **must** A sender adds FD after every FF FF FD between the instruction and the last parameter, then sets the length and computes the CRC. (DYNAMIXEL Protocol 2.0, Packet 처리)
+    > **must** A sender adds FD after every FF FF FD between the instruction and the last parameter, then sets the length and computes the CRC. (DYNAMIXEL Protocol 2.0, Packet 처리 (packet handling))
 
         check     dynamixel2.stuffing.goal-position/encode
         request   {"op":"encode","wire":"dynamixel2","packet":{"kind":"instruction","id":1,"instruction":3,"params":"3402fffffdff","call":{"name":"write","address":564,"data":"fffffdff"}}}
@@ -86,7 +86,7 @@ fn a_comparison_shows_first_who_gets_what_wrong() {
       2  right 1.0 (C)  3 pass
 
     Somebody gets it wrong            1         2
-      DYNAMIXEL Protocol 2.0, Packet 처리
+      DYNAMIXEL Protocol 2.0, Packet 처리 (packet handling)
         dynamixel2.stuffing.transmit  fail 1/2  pass
 
     All alike: 1 requirement
@@ -100,7 +100,7 @@ fn a_comparison_shows_first_who_gets_what_wrong() {
 
     | requirement | unstuffed 1.0 | right 1.0 |
     |---|---|---|
-    | `dynamixel2.stuffing.transmit`<br>DYNAMIXEL Protocol 2.0, Packet 처리 | ✗ fail 1/2 | ✓ pass |
+    | `dynamixel2.stuffing.transmit`<br>DYNAMIXEL Protocol 2.0, Packet 처리 (packet handling) | ✗ fail 1/2 | ✓ pass |
 
     All alike: 1 requirement.
     ");

@@ -3,27 +3,39 @@ use std::fmt;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A place in a document, written `DOCUMENT §SECTION`: `ja40 §1.6.1`.
+/// A place in a document, written `DOCUMENT §SECTION`: `ja40 §1.6.1`. A heading that is not in
+/// English has its meaning behind it: `dynamixel2 §Packet 처리 (packet handling)`.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize, JsonSchema)]
 #[serde(try_from = "String", into = "String")]
 #[schemars(extend("pattern" = r"^.+? §.*\S"))]
 pub struct Citation {
     /// Id of the document, as `documents.yaml` lists it.
     pub document: String,
-    /// The section, by its number or its heading.
+    /// The section, by its number or its heading, with the gloss if there is one.
     pub section: String,
 }
 
 impl TryFrom<String> for Citation {
     type Error = String;
     fn try_from(text: String) -> Result<Self, String> {
-        match text.split_once(" §") {
-            Some((document, section)) if !document.is_empty() && !section.trim().is_empty() => {
-                Ok(Self { document: document.to_owned(), section: section.trim().to_owned() })
-            }
-            _ => Err(format!("`{text}` is no citation; one is written `DOCUMENT §SECTION`")),
+        let (document, section) = text
+            .split_once(" §")
+            .map(|(document, section)| (document, section.trim()))
+            .filter(|(document, section)| !document.is_empty() && !section.is_empty())
+            .ok_or_else(|| {
+                format!("`{text}` is no citation; one is written `DOCUMENT §SECTION`")
+            })?;
+        if !section.is_ascii() && !has_gloss(section) {
+            return Err(format!("`{text}` needs its meaning in English, as in `{text} (meaning)`"));
         }
+        Ok(Self { document: document.to_owned(), section: section.to_owned() })
     }
+}
+
+/// Whether the section ends with English in parentheses.
+fn has_gloss(section: &str) -> bool {
+    let gloss = section.strip_suffix(')').and_then(|section| section.rsplit_once(" ("));
+    gloss.is_some_and(|(_, gloss)| !gloss.trim().is_empty() && gloss.is_ascii())
 }
 
 impl From<Citation> for String {
