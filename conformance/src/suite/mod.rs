@@ -16,7 +16,7 @@ use actucheck_spec::model::{Citation, Level, Packet};
 use actucheck_spec::wire::dynamixel2::reference::{self, Call};
 
 use self::check::{Check, Demand};
-use self::plan::{Family, Plan, by_stem};
+use self::plan::Plan;
 use crate::adapter::{Called, Op, Output, Wire};
 
 /// What decides which checks there are.
@@ -31,6 +31,8 @@ pub struct Options {
     /// Bytes of the longest bodies of the pattern's bytes that are all tried inside every kind of
     /// packet, at most [`Options::LONGEST_BODY`]; a byte more means four times as many.
     pub body_length: u32,
+    /// The same of bodies without a packet around them.
+    pub bare_length: u32,
     /// Bytes of the longest frame that the implementation says it takes.
     pub max_packet: Option<usize>,
 }
@@ -39,10 +41,18 @@ impl Options {
     /// Bytes of the longest bodies that are tried at all.
     pub const LONGEST_BODY: u32 = 7;
 
-    /// The checks of a wire as they are without further options.
+    /// The checks of a wire as they are without further options. Bare bodies are long enough for two
+    /// patterns in a row, at which a published library fails.
     #[must_use]
     pub const fn new(wire: Wire) -> Self {
-        Self { wire, seed: 1, cases: 1000, body_length: 4, max_packet: None }
+        let (body_length, bare_length) = (4, Self::LONGEST_BODY);
+        Self { wire, seed: 1, cases: 1000, body_length, bare_length, max_packet: None }
+    }
+
+    /// The same with all bodies of at most so many bytes, inside of packets and without.
+    #[must_use]
+    pub const fn with_bodies(self, length: u32) -> Self {
+        Self { body_length: length, bare_length: length, ..self }
     }
 }
 
@@ -50,9 +60,7 @@ impl Options {
 #[must_use]
 pub fn plan<'a>(spec: &'a Spec, options: &Options) -> Plan<'a> {
     let author = Author { spec, wire: options.wire };
-    let options = *options;
-    let family = Family::new("", move || by_stem(codec::checks(&author, &options)));
-    Plan::new(vec![family])
+    Plan::new(codec::families(author, options))
 }
 
 /// Writes checks about one wire.

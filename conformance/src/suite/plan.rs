@@ -24,18 +24,41 @@ pub struct Plan<'a> {
 /// Groups whose checks' ids begin alike.
 pub(crate) struct Family<'a> {
     prefix: String,
-    groups: Box<dyn Fn() -> Groups<'a> + Send + Sync + 'a>,
+    groups: Yield<'a>,
+    /// Groups that are only asked for their ids, where the others take more to be made.
+    named: Option<Yield<'a>>,
 }
 
+type Yield<'a> = Box<dyn Fn() -> Groups<'a> + Send + Sync + 'a>;
+
 /// Groups, one after the other.
-pub(crate) type Groups<'a> = Box<dyn Iterator<Item = Group<'a>> + Send + 'a>;
+type Groups<'a> = Box<dyn Iterator<Item = Group<'a>> + Send + 'a>;
 
 /// Checks that one subject is asked in order. A check may require another of its group, before it.
 pub(crate) struct Group<'a> {
     stem: String,
-    /// What follows the stem in the id of each check.
-    names: Vec<String>,
-    build: Box<dyn FnOnce() -> Vec<Check> + Send + 'a>,
+    names: Names,
+    build: Build<'a>,
+}
+
+type Build<'a> = Box<dyn FnOnce() -> Vec<Check> + Send + 'a>;
+
+/// What follows the stem in the id of each check of a group.
+enum Names {
+    /// The same for many groups.
+    Fixed(&'static [&'static str]),
+    /// A group's own.
+    Own(Vec<String>),
+}
+
+impl Names {
+    fn iter(&self) -> impl Iterator<Item = &str> {
+        let (fixed, own): (&[&str], &[String]) = match self {
+            Self::Fixed(names) => (names, &[]),
+            Self::Own(names) => (&[], names),
+        };
+        fixed.iter().copied().chain(own.iter().map(String::as_str))
+    }
 }
 
 impl<'a> Plan<'a> {
@@ -58,7 +81,8 @@ impl<'a> Plan<'a> {
         self.families.push(Family::new("", move || {
             let names = checks.iter().map(|check| check.id.clone()).collect();
             let checks = Arc::clone(&checks);
-            std::iter::once(Group::new(String::new(), names, move || checks.to_vec()))
+            let build = Box::new(move || checks.to_vec());
+            std::iter::once(Group { stem: String::new(), names: Names::Own(names), build })
         }));
     }
 
@@ -107,35 +131,28 @@ impl<'a> Plan<'a> {
 
     /// Hands on the place of each pattern for each id that it matches; nothing is built for it.
     fn each_match(&self, patterns: &Patterns, mut matched: impl FnMut(usize) -> ControlFlow<()>) {
-        for group in self.groups_of(|beginning| patterns.may_match(beginning)) {
-            for id in group.ids() {
-                for place in patterns.matches(&id) {
-                    if matched(place).is_break() {
-                        return;
-                    }
+        let may_match = |beginning: &str| patterns.may_match(beginning);
+        let families = self.families.iter().filter(|family| may_match(&family.prefix));
+        let groups = families.flat_map(Family::named).filter(|group| may_match(&group.stem));
+        for id in groups.flat_map(|group| group.ids().collect::<Vec<_>>()) {
+            for place in patterns.matches(&id) {
+                if matched(place).is_break() {
+                    return;
                 }
             }
         }
     }
 
-    /// The groups whose ids may begin so.
-    fn groups_of<'p>(
-        &'p self,
-        may_begin: impl Fn(&str) -> bool + Clone + Send + 'p,
-    ) -> impl Iterator<Item = Group<'a>> + Send + 'p {
-        let may = may_begin.clone();
-        self.families
-            .iter()
-            .filter(move |family| may(&family.prefix))
-            .flat_map(|family| (family.groups)())
-            .filter(move |group| may_begin(&group.stem))
-    }
-
     /// The groups that have something to ask, in order.
     pub(crate) fn groups(&self) -> impl Iterator<Item = Group<'a>> + Send + '_ {
-        let all = self.only.is_empty();
-        self.groups_of(move |beginning| all || self.only.may_match(beginning))
-            .filter(|group| self.is_whole() || group.ids().any(|id| self.has(&id)))
+        let families = self.families.iter().filter(|family| {
+            self.is_whole()
+                || self.may_have(&family.prefix)
+                    && family.named().any(|group| self.has_some(&group))
+        });
+        families
+            .flat_map(|family| (family.groups)())
+            .filter(|group| self.is_whole() || self.has_some(group))
     }
 
     /// Whether every check of it is meant.
@@ -143,8 +160,16 @@ impl<'a> Plan<'a> {
         self.only.is_empty() && self.not.is_empty() && self.level == Level::May
     }
 
+    fn may_have(&self, beginning: &str) -> bool {
+        self.only.is_empty() || self.only.may_match(beginning)
+    }
+
+    fn has_some(&self, group: &Group<'_>) -> bool {
+        self.may_have(&group.stem) && group.ids().any(|id| self.has(&id))
+    }
+
     /// The checks of a group that are meant.
-    pub(crate) fn build(&self, group: Group<'a>) -> Vec<Check> {
+    pub(crate) fn build(&self, group: Group<'_>) -> Vec<Check> {
         let mut checks = (group.build)();
         if self.is_whole() {
             return checks;
@@ -165,20 +190,23 @@ impl<'a> Plan<'a> {
     /// The id of every check; nothing is built for it unless the level is restricted.
     #[must_use]
     pub fn ids(&self) -> Box<dyn Iterator<Item = String> + '_> {
-        if self.level == Level::May {
-            let ids = self.groups().flat_map(|group| group.ids().collect::<Vec<_>>());
-            Box::new(ids.filter(|id| self.has(id)))
-        } else {
-            Box::new(self.checks().map(|check| check.id))
+        if self.level != Level::May {
+            return Box::new(self.checks().map(|check| check.id));
         }
+        let families = self.families.iter().filter(|family| self.may_have(&family.prefix));
+        let groups = families.flat_map(Family::named).filter(|group| self.may_have(&group.stem));
+        let ids = groups.flat_map(|group| group.ids().collect::<Vec<_>>());
+        Box::new(ids.filter(|id| self.has(id)))
     }
 
     /// The check with this id, whatever the plan is restricted to.
     #[must_use]
     pub fn find(&self, id: &str) -> Option<Check> {
-        let group = self
-            .groups_of(|beginning| id.starts_with(beginning))
-            .find(|group| group.ids().any(|other| other == id))?;
+        let has = |group: &Group<'_>| id.starts_with(&group.stem) && group.ids().any(|it| it == id);
+        let mut families = self.families.iter().filter(|it| id.starts_with(&it.prefix));
+        let (family, place) =
+            families.find_map(|family| Some((family, family.named().position(|it| has(&it))?)))?;
+        let group = (family.groups)().nth(place)?;
         (group.build)().into_iter().find(|check| check.id == id)
     }
 }
@@ -192,7 +220,28 @@ impl<'a> Family<'a> {
     where
         I: Iterator<Item = Group<'a>> + Send + 'a,
     {
-        Self { prefix: prefix.into(), groups: Box::new(move || Box::new(groups())) }
+        Self { prefix: prefix.into(), groups: Box::new(move || Box::new(groups())), named: None }
+    }
+
+    /// A family of checks that are few, or of which one can't be made without the others.
+    pub(crate) fn of(
+        prefix: impl Into<String>,
+        checks: impl Fn() -> Vec<Check> + Send + Sync + 'a,
+    ) -> Self {
+        Self::new(prefix, move || by_stem(checks()))
+    }
+
+    /// Takes another way to the groups, for whoever needs their ids only.
+    pub(crate) fn with_names<I>(mut self, named: impl Fn() -> I + Send + Sync + 'a) -> Self
+    where
+        I: Iterator<Item = Group<'a>> + Send + 'a,
+    {
+        self.named = Some(Box::new(move || Box::new(named())));
+        self
+    }
+
+    fn named(&self) -> Groups<'a> {
+        self.named.as_ref().unwrap_or(&self.groups)()
     }
 }
 
@@ -209,19 +258,19 @@ pub(crate) fn by_stem<'a>(checks: Vec<Check>) -> impl Iterator<Item = Group<'a>>
             group.push(check);
         }
         let name = |check: &Check| check.id.strip_prefix(&stem).unwrap_or_default().to_owned();
-        let names = group.iter().map(name).collect();
-        Some(Group::new(stem, names, move || group))
+        let names = Names::Own(group.iter().map(name).collect());
+        Some(Group { stem, names, build: Box::new(move || group) })
     })
 }
 
 impl<'a> Group<'a> {
-    /// A group whose checks' ids are `stem` and each of `names`.
+    /// A group whose checks' ids are the stem and each of the names.
     pub(crate) fn new(
         stem: String,
-        names: Vec<String>,
+        names: &'static [&'static str],
         build: impl FnOnce() -> Vec<Check> + Send + 'a,
     ) -> Self {
-        Self { stem, names, build: Box::new(build) }
+        Self { stem, names: Names::Fixed(names), build: Box::new(build) }
     }
 
     fn ids(&self) -> impl Iterator<Item = String> {
@@ -230,6 +279,9 @@ impl<'a> Group<'a> {
 
     /// How many checks it has.
     pub(crate) fn size(&self) -> usize {
-        self.names.len()
+        match &self.names {
+            Names::Fixed(names) => names.len(),
+            Names::Own(names) => names.len(),
+        }
     }
 }

@@ -44,10 +44,11 @@ pub(crate) struct Growth {
     /// How many packets are generated
     #[arg(long, value_name = "N", default_value_t = 1000)]
     cases: u32,
-    /// The most bytes in the bodies of FF, FD, 00 and 01 that are all tried inside every kind of
-    /// packet, up to 7; each further byte means four times as many checks
-    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(..=i64::from(Options::LONGEST_BODY)))]
-    body_length: u32,
+    /// The most bytes in the bodies of FF, FD, 00 and 01 that are all tried, alone and inside every
+    /// kind of packet, up to 7; each further byte means four times as many checks. Without it, up
+    /// to 4 inside packets and 7 alone
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(..=i64::from(Options::LONGEST_BODY)))]
+    body_length: Option<u32>,
 }
 
 impl Selection {
@@ -68,7 +69,8 @@ impl Growth {
     pub(crate) fn options(&self, wire: Wire, hello: Option<&Hello>) -> Options {
         let max_packet = hello.and_then(|hello| hello.limits.max_packet);
         let Self { seed, cases, body_length } = *self;
-        Options { wire, seed, cases, body_length, max_packet }
+        let options = Options { seed, cases, max_packet, ..Options::new(wire) };
+        body_length.map_or(options, |length| options.with_bodies(length))
     }
 
     /// The check with this id, of any wire, and with bodies of any length.
@@ -78,7 +80,7 @@ impl Growth {
         id: &str,
         hello: Option<&Hello>,
     ) -> Result<(Wire, Check), Failure> {
-        let longest = Self { body_length: Options::LONGEST_BODY, ..*self };
+        let longest = Self { body_length: Some(Options::LONGEST_BODY), ..*self };
         let growths = [*self, longest].into_iter();
         let found = growths
             .flat_map(|growth| Wire::ALL.map(|wire| (growth, wire)))

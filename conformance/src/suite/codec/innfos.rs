@@ -7,6 +7,7 @@ use actucheck_spec::wire::innfos::reference;
 use super::dynamixel2::golden::{demand, way};
 use crate::adapter::{Called, Op, Output};
 use crate::suite::check::{Check, Demand, Unspecified, Way};
+use crate::suite::plan::{Family, Group};
 use crate::suite::{Author, hex};
 
 /// Bytes that could be taken for the ends of a frame, and two that could not.
@@ -18,28 +19,80 @@ const SIZES: [usize; 10] = [0, 1, 2, 3, 4, 8, 255, 256, 257, 1000];
 const LARGEST: usize = 65_535;
 const AROUND: usize = 8;
 
-pub(super) fn checks(author: &Author<'_>, max_packet: Option<usize>) -> Vec<Check> {
-    let mut checks = golden(author);
+/// What a packet's checks are called.
+const NAMES: [&str; 3] = ["/encode", "/decode", "/stream-twice"];
+
+pub(super) fn families(author: Author<'_>, max_packet: Option<usize>) -> Vec<Family<'_>> {
     let largest = max_packet.and_then(|limit| limit.checked_sub(AROUND));
     let largest = largest.map(|size| size.min(LARGEST)).filter(|size| !SIZES.contains(size));
+    let sizes: Vec<_> = SIZES.into_iter().chain(largest).collect();
+    let mut families = vec![Family::of("", move || golden(&author))];
     for kind in [FrameKind::Request, FrameKind::Reply] {
-        checks.extend((0..=u8::MAX).flat_map(|byte| {
-            let address =
-                both_ways(author, &format!("address.{byte:02x}"), kind, byte, 0x06, &[1, 2]);
-            let command = both_ways(author, &format!("command.{byte:02x}"), kind, 1, byte, &[1, 2]);
-            address.into_iter().chain(command)
-        }));
-        checks.extend(SIZES.into_iter().chain(largest).flat_map(|size| {
-            both_ways(author, &format!("size.{size}"), kind, 6, 0x2A, &vec![0x5A; size])
-        }));
-        checks.extend((0..=4).flat_map(words).flat_map(|data| {
-            both_ways(author, &format!("data.{}", hex(&data)), kind, 6, 0x0A, &data)
-        }));
-        checks.extend(damaged(author, kind));
-        checks.extend(other_way(author, kind));
-        checks.extend(behind_damage(author, kind));
+        let sizes = sizes.clone();
+        families.extend([
+            family(author, kind, "address", || {
+                (0..=u8::MAX).map(|byte| (format!("{byte:02x}"), Sent::new(byte, 0x06, &[1, 2])))
+            }),
+            family(author, kind, "command", || {
+                (0..=u8::MAX).map(|byte| (format!("{byte:02x}"), Sent::new(1, byte, &[1, 2])))
+            }),
+            family(author, kind, "size", move || {
+                let sent = |size: usize| (size.to_string(), Sent::new(6, 0x2A, &vec![0x5A; size]));
+                sizes.clone().into_iter().map(sent)
+            }),
+            family(author, kind, "data", || {
+                (0..=4).flat_map(words).map(|data| (hex(&data), Sent::new(6, 0x0A, &data)))
+            }),
+            Family::of(format!("innfos.negative.{}.", word(kind)), move || damaged(&author, kind)),
+            Family::of("innfos.negative.", move || other_way(&author, kind)),
+            Family::of(format!("innfos.open.{}.", word(kind)), move || {
+                behind_damage(&author, kind)
+            }),
+        ]);
     }
-    checks
+    families
+}
+
+/// The fields of a packet that goes either way.
+struct Sent {
+    address: u8,
+    command: u8,
+    data: Vec<u8>,
+}
+
+impl Sent {
+    fn new(address: u8, command: u8, data: &[u8]) -> Self {
+        Self { address, command, data: data.to_vec() }
+    }
+}
+
+/// Packets that are built, read, and found twice in a datagram, each with its name.
+fn family<'a, I>(
+    author: Author<'a>,
+    kind: FrameKind,
+    what: &'static str,
+    packets: impl Fn() -> I + Send + Sync + 'a,
+) -> Family<'a>
+where
+    I: Iterator<Item = (String, Sent)> + Send + 'a,
+{
+    let prefix = format!("innfos.{}.{what}.", word(kind));
+    Family::new(prefix.clone(), move || {
+        let prefix = prefix.clone();
+        packets().map(move |(name, Sent { address, command, data })| {
+            let id = format!("{prefix}{name}");
+            Group::new(id.clone(), &NAMES, move || {
+                both_ways(&author, &id, kind, address, command, &data)
+            })
+        })
+    })
+}
+
+const fn word(kind: FrameKind) -> &'static str {
+    match kind {
+        FrameKind::Request => "request",
+        FrameKind::Reply => "reply",
+    }
 }
 
 fn words(length: u32) -> impl Iterator<Item = Vec<u8>> {
@@ -125,7 +178,7 @@ fn decode(author: &Author<'_>, kind: FrameKind, bytes: &[u8]) -> Op {
 /// A packet built, read, and found twice in a datagram. Where the CRC is open, nothing.
 fn both_ways(
     author: &Author<'_>,
-    name: &str,
+    id: &str,
     kind: FrameKind,
     address: u8,
     command: u8,
@@ -133,15 +186,14 @@ fn both_ways(
 ) -> Vec<Check> {
     let requirement = match data.len() {
         0 => "innfos.frame.no-data",
-        _ if name.starts_with("size.") => "innfos.crc.byte-order",
+        _ if id.contains(".size.") => "innfos.crc.byte-order",
         _ => "innfos.frame.layout",
     };
     let data = data.to_vec().into();
-    let (word, packet) = match kind {
-        FrameKind::Request => ("request", Packet::Request { address, command, data }),
-        FrameKind::Reply => ("reply", Packet::Reply { address, command, data }),
+    let packet = match kind {
+        FrameKind::Request => Packet::Request { address, command, data },
+        FrameKind::Reply => Packet::Reply { address, command, data },
     };
-    let id = format!("innfos.{word}.{name}");
     let Some(frame) = reference::encode(&packet) else { return Vec::new() };
     let chunk = [frame.as_slice(), &frame].concat();
     let stream = Op::Stream { wire: author.wire, kind: Some(kind), chunks: vec![chunk.into()] };

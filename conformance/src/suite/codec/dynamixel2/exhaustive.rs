@@ -6,6 +6,7 @@ use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, STATUS};
 
 use crate::adapter::{Op, Output};
 use crate::suite::check::{Check, Demand};
+use crate::suite::plan::{Family, Group};
 use crate::suite::{Author, Options, hex};
 
 /// The bytes of the pattern, the one that makes it a header, and one that is none of them.
@@ -24,19 +25,21 @@ const WRITE_AROUND: usize = 12;
 /// The address that is written, 116: some libraries end at 255.
 const REGISTER: [u8; 2] = [0x74, 0x00];
 
-pub(super) fn checks(author: &Author<'_>, options: &Options) -> Vec<Check> {
-    let bodies = |longest| (0..=longest).flat_map(words);
-    let inside_of = options.body_length.min(Options::LONGEST_BODY);
-    let mut checks = Vec::new();
-    checks.extend(bodies(Options::LONGEST_BODY).flat_map(|body| alone(author, &body)));
-    checks.extend(bodies(inside_of).flat_map(|body| inside(author, &body)));
-    checks.extend((0..=u8::MAX).flat_map(|code| instruction(author, code)));
-    checks.extend((0..=u8::MAX).flat_map(|error| error_byte(author, error)));
-    checks.extend((0..=252).chain([BROADCAST]).flat_map(|id| id_byte(author, id)));
-    let around = LENGTHS.into_iter().chain(largest(options.max_packet));
-    checks.extend(around.flat_map(|length| lengths(author, length)));
-    checks.extend(before_params(author));
-    checks
+/// What a packet's checks are called.
+const BOTH_WAYS: [&str; 2] = ["/encode", "/decode"];
+
+pub(super) fn families<'a>(author: Author<'a>, options: &Options) -> Vec<Family<'a>> {
+    let [body_length, bare_length] =
+        [options.body_length, options.bare_length].map(|length| length.min(Options::LONGEST_BODY));
+    let mut families = vec![alone(author, bare_length)];
+    families.extend(PLACES.map(|place| inside(author, place, body_length)));
+    families.push(Family::new("dynamixel2.instruction.", move || instructions(author)));
+    families.push(Family::new("dynamixel2.error.", move || error_bytes(author)));
+    families.push(Family::new("dynamixel2.id.", move || ids(author)));
+    let around: Vec<_> = LENGTHS.into_iter().chain(largest(options.max_packet)).collect();
+    families.push(Family::new("dynamixel2.length.", move || lengths(author, around.clone())));
+    families.push(Family::of("dynamixel2.stuffing.from-", move || before_params(&author)));
+    families
 }
 
 /// The pattern begins before the parameters: with the instruction, or with the error byte.
@@ -50,19 +53,30 @@ fn before_params(author: &Author<'_>) -> Vec<Check> {
     first.into_iter().chain(second).collect()
 }
 
-/// Every word of this length over the alphabet.
-fn words(length: u32) -> impl Iterator<Item = Vec<u8>> {
-    (0..4_usize.pow(length)).map(move |number| {
-        let letters = (0..length).map(|place| number / 4_usize.pow(place) % 4);
-        letters.filter_map(|letter| ALPHABET.get(letter).copied()).collect()
+/// Every word of at most this length over the alphabet, the shortest first.
+fn words(longest: u32) -> impl Iterator<Item = Vec<u8>> + Send {
+    (0..=longest).flat_map(|length| {
+        (0..4_usize.pow(length)).map(move |number| {
+            let letters = (0..length).map(|place| number / 4_usize.pow(place) % 4);
+            letters.filter_map(|letter| ALPHABET.get(letter).copied()).collect()
+        })
     })
 }
 
-/// A body without a packet around it.
-fn alone(author: &Author<'_>, body: &[u8]) -> [Check; 2] {
+/// Bodies without a packet around them.
+fn alone(author: Author<'_>, longest: u32) -> Family<'_> {
+    const PREFIX: &str = "dynamixel2.stuffing.body.";
+    let group = move |body: Vec<u8>| {
+        let id = format!("{PREFIX}{}", hex(&body));
+        let stem = id.clone();
+        Group::new(stem, &["/stuff", "/unstuff"], move || stuffing(&author, &id, &body).into())
+    };
+    Family::new(PREFIX, move || words(longest).map(group))
+}
+
+fn stuffing(author: &Author<'_>, id: &str, body: &[u8]) -> [Check; 2] {
     let wire = author.wire;
     let stuffed = reference::stuff(body);
-    let id = format!("dynamixel2.stuffing.body.{}", hex(body));
     let (plain, stuffed) = (body.to_vec().into(), stuffed.into());
     [
         author.check(
@@ -80,65 +94,119 @@ fn alone(author: &Author<'_>, body: &[u8]) -> [Check; 2] {
     ]
 }
 
-/// The same bytes in every place of a packet: behind the header, in the middle, before the CRC.
-fn inside(author: &Author<'_>, word: &[u8]) -> Vec<Check> {
-    let with = |before: &[u8], after: &[u8]| [before, word, after].concat();
-    let instruction = |instruction: u8, params: Vec<u8>| {
-        let id = if instruction >= 0x80 { BROADCAST } else { 1 };
-        Packet::Instruction { id, instruction, params: params.into() }
+/// A place in a packet: behind the header, in the middle, before the CRC.
+#[derive(Clone, Copy)]
+struct Place {
+    name: &'static str,
+    /// The instruction; `None` for a status packet.
+    instruction: Option<u8>,
+    /// What stands before the word, of its size.
+    before: fn(u16) -> Vec<u8>,
+    after: &'static [u8],
+}
+
+const PLACES: [Place; 8] = [
+    place("write", Some(0x03), |_| REGISTER.to_vec(), &[]),
+    place("write-middle", Some(0x03), |_| REGISTER.to_vec(), &[0x05, 0x06]),
+    place("reg-write", Some(0x04), |_| REGISTER.to_vec(), &[]),
+    place("status", None, |_| Vec::new(), &[]),
+    place("status-middle", None, |_| vec![0x05], &[0x06]),
+    place("sync-write", Some(0x83), sync, &[]),
+    place("bulk-write", Some(0x93), bulk, &[]),
+    place("fast-sync-write", Some(0x8B), sync, &[]),
+];
+
+const fn place(
+    name: &'static str,
+    instruction: Option<u8>,
+    before: fn(u16) -> Vec<u8>,
+    after: &'static [u8],
+) -> Place {
+    Place { name, instruction, before, after }
+}
+
+/// What a sync instruction has before the data of device 1.
+fn sync(size: u16) -> Vec<u8> {
+    [REGISTER.as_slice(), &size.to_le_bytes(), &[1]].concat()
+}
+
+/// What a bulk instruction has before the data of device 1.
+fn bulk(size: u16) -> Vec<u8> {
+    [&[1], REGISTER.as_slice(), &size.to_le_bytes()].concat()
+}
+
+impl Place {
+    fn packet(self, word: &[u8]) -> Packet {
+        let before = (self.before)(u16::try_from(word.len()).unwrap_or_default());
+        let params = [before.as_slice(), word, self.after].concat().into();
+        match self.instruction {
+            Some(instruction) => {
+                let id = if self.is_to_all() { BROADCAST } else { 1 };
+                Packet::Instruction { id, instruction, params }
+            }
+            None => Packet::Status { id: 1, error: 0, params },
+        }
+    }
+
+    /// Whether the instruction is for several devices. It has no data of 0 bytes then.
+    fn is_to_all(self) -> bool {
+        self.instruction.is_some_and(|code| code >= 0x80)
+    }
+}
+
+/// The same bytes in one place of a packet.
+fn inside(author: Author<'_>, place: Place, longest: u32) -> Family<'_> {
+    let prefix = format!("dynamixel2.stuffing.in-{}.", place.name);
+    Family::new(prefix.clone(), move || {
+        let prefix = prefix.clone();
+        words(longest).filter(move |word| !(word.is_empty() && place.is_to_all())).map(
+            move |word| {
+                let id = format!("{prefix}{}", hex(&word));
+                let stem = id.clone();
+                Group::new(stem, &["/encode", "/decode", "/stream"], move || {
+                    found_in(&author, &id, &place.packet(&word))
+                })
+            },
+        )
+    })
+}
+
+/// A packet built, read alone, and found in a stream.
+fn found_in(author: &Author<'_>, id: &str, packet: &Packet) -> Vec<Check> {
+    let requirement = match packet {
+        Packet::Status { .. } => "dynamixel2.stuffing.receive",
+        _ => "dynamixel2.stuffing.transmit",
     };
-    let status = |params: Vec<u8>| Packet::Status { id: 1, error: 0, params: params.into() };
-    let size = u16::try_from(word.len()).unwrap_or_default().to_le_bytes();
-    let sync = [REGISTER.as_slice(), &size, &[1]].concat();
-    let bulk = [&[1], REGISTER.as_slice(), &size].concat();
-    let mut packets = vec![
-        ("write", instruction(0x03, with(&REGISTER, &[]))),
-        ("write-middle", instruction(0x03, with(&REGISTER, &[0x05, 0x06]))),
-        ("reg-write", instruction(0x04, with(&REGISTER, &[]))),
-        ("status", status(with(&[], &[]))),
-        ("status-middle", status(with(&[0x05], &[0x06]))),
-    ];
-    if !word.is_empty() {
-        packets.extend([
-            ("sync-write", instruction(0x83, with(&sync, &[]))),
-            ("bulk-write", instruction(0x93, with(&bulk, &[]))),
-            ("fast-sync-write", instruction(0x8B, with(&sync, &[]))),
-        ]);
-    }
-    let mut checks = Vec::new();
-    for (place, packet) in packets {
-        let id = format!("dynamixel2.stuffing.in-{place}.{}", hex(word));
-        let requirement = match &packet {
-            Packet::Status { .. } => "dynamixel2.stuffing.receive",
-            _ => "dynamixel2.stuffing.transmit",
-        };
-        checks.extend(author.both_ways(&id, requirement, &packet));
-        let frame = reference::encode(&packet).unwrap_or_default();
-        let stream = format!("{id}/stream");
-        checks.push(Check {
-            requires: Some(format!("{id}/decode")),
-            ..author.streamed(stream, "dynamixel2.receive.stream", &[frame])
-        });
-    }
+    let mut checks = author.both_ways(id, requirement, packet);
+    let frame = reference::encode(packet).unwrap_or_default();
+    checks.push(Check {
+        requires: Some(format!("{id}/decode")),
+        ..author.streamed(format!("{id}/stream"), "dynamixel2.receive.stream", &[frame])
+    });
     checks
 }
 
-fn instruction(author: &Author<'_>, code: u8) -> Vec<Check> {
-    if code == STATUS {
-        return Vec::new();
-    }
+fn instructions(author: Author<'_>) -> impl Iterator<Item = Group<'_>> {
+    const NAMES: [&str; 4] = ["/encode", "/decode", "-with-params/encode", "-with-params/decode"];
+    let codes = (0..=u8::MAX).filter(|code| *code != STATUS);
+    codes.map(move |code| {
+        let id = format!("dynamixel2.instruction.{code:02x}");
+        Group::new(id.clone(), &NAMES, move || instruction(&author, &id, code))
+    })
+}
+
+fn instruction(author: &Author<'_>, id: &str, code: u8) -> Vec<Check> {
     let packet = |params: &[u8]| {
         let params = params.to_vec().into();
         Packet::Instruction { id: 1, instruction: code, params }
     };
     let requirement = "dynamixel2.packet.layout";
-    let id = format!("dynamixel2.instruction.{code:02x}");
     // No parameters of an instruction fit these two, so they go out as they are.
     let codes = match code {
         0x20 | 0x8A | 0x8B => "ja40.instruction.codes", // in no table of the DYNAMIXEL document
         _ => "dynamixel2.packet.instruction.codes",
     };
-    let without = author.both_ways(&id, codes, &packet(&[]));
+    let without = author.both_ways(id, codes, &packet(&[]));
     let with = author.both_ways(&format!("{id}-with-params"), requirement, &packet(&[1, 2, 3]));
     without.into_iter().chain(with).map(without_call).collect()
 }
@@ -151,22 +219,32 @@ fn without_call(mut check: Check) -> Check {
     check
 }
 
-fn error_byte(author: &Author<'_>, error: u8) -> Vec<Check> {
-    let packet = Packet::Status { id: 1, error, params: vec![0x2A].into() };
-    let id = format!("dynamixel2.error.{error:02x}");
-    author.both_ways(&id, "dynamixel2.status-packet.error.fields", &packet)
+fn error_bytes(author: Author<'_>) -> impl Iterator<Item = Group<'_>> {
+    (0..=u8::MAX).map(move |error| {
+        let id = format!("dynamixel2.error.{error:02x}");
+        Group::new(id.clone(), &BOTH_WAYS, move || {
+            let packet = Packet::Status { id: 1, error, params: vec![0x2A].into() };
+            author.both_ways(&id, "dynamixel2.status-packet.error.fields", &packet)
+        })
+    })
 }
 
-fn id_byte(author: &Author<'_>, id: u8) -> Vec<Check> {
-    let requirement = "dynamixel2.packet.id.range";
-    let ping = Packet::Instruction { id, instruction: 0x01, params: Vec::new().into() };
-    let mut checks = author.both_ways(&format!("dynamixel2.id.{id}.ping"), requirement, &ping);
-    if id != BROADCAST {
-        let status = Packet::Status { id, error: 0, params: vec![0x2A].into() };
-        let name = format!("dynamixel2.id.{id}.status");
-        checks.extend(author.both_ways(&name, "dynamixel2.status-packet.layout", &status));
-    }
-    checks
+fn ids(author: Author<'_>) -> impl Iterator<Item = Group<'_>> {
+    let pings = (0..=252).chain([BROADCAST]).map(move |id| {
+        let stem = format!("dynamixel2.id.{id}.ping");
+        Group::new(stem.clone(), &BOTH_WAYS, move || {
+            let ping = Packet::Instruction { id, instruction: 0x01, params: Vec::new().into() };
+            author.both_ways(&stem, "dynamixel2.packet.id.range", &ping)
+        })
+    });
+    let statuses = (0..=252).map(move |id| {
+        let stem = format!("dynamixel2.id.{id}.status");
+        Group::new(stem.clone(), &BOTH_WAYS, move || {
+            let status = Packet::Status { id, error: 0, params: vec![0x2A].into() };
+            author.both_ways(&stem, "dynamixel2.status-packet.layout", &status)
+        })
+    });
+    pings.chain(statuses)
 }
 
 /// Data lengths, beyond [`LENGTHS`], of the largest packets that an implementation takes: a Write
@@ -178,8 +256,25 @@ fn largest(max_packet: Option<usize>) -> Vec<usize> {
     lengths.into_iter().filter(|length| !LENGTHS.contains(length)).collect()
 }
 
+fn lengths(author: Author<'_>, around: Vec<usize>) -> impl Iterator<Item = Group<'_>> {
+    const NAMES: [&str; 8] = [
+        ".plain.write/encode",
+        ".plain.write/decode",
+        ".plain.status/encode",
+        ".plain.status/decode",
+        ".tricky.write/encode",
+        ".tricky.write/decode",
+        ".tricky.status/encode",
+        ".tricky.status/decode",
+    ];
+    around.into_iter().map(move |length| {
+        let id = format!("dynamixel2.length.{length}");
+        Group::new(id.clone(), &NAMES, move || of_length(&author, &id, length))
+    })
+}
+
 /// Plain data, and data that is all patterns, of this length.
-fn lengths(author: &Author<'_>, length: usize) -> Vec<Check> {
+fn of_length(author: &Author<'_>, id: &str, length: usize) -> Vec<Check> {
     let plain = vec![0x11; length];
     let tricky: Vec<u8> = [0xFF, 0xFF, 0xFD].into_iter().cycle().take(length).collect();
     let mut checks = Vec::new();
@@ -192,9 +287,8 @@ fn lengths(author: &Author<'_>, length: usize) -> Vec<Check> {
         let params = [&REGISTER, data.as_slice()].concat();
         let write = Packet::Instruction { id: 1, instruction: 0x03, params: params.into() };
         let status = Packet::Status { id: 1, error: 0, params: data.into() };
-        let id = format!("dynamixel2.length.{length}.{name}");
-        checks.extend(author.both_ways(&format!("{id}.write"), requirement, &write));
-        checks.extend(author.both_ways(&format!("{id}.status"), of_status, &status));
+        checks.extend(author.both_ways(&format!("{id}.{name}.write"), requirement, &write));
+        checks.extend(author.both_ways(&format!("{id}.{name}.status"), of_status, &status));
     }
     checks
 }

@@ -9,11 +9,12 @@ use proptest::collection::vec;
 use proptest::prelude::{Just, Strategy, any};
 use proptest::prop_oneof;
 use proptest::sample::select;
-use proptest::strategy::ValueTree;
+use proptest::strategy::{SBoxedStrategy, Union, ValueTree};
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
 use super::unspecified::resumed;
 use crate::suite::check::Check;
+use crate::suite::plan::{Family, Group};
 use crate::suite::{Author, parameters_of};
 
 /// What a case is made of.
@@ -62,16 +63,33 @@ impl Damage {
     }
 }
 
-pub(super) fn checks(author: &Author<'_>, seed: u64, cases: u32) -> Vec<Check> {
-    let mut runner = runner(seed);
-    let strategy = case(author.spec);
-    let mut checks = Vec::new();
-    for number in 0..cases {
-        // A strategy without filters always yields a value.
-        let Ok(tree) = strategy.new_tree(&mut runner) else { continue };
-        checks.extend(of(author, &format!("dynamixel2.seed-{seed}.{number}"), &tree.current()));
-    }
-    checks
+/// What the checks of a case are called.
+const NAMES: [&str; 10] = [
+    ".instruction/encode",
+    ".instruction/decode",
+    ".status/encode",
+    ".status/decode",
+    ".register/encode",
+    ".register/decode",
+    "/stream",
+    "/bytewise",
+    ".damaged/resume",
+    ".damaged/end",
+];
+
+/// A case is drawn when its turn comes, and those before it have to be drawn for it. Its id is known
+/// without.
+pub(super) fn family(author: Author<'_>, seed: u64, cases: u32) -> Family<'_> {
+    let id = move |number| format!("dynamixel2.seed-{seed}.{number}");
+    Family::new(format!("dynamixel2.seed-{seed}."), move || {
+        let (mut runner, strategy) = (runner(seed), case(author.spec));
+        (0..cases).filter_map(move |number| {
+            // A strategy without filters always yields a value.
+            let case = strategy.new_tree(&mut runner).ok()?.current();
+            Some(Group::new(id(number), &NAMES, move || of(&author, &id(number), &case)))
+        })
+    })
+    .with_names(move || (0..cases).map(move |number| Group::new(id(number), &NAMES, Vec::new)))
 }
 
 /// What draws values; the same seed draws the same ones.
@@ -228,33 +246,33 @@ pub(crate) fn instruction() -> impl Strategy<Value = (&'static str, Packet)> {
         };
         first_of_each(&devices, |device| device.0).flat_map(device).collect()
     });
-    let one = |name, code, params: proptest::strategy::BoxedStrategy<Vec<u8>>| {
-        (id(), params).prop_map(move |(id, params)| (name, packet(id, code, params))).boxed()
+    let one = |name, code, params: SBoxedStrategy<Vec<u8>>| {
+        (id(), params).prop_map(move |(id, params)| (name, packet(id, code, params))).sboxed()
     };
-    let all = |name, code, params: proptest::strategy::BoxedStrategy<Vec<u8>>| {
-        params.prop_map(move |params| (name, packet(BROADCAST, code, params))).boxed()
+    let all = |name, code, params: SBoxedStrategy<Vec<u8>>| {
+        params.prop_map(move |params| (name, packet(BROADCAST, code, params))).sboxed()
     };
-    let none = || Just(Vec::new()).boxed();
+    let none = || Just(Vec::new()).sboxed();
     let option = prop_oneof![Just(vec![0xFF]), Just(vec![0x01]), Just(vec![0x02])];
-    let clear = Just(vec![0x01, 0x44, 0x58, 0x4C, 0x22]).boxed();
-    let backup = Just(vec![0x01, 0x43, 0x54, 0x52, 0x4C]).boxed();
-    prop_oneof![
-        1 => one("Ping", 0x01, none()),
-        2 => one("Read", 0x02, read.boxed()),
-        6 => one("Write", 0x03, register().prop_map(write).boxed()),
-        3 => one("Reg Write", 0x04, register().prop_map(write).boxed()),
-        1 => one("Action", 0x05, none()),
-        1 => one("Factory Reset", 0x06, option.boxed()),
-        1 => one("Reboot", 0x08, none()),
-        1 => one("Clear", 0x10, clear),
-        1 => one("Control Table Backup", 0x20, backup),
-        2 => all("Sync Read", 0x82, same(false).boxed()),
-        4 => all("Sync Write", 0x83, same(true).boxed()),
-        2 => all("Fast Sync Read", 0x8A, same(false).boxed()),
-        2 => all("Fast Sync Write", 0x8B, same(true).boxed()),
-        2 => all("Bulk Read", 0x92, bulk_read.boxed()),
-        2 => all("Bulk Write", 0x93, bulk_write.boxed()),
-    ]
+    let clear = Just(vec![0x01, 0x44, 0x58, 0x4C, 0x22]).sboxed();
+    let backup = Just(vec![0x01, 0x43, 0x54, 0x52, 0x4C]).sboxed();
+    Union::new_weighted(vec![
+        (1, one("Ping", 0x01, none())),
+        (2, one("Read", 0x02, read.sboxed())),
+        (6, one("Write", 0x03, register().prop_map(write).sboxed())),
+        (3, one("Reg Write", 0x04, register().prop_map(write).sboxed())),
+        (1, one("Action", 0x05, none())),
+        (1, one("Factory Reset", 0x06, option.sboxed())),
+        (1, one("Reboot", 0x08, none())),
+        (1, one("Clear", 0x10, clear)),
+        (1, one("Control Table Backup", 0x20, backup)),
+        (2, all("Sync Read", 0x82, same(false).sboxed())),
+        (4, all("Sync Write", 0x83, same(true).sboxed())),
+        (2, all("Fast Sync Read", 0x8A, same(false).sboxed())),
+        (2, all("Fast Sync Write", 0x8B, same(true).sboxed())),
+        (2, all("Bulk Read", 0x92, bulk_read.sboxed())),
+        (2, all("Bulk Write", 0x93, bulk_write.sboxed())),
+    ])
 }
 
 /// Enough data for every device of a sync instruction.

@@ -7,22 +7,25 @@ use actucheck_spec::wire::dynamixel2::reference::{Call, Fast};
 
 use crate::adapter::{Called, Op, Output, Wire};
 use crate::suite::check::{Check, Demand, Unspecified, Way};
+use crate::suite::plan::{Family, by_stem};
 use crate::suite::{Author, of_reading};
 
 /// Bytes before the body, and behind it.
 const PREFIX: usize = 7;
 const CRC: usize = 2;
 
-pub(super) fn checks(author: &Author<'_>) -> Vec<Check> {
+pub(super) fn family(author: Author<'_>) -> Family<'_> {
     let (spec, wire) = (author.spec, author.wire);
-    spec.vectors()
-        .filter(|(file, _)| file.wire == wire.id())
-        .flat_map(|(file, vector)| Golden { author, wire, file, vector }.checks())
-        .collect()
+    Family::new("", move || {
+        spec.vectors()
+            .filter(move |(file, _)| file.wire == wire.id())
+            .map(move |(file, vector)| Golden { author, wire, file, vector })
+            .flat_map(|golden| by_stem(golden.checks()))
+    })
 }
 
 struct Golden<'a> {
-    author: &'a Author<'a>,
+    author: Author<'a>,
     wire: Wire,
     file: &'a VectorsFile,
     vector: &'a Vector,

@@ -14,15 +14,15 @@ mod instructions;
 mod negative;
 mod unspecified;
 
-use crate::suite::check::Check;
+use crate::suite::plan::Family;
 use crate::suite::{Author, Options};
 
-pub(super) fn checks(author: &Author<'_>, options: &Options) -> Vec<Check> {
-    let mut checks = golden::checks(author);
-    checks.extend(exhaustive::checks(author, options));
-    checks.extend(instructions::checks(author));
-    checks.extend(negative::checks(author));
-    checks.extend(unspecified::checks(author));
-    checks.extend(generated::checks(author, options.seed, options.cases));
-    checks
+pub(super) fn families<'a>(author: Author<'a>, options: &Options) -> Vec<Family<'a>> {
+    let mut families = vec![golden::family(author)];
+    families.extend(exhaustive::families(author, options));
+    families.push(Family::of("", move || instructions::checks(&author)));
+    families.extend(negative::families(author));
+    families.push(Family::of("dynamixel2.open.", move || unspecified::checks(&author)));
+    families.push(generated::family(author, options.seed, options.cases));
+    families
 }

@@ -7,8 +7,16 @@ use actucheck_spec::wire::dynamixel2::reference;
 
 use crate::suite::Author;
 use crate::suite::check::Check;
+use crate::suite::plan::Family;
 
-pub(super) fn checks(author: &Author<'_>) -> Vec<Check> {
+pub(super) fn families(author: Author<'_>) -> [Family<'_>; 2] {
+    [
+        Family::of("dynamixel2.negative.", move || broken(&author)),
+        Family::of("dynamixel2.stream.", move || streams(&author)),
+    ]
+}
+
+fn broken(author: &Author<'_>) -> Vec<Check> {
     let mut checks = Vec::new();
     for (name, packet) in packets() {
         let frame = reference::encode(&packet).unwrap_or_default();
@@ -20,7 +28,6 @@ pub(super) fn checks(author: &Author<'_>) -> Vec<Check> {
             checks.push(author.decoded(after, "dynamixel2.receive.crc", frame.clone()));
         }
     }
-    checks.extend(streams(author));
     checks
 }
 

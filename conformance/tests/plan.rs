@@ -1,0 +1,151 @@
+//! A plan is the same whole or in parts, and no subject gets far ahead of another.
+
+#![allow(clippy::unwrap_used)] // tests may stop at a surprise
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::thread;
+use std::time::Duration;
+
+use actucheck::adapter::{Hello, Op, Wire};
+use actucheck::run;
+use actucheck::subject::{Answer, Builtin, Subject};
+use actucheck::suite::check::Check;
+use actucheck::suite::plan::Plan;
+use actucheck::suite::select::Patterns;
+use actucheck::suite::{self, Options};
+use actucheck_spec::Spec;
+use actucheck_spec::model::Level;
+
+const WIRES: [Options; 2] = [
+    Options { cases: 30, max_packet: Some(600), ..Options::new(Wire::Dynamixel2).with_bodies(3) },
+    Options { max_packet: Some(600), ..Options::new(Wire::Innfos) },
+];
+
+fn restricted<'a>(spec: &'a Spec, options: &Options, only: &str, not: &[&str]) -> Plan<'a> {
+    let mut plan = suite::plan(spec, options);
+    let not: Vec<_> = not.iter().copied().map(str::to_owned).collect();
+    plan.restrict(&[only.to_owned()], &not, Level::May).unwrap();
+    plan
+}
+
+#[test]
+fn ids_are_known_before_a_check_is_built() {
+    let spec = Spec::embedded().unwrap();
+    for options in WIRES {
+        let plan = suite::plan(&spec, &options);
+        let built: Vec<_> = plan.checks().map(|check| check.id).collect();
+        assert!(plan.ids().eq(built.iter().cloned()));
+        let apart: BTreeSet<_> = built.iter().collect();
+        assert_eq!(apart.len(), built.len(), "an id is there twice");
+    }
+}
+
+#[test]
+fn a_check_is_the_same_alone() {
+    let spec = Spec::embedded().unwrap();
+    for options in WIRES {
+        let plan = suite::plan(&spec, &options);
+        // A prime, so that all kinds of checks have their turn.
+        for check in plan.checks().step_by(53) {
+            assert_eq!(plan.find(&check.id).as_ref(), Some(&check));
+            let alone = restricted(&spec, &options, &check.id, &[]);
+            assert!(alone.ids().eq([check.id.clone()]));
+            assert!(alone.checks().eq([check]));
+        }
+        assert_eq!(plan.find("no.such.id"), None);
+        assert_eq!(plan.find("dynamixel2.seed-1.30/stream"), None);
+    }
+}
+
+#[test]
+fn a_restricted_plan_is_what_its_patterns_leave() {
+    let spec = Spec::embedded().unwrap();
+    let [options, _] = WIRES;
+    let all: Vec<Check> = suite::plan(&spec, &options).checks().collect();
+    for (only, not) in [
+        ("*", &["*/decode"][..]),
+        ("*stuffing*", &["*.in-*", "dynamixel2.stuffing.body.ff/stuff"]),
+        ("dynamixel2.seed-1.1?.*/encode", &[]),
+        ("dynamixel2.seed-1.7/stream", &[]),
+        ("ja40.*", &["*crc"]),
+    ] {
+        let plan = restricted(&spec, &options, only, not);
+        let (only, not) = (Patterns::new([only]).unwrap(), Patterns::new(not.to_vec()).unwrap());
+        let left = all.iter().filter(|it| only.is_match(&it.id) && !not.is_match(&it.id));
+        assert!(plan.checks().eq(left.clone().cloned()), "{only:?}");
+        assert!(plan.ids().eq(left.map(|check| check.id.clone())), "{only:?}");
+    }
+    let mut plan = suite::plan(&spec, &options);
+    assert!(plan.restrict(&["no.such*".to_owned()], &[], Level::May).is_err());
+    plan.restrict(&[], &[], Level::Must).unwrap();
+    let must = all.iter().filter(|check| check.level == Level::Must);
+    assert!(plan.checks().eq(must.clone().cloned()));
+    assert!(plan.ids().eq(must.map(|check| check.id.clone())));
+}
+
+#[test]
+fn what_a_check_requires_stands_before_it() {
+    let spec = Spec::embedded().unwrap();
+    for options in WIRES {
+        let mut earlier = BTreeSet::new();
+        for check in suite::plan(&spec, &options).checks() {
+            assert!(check.requires.is_none_or(|id| earlier.contains(&id)), "{}", check.id);
+            earlier.insert(check.id);
+        }
+    }
+}
+
+/// The built-in codec, which does not answer before it may.
+struct Waiting {
+    codec: Builtin,
+    asked: Arc<AtomicUsize>,
+    may: Arc<AtomicBool>,
+}
+
+impl Subject for Waiting {
+    fn hello(&self) -> &Hello {
+        self.codec.hello()
+    }
+
+    fn ask(&mut self, op: &Op) -> Answer {
+        self.asked.fetch_add(1, Ordering::Relaxed);
+        while !self.may.load(Ordering::Relaxed) {
+            thread::sleep(Duration::from_millis(1));
+        }
+        self.codec.ask(op)
+    }
+}
+
+/// Outcomes are held back until those before them are there.
+#[test]
+fn nobody_gets_far_ahead_and_the_order_stays() {
+    const MOST: usize = 8000;
+    let spec = Spec::embedded().unwrap();
+    let plan = suite::plan(&spec, &Options { cases: 10, ..Options::new(Wire::Dynamixel2) });
+    let [slow, fast] = [false, true].map(|may| Waiting {
+        codec: Builtin::default(),
+        asked: Arc::new(AtomicUsize::new(0)),
+        may: Arc::new(AtomicBool::new(may)),
+    });
+    let (may, asked) = (Arc::clone(&slow.may), Arc::clone(&fast.asked));
+    let watch = thread::spawn(move || {
+        let mut before = 0;
+        loop {
+            thread::sleep(Duration::from_millis(300));
+            let now = asked.load(Ordering::Relaxed);
+            if now == before && now > 1 {
+                may.store(true, Ordering::Relaxed);
+                return now;
+            }
+            before = now;
+        }
+    });
+    // The first subject is also asked something that is no check.
+    let mut subjects: [Box<dyn Subject + Send>; 2] = [Box::new(fast), Box::new(slow)];
+    let outcomes = run::outcomes(&mut subjects, &plan);
+    let ahead = watch.join().unwrap();
+    assert!(ahead < MOST, "{ahead} questions answered beside one that is not");
+    assert!(outcomes.into_iter().map(|outcome| outcome.id).eq(plan.ids()));
+}
