@@ -11,10 +11,7 @@ fn main() -> io::Result<()> {
     let spec = match Spec::embedded() {
         Ok(spec) => spec,
         Err(defects) => {
-            for defect in &defects {
-                println!("cargo::error={defect}");
-                defect.excerpt().lines().skip(1).for_each(|line| println!("cargo::error={line}"));
-            }
+            generate::report(&defects);
             return Ok(());
         }
     };

@@ -1,6 +1,11 @@
-//! What can be wrong with what is to be sent, and with a buffer for it.
+//! What can be wrong with what is to be sent and with a buffer for it, and the one error that all
+//! others turn into.
 
 use core::fmt;
+
+use crate::layout::LayoutError;
+use crate::register::RegisterError;
+use crate::{dynamixel2, innfos};
 
 /// A buffer is too small for what was to be written to it. Its contents are unspecified then.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,3 +74,72 @@ impl From<BufferTooSmall> for EncodeError {
         Self::Buffer(error)
     }
 }
+
+/// Everything that can go wrong, for who passes errors on with `?`. Every error of this crate
+/// becomes one.
+///
+/// ```
+/// use actucheck_codec::dynamixel2::Frame;
+/// use actucheck_codec::{Error, ja40};
+///
+/// fn position(packet: &[u8]) -> Result<i32, Error> {
+///     Ok(Frame::parse(packet)?.status()?.value(ja40::PRESENT_POSITION)?)
+/// }
+///
+/// let error = position(b"\xFF\xFF\xFD\x00\x01\x03\x00\x01\x19\x00").unwrap_err();
+/// assert_eq!(error.to_string(), "crc: bytes 8 and 9 are 19 00, 19 4E is expected");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Error {
+    /// A buffer is too small.
+    Buffer(BufferTooSmall),
+    /// A packet or frame can't be built.
+    Encode(EncodeError),
+    /// Bytes are no packet of DYNAMIXEL Protocol 2.0.
+    Frame(dynamixel2::FrameError),
+    /// A packet is no instruction that a device could carry out.
+    Request(dynamixel2::RequestError),
+    /// A body can't be unstuffed.
+    Stuffing(dynamixel2::stuffing::UnstuffError),
+    /// Parameters do not fit their layout.
+    Layout(LayoutError),
+    /// A register can't be written or read so.
+    Register(RegisterError),
+    /// Bytes are no frame of INNFOS.
+    InnfosFrame(innfos::FrameError),
+    /// A frame of INNFOS is no message, or a message has no frame.
+    InnfosMessage(innfos::MessageError),
+}
+
+macro_rules! from {
+    ($($variant:ident: $error:ty,)*) => {
+        $(impl From<$error> for Error {
+            fn from(error: $error) -> Self {
+                Self::$variant(error)
+            }
+        })*
+
+        impl fmt::Display for Error {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                match self {
+                    $(Self::$variant(error) => error.fmt(f),)*
+                }
+            }
+        }
+    };
+}
+
+from! {
+    Buffer: BufferTooSmall,
+    Encode: EncodeError,
+    Frame: dynamixel2::FrameError,
+    Request: dynamixel2::RequestError,
+    Stuffing: dynamixel2::stuffing::UnstuffError,
+    Layout: LayoutError,
+    Register: RegisterError,
+    InnfosFrame: innfos::FrameError,
+    InnfosMessage: innfos::MessageError,
+}
+
+impl core::error::Error for Error {}

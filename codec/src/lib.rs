@@ -54,5 +54,5 @@ mod generated {
     include!(concat!(env!("OUT_DIR"), "/devices.rs"));
 }
 
-pub use error::{BufferTooSmall, EncodeError};
+pub use error::{BufferTooSmall, EncodeError, Error};
 pub use generated::*;

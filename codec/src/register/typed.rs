@@ -52,9 +52,16 @@ impl<T> Clone for Register<T> {
 impl<T> Copy for Register<T> {}
 
 impl<T: Value> Register<T> {
-    /// The device modules call it where a constant is computed: a type that does not suit the row
-    /// ends the build.
-    pub(crate) const fn new(row: &'static Row) -> Self {
+    /// The register of this row. Call it where a constant is computed: there, a type that does
+    /// not suit the row ends the build.
+    ///
+    /// The device modules are made so; for a device of your own,
+    /// `actucheck_spec::generate::build_script` writes such a module.
+    ///
+    /// # Panics
+    /// If the row's kind is another than the type's.
+    #[must_use]
+    pub const fn new(row: &'static Row) -> Self {
         assert!(row.kind as u8 == T::KIND as u8, "a register of another kind than its value");
         Self { row, value: PhantomData }
     }

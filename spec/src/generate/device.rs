@@ -12,7 +12,8 @@ use crate::model::{
     Access, Area, BitField, Bound, Condition, Device, Meaning, Range, Register, Unit,
 };
 
-pub(super) fn module(spec: &Spec, device: &Device) -> TokenStream {
+/// `codec` is the path to the codec's crate.
+pub(super) fn module(spec: &Spec, device: &Device, codec: &TokenStream) -> TokenStream {
     let name = module_name(&device.device);
     let doc = format!(" The {} control table: {}.", device.title, places(&device.source));
     let (id, title) = (&device.device, &device.title);
@@ -37,8 +38,8 @@ pub(super) fn module(spec: &Spec, device: &Device) -> TokenStream {
     quote! {
         #[doc = #doc]
         pub mod #name {
-            use crate::dynamixel2::Instruction;
-            use crate::register::{
+            use #codec::dynamixel2::Instruction;
+            use #codec::register::{
                 Access, Area, BitField, Bound, Condition, Device, Kind, Meaning, NamedValue, Range,
                 Register, Row, Unit, Value,
             };

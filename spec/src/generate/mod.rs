@@ -4,6 +4,7 @@
 mod constants;
 mod device;
 mod innfos;
+mod own_device;
 mod protocol;
 mod token;
 mod value;
@@ -15,6 +16,7 @@ use quote::quote;
 use crate::Spec;
 use crate::model::{Citation, Device, Innfos, Protocol};
 
+pub use own_device::{build_script, device_from_yaml, report};
 pub(crate) use token::words;
 
 /// One generated file.
@@ -51,7 +53,8 @@ pub fn codec(spec: &Spec) -> Result<Vec<Module>, GenerateError> {
         modules.push(protocol(&file.content)?);
     }
     modules.push(innfos(&spec.innfos.content)?);
-    let devices = spec.devices.iter().map(|file| device::module(spec, &file.content));
+    let devices =
+        spec.devices.iter().map(|file| device::module(spec, &file.content, &quote!(crate)));
     modules.push(format("devices", &quote!(#(#devices)*))?);
     Ok(modules)
 }
@@ -77,14 +80,13 @@ pub fn innfos(innfos: &Innfos) -> Result<Module, GenerateError> {
 /// # Errors
 /// If a name of the spec can't be turned into a Rust name.
 pub fn device(spec: &Spec, device: &Device) -> Result<Module, GenerateError> {
-    format(&device.device, &device::module(spec, device))
+    format(&device.device, &device::module(spec, device, &quote!(crate)))
 }
 
 fn format(name: &str, tokens: &TokenStream) -> Result<Module, GenerateError> {
     let file = syn::parse2(tokens.clone())
         .map_err(|error| GenerateError { module: name.to_owned(), reason: error.to_string() })?;
-    let source =
-        format!("// Generated from the YAML in spec/.\n\n{}", prettyplease::unparse(&file));
+    let source = format!("// Generated from YAML.\n\n{}", prettyplease::unparse(&file));
     Ok(Module { name: name.to_owned(), source })
 }
 

@@ -84,9 +84,11 @@ pub(super) fn capitalised(word: &str) -> String {
     letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect()
 }
 
-/// An identifier; a name that is none becomes one that says so and does not compile.
+/// What a name becomes that is none in Rust: it says so, and does not compile.
+pub(super) const NOT_A_NAME: &str = "not_a_rust_name";
+
 fn ident(name: &str) -> Ident {
-    syn::parse_str(name).unwrap_or_else(|_| Ident::new("not_a_rust_name", Span::call_site()))
+    syn::parse_str(name).unwrap_or_else(|_| Ident::new(NOT_A_NAME, Span::call_site()))
 }
 
 #[cfg(test)]

@@ -132,6 +132,33 @@ impl Spec {
         if defects.is_empty() { Ok(spec) } else { Err(defects) }
     }
 
+    /// The embedded spec's wires with a device that is not in it, read and checked. `path` is what
+    /// defects call the file. What the device cites are documents of its own.
+    ///
+    /// # Errors
+    /// Every defect found in `text`.
+    pub fn with_own_device(path: &str, text: &str) -> Result<Self, Vec<Diagnostic>> {
+        let own = |source: &Source| {
+            ["documents.yaml", "errata.yaml", "protocols/"]
+                .iter()
+                .any(|name| source.path.starts_with(&format!("spec/{name}")))
+        };
+        let wires: Vec<_> = embedded().into_iter().filter(own).collect();
+        let mut spec = Self::parse(&wires)?;
+        let source = Source { path: path.to_owned(), text: text.to_owned() };
+        let device: File<Device> = File::read(&source).map_err(|defect| vec![defect])?;
+        let rows = device.content.registers.iter().flat_map(|row| &row.source);
+        for citation in device.content.source.iter().chain(rows) {
+            if spec.document(&citation.document).is_none() {
+                spec.documents.content.documents.push(Document::own(&citation.document));
+            }
+        }
+        spec.devices = vec![device];
+        let mut defects = check::all(&spec);
+        defects.retain(|defect| defect.path == path);
+        if defects.is_empty() { Ok(spec) } else { Err(defects) }
+    }
+
     fn parse(sources: &[Source]) -> Result<Self, Vec<Diagnostic>> {
         let mut reader = Reader { sources, defects: Vec::new() };
         let documents = reader.one("documents.yaml");

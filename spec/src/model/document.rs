@@ -22,3 +22,16 @@ pub struct Document {
     /// Name of the file that it was read from.
     pub file: String,
 }
+
+impl Document {
+    /// One of which nothing is known but what citations call it.
+    #[must_use]
+    pub(crate) fn own(id: &str) -> Self {
+        Self {
+            id: id.to_owned(),
+            title: id.to_owned(),
+            language: String::new(),
+            file: String::new(),
+        }
+    }
+}

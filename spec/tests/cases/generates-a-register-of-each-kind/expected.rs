@@ -1,4 +1,4 @@
-// Generated from the YAML in spec/.
+// Generated from YAML.
 
 /// Wire.
 pub mod wire {
@@ -172,7 +172,7 @@ pub mod wire {
     }
 }
 
-// Generated from the YAML in spec/.
+// Generated from YAML.
 
 /// Board.
 pub mod board {
@@ -340,7 +340,7 @@ pub mod board {
     pub const ACTUATORS: [Actuator; 0usize] = [];
 }
 
-// Generated from the YAML in spec/.
+// Generated from YAML.
 
 /// The Motor control table: book §2.
 pub mod motor {
