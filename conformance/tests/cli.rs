@@ -232,7 +232,7 @@ fn help_lists_the_subcommands_and_the_exit_status() {
       list         Lists the checks
       show         Shows one check: what it asks, what it demands, and which sentence demands it
       replay       Asks one check again and shows what was said
-      adapter      Starts, and checks, the adapter that puts a library behind the suite
+      adapter      Prints a template of an adapter, or checks an adapter
       report       Compares the reports of several runs, or writes one in another format
       spec         Shows, compares and exports what the documents say
       completions  Prints a shell's completion script

@@ -1,4 +1,5 @@
-//! The adapter protocol: what is said, the process that it is said to, and whether an adapter keeps to it.
+//! The adapter protocol: its requests and replies, the adapter's process, and the check of an
+//! adapter.
 
 pub mod lint;
 mod process;
@@ -14,12 +15,12 @@ pub use requests::{
 };
 pub use trace::Trace;
 
-/// How long an adapter may take.
+/// Time limits of an adapter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Timeouts {
-    /// From its start to its answer to `hello`.
+    /// From the start to the answer to `hello`.
     pub start: Duration,
-    /// For a request.
+    /// For one request.
     pub request: Duration,
 }
 
@@ -32,11 +33,11 @@ impl Default for Timeouts {
 /// How an adapter is run.
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// How long it may take.
+    /// The time limits.
     pub timeouts: Timeouts,
-    /// How often it is started again before the rest is given up.
+    /// How often the adapter is restarted before the remaining questions are given up.
     pub restarts: u32,
-    /// Where the lines exchanged are noted.
+    /// Where the exchanged lines are written.
     pub trace: Option<Trace>,
     /// The number of this process in the trace.
     pub number: u32,

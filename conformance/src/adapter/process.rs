@@ -1,4 +1,4 @@
-//! An adapter's process: its pipes and its end.
+//! An adapter's process, its pipes, and how it ends.
 
 use std::io;
 use std::process::{ExitStatus, Stdio};
@@ -13,46 +13,46 @@ use tokio::time::timeout;
 
 use super::{Settings, Trace};
 
-/// The longest line that an adapter may write.
+/// The longest line that an adapter may write, in bytes.
 const MAX_LINE: usize = 16 << 20;
-/// How much of its standard error is kept.
+/// How many bytes of an adapter's standard error are kept.
 const MAX_LOG: usize = 16 << 10;
-/// How long an ending process is given to say why.
+/// How long to wait for the last output of a process that is ending.
 const GRACE: Duration = Duration::from_millis(200);
 
 /// A running adapter. Dropping it kills the process and its children.
 #[derive(Debug)]
 pub(crate) struct Running {
-    // No thread of its own: a thread more for a pipe would cost each question two switches.
+    // The pipes have no thread of their own: that would cost two thread switches per question.
     runtime: Runtime,
     child: Child,
-    /// Its process group, which outlives it where it has children.
+    /// Its process group, which still exists after the process ends if it has children.
     #[cfg(unix)]
     group: Option<rustix::process::Pid>,
     pipes: Pipes,
-    /// What reads its standard error.
+    /// Reads its standard error.
     logging: Option<JoinHandle<()>>,
     log: Arc<Mutex<Vec<u8>>>,
     trace: Option<(Trace, u32)>,
 }
 
-/// Its standard input and output, and what is on the way.
+/// Its standard input and output, and the bytes that are on the way.
 #[derive(Debug)]
 struct Pipes {
     stdin: Option<ChildStdin>,
     stdout: Option<BufReader<ChildStdout>>,
-    /// What is still to be written.
+    /// The bytes still to be written.
     outgoing: Vec<u8>,
-    /// The part of a line that was read so far.
+    /// The part of a line read so far.
     incoming: Vec<u8>,
 }
 
-/// What came over the adapter's standard output.
+/// What arrived from the adapter's standard output.
 #[derive(Debug)]
 pub(crate) enum Line {
     /// A line without its end.
     Text(Vec<u8>),
-    /// A line that is longer than is allowed.
+    /// A line that is longer than allowed.
     TooLong,
     /// The adapter closed its output.
     End,
@@ -101,15 +101,15 @@ impl Running {
         })
     }
 
-    /// Takes one line for the adapter, which goes out while the next line is waited for. An
-    /// adapter that does not read it is found out by its silence.
+    /// Queues one line for the adapter. It is sent while the suite waits for the next line. If the
+    /// adapter does not read it, the time limit shows that.
     pub(crate) fn send(&mut self, line: &[u8]) {
         self.note('>', line);
         self.pipes.outgoing.extend(line);
         self.pipes.outgoing.push(b'\n');
     }
 
-    /// Waits for the next line; `None` when the time is up.
+    /// Waits for the next line; `None` if the time limit is reached.
     pub(crate) fn receive(&mut self, limit: Duration) -> Option<Line> {
         let pipes = &mut self.pipes;
         let line = self.runtime.block_on(async { timeout(limit, pipes.exchange()).await.ok() });
@@ -122,18 +122,18 @@ impl Running {
         line
     }
 
-    /// The end of what it wrote to its standard error.
+    /// The last bytes that it wrote to its standard error.
     pub(crate) fn log(&self) -> String {
         let log = self.log.lock().unwrap_or_else(PoisonError::into_inner);
         String::from_utf8_lossy(&log).trim_end().to_owned()
     }
 
-    /// How it ended, if it ends now or within a moment.
+    /// The exit status, if the process has ended or ends within a moment.
     pub(crate) fn exit_status(&mut self) -> Option<ExitStatus> {
         let (child, logging) = (&mut self.child, self.logging.take());
         self.runtime.block_on(async {
             let status = timeout(GRACE, child.wait()).await.ok()?.ok();
-            // What it said at its end is still in the pipe, which its children may hold open.
+            // Its last output is still in the pipe, and its children may hold the pipe open.
             if let Some(logging) = logging {
                 let _ = timeout(GRACE, logging).await;
             }
@@ -141,11 +141,11 @@ impl Running {
         })
     }
 
-    /// Sends a last line and gives the adapter a moment to end itself.
+    /// Sends a last line and gives the adapter a moment to end by itself.
     pub(crate) fn farewell(&mut self, line: &[u8]) {
         self.send(line);
         let (child, pipes) = (&mut self.child, &mut self.pipes);
-        // One that does not listen is killed in any case.
+        // An adapter that does not end is killed.
         let _ = self.runtime.block_on(async {
             timeout(GRACE, async {
                 pipes.write().await;
@@ -165,19 +165,19 @@ impl Running {
 
 impl Drop for Running {
     fn drop(&mut self) {
-        // Its children are in its group, also when it has ended itself.
+        // Its children are in its group even after it has ended.
         #[cfg(unix)]
         if let Some(group) = self.group {
-            // Fails only if none is left.
+            // Fails only if no process is left.
             let _ = rustix::process::kill_process_group(group, rustix::process::Signal::KILL);
         }
-        // Fails only if it has ended.
+        // Fails only if the process has ended.
         let _ = self.runtime.block_on(self.child.kill());
     }
 }
 
 impl Pipes {
-    /// Writes what is to be written while it waits for a line.
+    /// Writes the queued bytes while it waits for a line.
     async fn exchange(&mut self) -> Line {
         let Some(stdout) = &mut self.stdout else { return Line::End };
         let (stdin, outgoing) = (&mut self.stdin, &mut self.outgoing);
@@ -194,18 +194,18 @@ impl Pipes {
     }
 }
 
-/// Writes as much as it takes. Cut short, it leaves what is still to be written.
+/// Writes as much as the pipe takes. If it is cancelled, the rest stays queued.
 async fn write(stdin: &mut Option<ChildStdin>, outgoing: &mut Vec<u8>) {
     while let (Some(pipe), false) = (stdin.as_mut(), outgoing.is_empty()) {
         match pipe.write(outgoing).await {
             Ok(count @ 1..) => drop(outgoing.drain(..count)),
-            // An adapter that reads no more says so by its silence or its end.
+            // An adapter that stops reading is noticed by the time limit or its end.
             _ => *stdin = None,
         }
     }
 }
 
-/// Reads a line. Cut short, it leaves the part that was read.
+/// Reads a line. If it is cancelled, the part read so far is kept.
 async fn read_line(stdout: &mut BufReader<ChildStdout>, line: &mut Vec<u8>) -> Line {
     loop {
         let Ok(bytes) = stdout.fill_buf().await else { return Line::End };

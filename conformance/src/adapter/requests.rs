@@ -1,5 +1,5 @@
-//! The adapter protocol, version 1: what the suite and an adapter say to each other, one JSON
-//! object a line.
+//! The adapter protocol, version 1: the requests and replies between the suite and an adapter, one
+//! JSON object per line.
 
 use std::fmt;
 
@@ -9,10 +9,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-/// The version that this suite speaks.
+/// The version of the adapter protocol that this suite speaks.
 pub const VERSION: u32 = 1;
 
-/// A protocol whose packets are checked.
+/// A wire whose packets are checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Wire {
@@ -35,7 +35,7 @@ impl Wire {
         }
     }
 
-    /// What it is called, for people.
+    /// Its name for people.
     #[must_use]
     pub const fn title(self) -> &'static str {
         match self {
@@ -45,12 +45,12 @@ impl Wire {
     }
 }
 
-/// A request as it goes over the pipe.
+/// A request as it is sent over the pipe.
 #[derive(Clone, Debug, Serialize)]
 pub struct Request<'a> {
-    /// Counts up; the reply repeats it.
+    /// A number that counts up; the reply repeats it.
     pub id: u64,
-    /// What is asked.
+    /// The question.
     #[serde(flatten)]
     pub op: &'a Op,
 }
@@ -71,18 +71,18 @@ pub enum Op {
         /// The bytes.
         bytes: HexBytes,
     },
-    /// A body with its stuffing.
+    /// Byte stuffing added to a body.
     Stuff {
         /// The wire.
         wire: Wire,
-        /// The body without.
+        /// The body without stuffing.
         bytes: HexBytes,
     },
-    /// A body without its stuffing.
+    /// Byte stuffing removed from a body.
     Unstuff {
         /// The wire.
         wire: Wire,
-        /// The body with.
+        /// The body with stuffing.
         bytes: HexBytes,
     },
     /// The bytes of a packet.
@@ -92,26 +92,26 @@ pub enum Op {
         /// The packet.
         packet: Called,
     },
-    /// The packet that bytes are.
+    /// The packet that the bytes encode.
     Decode {
         /// The wire.
         wire: Wire,
-        /// One whole frame, nothing after it.
+        /// One whole frame and nothing after it.
         bytes: HexBytes,
-        /// For a fast status packet: what was asked for.
+        /// For a fast status packet: the request that it answers.
         #[serde(skip_serializing_if = "Option::is_none")]
         fast: Option<Fast>,
-        /// For INNFOS: which way the frame goes.
+        /// For INNFOS: the direction of the frame.
         #[serde(skip_serializing_if = "Option::is_none")]
         kind: Option<FrameKind>,
     },
-    /// The good packets of a stream.
+    /// The valid packets of a stream.
     Stream {
         /// The wire.
         wire: Wire,
-        /// The stream, cut into chunks; for INNFOS datagrams.
+        /// The stream in chunks; for INNFOS each chunk is a datagram.
         chunks: Vec<HexBytes>,
-        /// For INNFOS: which way the frames go.
+        /// For INNFOS: the direction of the frames.
         #[serde(skip_serializing_if = "Option::is_none")]
         kind: Option<FrameKind>,
     },
@@ -139,7 +139,7 @@ impl Op {
         }
     }
 
-    /// The wire that it is about, if it is about packets.
+    /// The wire of the question; `None` for a request that is no question.
     #[must_use]
     pub const fn wire(&self) -> Option<Wire> {
         match self {
@@ -154,26 +154,26 @@ impl Op {
     }
 }
 
-/// As it goes over the pipe, but for its number.
+/// As it is sent over the pipe, without its id.
 impl fmt::Display for Op {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&json(self)?)
     }
 }
 
-/// A packet, and the call that sends it for a library that has calls rather than packets.
+/// A packet, with the call that sends it for libraries that have calls instead of packets.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Called {
     /// The packet.
     #[serde(flatten)]
     pub packet: Packet,
-    /// The same request in words; only for instruction packets that have a call.
+    /// The same request as a call; only for instruction packets that have one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub call: Option<Call>,
 }
 
 impl<'de> Deserialize<'de> for Called {
-    /// The call is made from the packet again: it says the same in other words.
+    /// The call is derived from the packet again, as it has the same content.
     fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let mut fields = serde_json::Map::deserialize(deserializer)?;
         let called = fields.remove("call").is_some();
@@ -184,21 +184,21 @@ impl<'de> Deserialize<'de> for Called {
     }
 }
 
-/// What an adapter says of itself.
+/// An adapter's answer to `hello`.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 pub struct Hello {
     /// The version of the adapter protocol that it speaks.
     pub protocol: u32,
-    /// What it wraps.
+    /// The implementation that it wraps.
     pub implementation: Implementation,
     /// The wires that it offers.
     pub wires: Vec<String>,
     /// The ops that it offers.
     pub ops: Vec<String>,
-    /// How many requests may be outstanding.
+    /// The maximum number of outstanding requests.
     #[serde(default = "one")]
     pub max_in_flight: usize,
-    /// What it can't go beyond.
+    /// The limits of the implementation.
     #[serde(default)]
     pub limits: Limits,
 }
@@ -216,50 +216,50 @@ pub struct Implementation {
     pub version: String,
     /// The language that it is written in.
     pub language: String,
-    /// Where it is to be found.
+    /// Where to find it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub url: Option<String>,
 }
 
-/// What an implementation can't go beyond.
+/// The limits of an implementation.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
 pub struct Limits {
-    /// Bytes of the longest frame that it builds or reads.
+    /// Size in bytes of the longest frame that it builds or reads.
     pub max_packet: Option<usize>,
 }
 
-/// A reply as it comes over the pipe. A field that the protocol does not have is passed over.
+/// A reply as it is received over the pipe. Unknown fields are ignored.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Reply {
-    /// The request's.
+    /// The id of the request.
     pub id: Option<u64>,
-    /// What was asked for.
+    /// The result.
     pub ok: Option<Value>,
     /// Why the bytes or the packet are rejected.
     pub err: Option<Rejection>,
-    /// Why it was not tried.
+    /// Why the request was skipped.
     pub skip: Option<Skip>,
 }
 
 /// Why bytes or a packet are rejected.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Rejection {
-    /// What is wrong with them.
+    /// What is wrong.
     pub class: Fault,
-    /// In words.
+    /// An explanation in words.
     #[serde(default)]
     pub detail: String,
 }
 
-/// Why something was not tried.
+/// Why a request was skipped.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 pub struct Skip {
-    /// In words.
+    /// An explanation in words.
     #[serde(default)]
     pub reason: String,
 }
 
-/// What an op yields when all is well.
+/// The result of a successful op.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Output {
@@ -304,7 +304,7 @@ impl Output {
     }
 }
 
-/// A CRC as a number in hex, bytes in hex, and packets as they come over the pipe.
+/// Writes a CRC as a hexadecimal number, bytes in hex, and packets as JSON.
 impl fmt::Display for Output {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -1,9 +1,9 @@
-//! A record of every line that goes to an adapter and comes from it.
+//! A record of every line exchanged with an adapter.
 
 use std::io::{self, Write};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Where the lines go; the clones of one trace write to the same place.
+/// A trace; its clones write to the same place.
 #[derive(Clone)]
 pub struct Trace {
     out: Arc<Mutex<Output>>,
@@ -11,7 +11,7 @@ pub struct Trace {
 
 struct Output {
     writer: Box<dyn Write + Send>,
-    /// The first error, after which nothing more is written.
+    /// The first error. After it nothing more is written.
     error: Option<io::Error>,
 }
 
@@ -22,10 +22,10 @@ impl Trace {
         Self { out: Arc::new(Mutex::new(Output { writer, error: None })) }
     }
 
-    /// Writes out what is held back.
+    /// Writes the buffered lines.
     ///
     /// # Errors
-    /// The first error that a write met.
+    /// The first error of any write.
     pub fn finish(&self) -> io::Result<()> {
         let mut out = self.lock();
         match out.error.take() {
@@ -34,8 +34,8 @@ impl Trace {
         }
     }
 
-    /// Notes a line of the adapter process `process`; `>` goes to it, `<` comes from it, `!` is
-    /// what became of it.
+    /// Records a line of the adapter process number `process`. The mark is `>` for a line to the
+    /// adapter, `<` for a line from it, and `!` for an event such as its end.
     pub(super) fn note(&self, process: u32, mark: char, line: &[u8]) {
         let mut out = self.lock();
         if out.error.is_none() {

@@ -1,5 +1,5 @@
-//! The check that a probe is, with what the reference has for it. Nothing that the documents leave
-//! open is among them.
+//! Turns a probe into a check with the answer of the reference model. A probe whose right answer
+//! the documents leave unspecified yields no check.
 
 use actucheck_spec::model::{Fault, FrameKind, Packet};
 use actucheck_spec::wire::dynamixel2::reference::{self, Call};
@@ -11,7 +11,7 @@ use crate::suite::check::{Check, Demand};
 use crate::suite::{Author, parameters_of};
 
 impl Probe {
-    /// The check that it is; `None` if the documents leave open what is right.
+    /// The check of this probe; `None` if the documents leave the right answer unspecified.
     pub(super) fn check(&self, author: &Author<'_>, id: String) -> Option<Check> {
         let (requirement, op, demand) = match author.wire {
             Wire::Dynamixel2 => self.dynamixel2(author)?,
@@ -53,11 +53,11 @@ impl Probe {
             Self::Decode((_, packet), damage) => {
                 let frame = damaged(wire, reference::encode(packet)?, damage);
                 let (requirement, demand) = match reference::decode(&frame) {
-                    // A bare pattern and an ID that no device may have are open, and so is a status
-                    // packet from the broadcast ID where no fast one is asked for.
+                    // Unspecified: a bare pattern, an ID that no device may have, and a status
+                    // packet from the broadcast ID where no fast status packet is asked for.
                     Ok(Packet::Status { id: reference::BROADCAST, .. })
                     | Err(Fault::Stuffing | Fault::Id) => return None,
-                    // A library that reads streams only finds the whole packet that is in it.
+                    // A library that only reads streams finds the whole packet inside.
                     Err(_) if !reference::packets(&frame).is_empty() => return None,
                     Ok(packet) => {
                         let stuffed = is_stuffed(&packet, &frame);
@@ -74,8 +74,8 @@ impl Probe {
             Self::Stream(parts, cuts) => {
                 let stream = joined(wire, parts)?;
                 let packets = reference::packets(&stream);
-                // Where to go on behind a bad length is open, and a host need not read what
-                // hosts send.
+                // Where a search continues after a bad length is unspecified, and a host need not
+                // read instruction packets.
                 if !reference::is_certain(&stream)
                     || !packets.iter().all(|packet| matches!(packet, Packet::Status { .. }))
                     || holds_open(&stream)
@@ -119,7 +119,8 @@ impl Probe {
                 let op = Op::Decode { wire, bytes: frame.into(), fast: None, kind: Some(kind) };
                 (requirement, op, demand)
             }
-            // One datagram of good frames of one direction; what stands behind damage is open.
+            // One datagram of valid frames in one direction. What a receiver does after a damaged
+            // frame is unspecified.
             Self::Stream(parts, _) => {
                 let kind = kind_of(&parts.first()?.1);
                 let same = parts.iter().map(|(_, packet, _)| packet);
@@ -138,7 +139,7 @@ impl Probe {
     }
 }
 
-/// Whether the frame is longer than the packet's fields are.
+/// Whether the frame is longer than its fields require.
 fn is_stuffed(packet: &Packet, frame: &[u8]) -> bool {
     let fields = match packet {
         Packet::Instruction { params, .. } => params.len() + 1,
@@ -148,8 +149,8 @@ fn is_stuffed(packet: &Packet, frame: &[u8]) -> bool {
     frame.len() > reference::PREFIX + fields + 2
 }
 
-/// Whether something in the stream would be a packet but for a rule that is open: an ID that no
-/// device may have, a bare pattern, a status packet from the broadcast ID.
+/// Whether the stream has something that is a packet or not depending on an unspecified rule: an ID
+/// that no device may have, a bare pattern, or a status packet from the broadcast ID.
 fn holds_open(stream: &[u8]) -> bool {
     (0..stream.len()).any(|from| {
         let rest = stream.get(from..).unwrap_or_default();
@@ -163,7 +164,7 @@ fn holds_open(stream: &[u8]) -> bool {
     })
 }
 
-/// The replies of one byte whose CRC is open.
+/// The commands whose replies of one byte may or may not have a CRC.
 fn is_open(packet: &Packet) -> bool {
     matches!(packet, Packet::Reply { command: 0x02 | 0x44, data, .. } if data.len() == 1)
 }

@@ -1,4 +1,4 @@
-//! What was found, and what makes one failure another kind than the next.
+//! Findings, and how failures are grouped into kinds.
 
 use std::fmt;
 
@@ -9,51 +9,51 @@ use crate::subject::Answer;
 use crate::suite::check::{Check, Demand};
 use crate::verdict::{Outcome, Verdict};
 
-/// A kind of failure, shrunk to a small case of it.
+/// A kind of failure, with its smallest known case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
-    /// What kind.
+    /// The kind of failure.
     pub kind: Kind,
-    /// The smallest question that fails so.
+    /// The smallest question with this failure.
     pub check: Check,
-    /// What came of it.
+    /// The outcome of that question.
     pub outcome: Outcome,
-    /// How many probes failed so.
+    /// How many probes had this failure.
     pub times: u64,
 }
 
-/// What failures of one cause are likely to share.
+/// The properties that failures with the same cause are likely to share.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Kind {
-    /// The op that was asked.
+    /// The op of the question.
     pub op: &'static str,
     /// The requirement that was broken.
     pub requirement: String,
-    /// How.
+    /// How it was broken.
     pub symptom: Symptom,
 }
 
-/// In what way an answer is wrong.
+/// How an answer is wrong.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Symptom {
-    /// It is another one, first of all in this.
+    /// The answer differs; this is the first difference.
     Differs(&'static str),
-    /// It should have been a rejection for this reason.
+    /// A frame with this fault was accepted.
     Accepted(String),
-    /// Something valid is rejected for this reason.
+    /// Something valid was rejected for this reason.
     Rejected(String),
     /// The implementation broke down.
     BrokeDown,
-    /// There was none in time.
+    /// There was no answer in time.
     TimedOut,
     /// The adapter ended.
     Crashed,
-    /// It is none of the adapter protocol.
+    /// The answer violates the adapter protocol.
     Faulty,
 }
 
 impl Kind {
-    /// Whether each failure of this kind takes a new start of the adapter.
+    /// Whether the adapter has to be restarted after each failure of this kind.
     pub(super) fn is_slow(&self) -> bool {
         matches!(self.symptom, Symptom::TimedOut | Symptom::Crashed | Symptom::Faulty)
     }
@@ -80,8 +80,7 @@ pub(super) struct Failure {
 }
 
 impl Failure {
-    /// The failure that an answer is, if it is one. A rejection for another reason than the right
-    /// one is none.
+    /// The failure, if the answer is one. A rejection for the wrong reason is not a failure.
     pub(super) fn of(check: &Check, answer: Answer) -> Option<Self> {
         let class = match &answer {
             Answer::Rejected(rejection) => Some(rejection.class),
@@ -105,7 +104,7 @@ impl Failure {
     }
 }
 
-/// In what two outputs differ, first of all.
+/// The first difference between two outputs.
 fn difference(expected: Option<&Output>, actual: Option<&Output>) -> &'static str {
     match (expected, actual) {
         (Some(Output::Bytes(expected)), Some(Output::Bytes(actual))) => {

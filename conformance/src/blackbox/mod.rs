@@ -1,7 +1,8 @@
-//! Black-box fuzzing of an implementation through its adapter: what no list of checks foresees.
+//! Black-box fuzzing of an implementation through its adapter, to find failures that no check
+//! foresees.
 //!
-//! Probes grow from a seed, the reference says what is right, and what is found wrong is shrunk to
-//! the smallest question of its kind. The same seed finds the same again.
+//! Probes are generated from a seed, and the reference model gives the right answers. Each failure
+//! is shrunk to the smallest question of its kind. The same seed finds the same failures.
 
 mod expected;
 mod finding;
@@ -25,26 +26,26 @@ use crate::suite::codec::dynamixel2::generated::runner;
 
 pub use finding::{Finding, Kind, Symptom};
 
-/// How many probes are drawn before they are asked.
+/// The number of probes that are generated before they are asked.
 const BATCH: usize = 256;
-/// How often a failing probe is asked again, smaller.
+/// The maximum number of shrinking steps for a failing probe.
 const SHRINK: usize = 2_000;
-/// The same where the adapter hangs or ends, which takes its time.
+/// The same for an adapter that hangs or ends, as each step takes long.
 const SHRINK_SLOWLY: usize = 40;
 
-/// What came of a round of fuzzing.
+/// The result of fuzzing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Fuzzed {
     /// How many probes were asked.
     pub asked: u64,
-    /// What was found, each kind of failure once, in the order in which it came up.
+    /// The kinds of failure found, in the order in which they were found.
     pub findings: Vec<Finding>,
-    /// Why the adapter could not be asked any more, if so.
+    /// Why fuzzing was given up, if it was.
     pub given_up: Option<String>,
 }
 
-/// Asks `subject` what grows from `seed`, until `cases` probes were drawn or `watch`, which hears of
-/// the probes asked and the kinds of failure found so far, ends it.
+/// Asks `subject` the probes generated from `seed`. Fuzzing ends after `cases` probes or when
+/// `watch` breaks; `watch` is called with the number of probes asked and of kinds of failure found.
 pub fn fuzz(
     spec: &Spec,
     wire: Wire,
@@ -97,18 +98,19 @@ struct Fuzzer<'a> {
     strategy: BoxedStrategy<Probe>,
     runner: TestRunner,
     drawn: u64,
-    /// How often each kind of failure was met.
+    /// How often each kind of failure occurred.
     found: BTreeMap<Kind, u64>,
 }
 
-/// A probe that can be made smaller, and the check that it is now.
+/// A probe that can be shrunk, and its current check.
 struct Drawn {
     tree: Box<dyn ValueTree<Value = Probe>>,
     check: Check,
 }
 
 impl Fuzzer<'_> {
-    /// Draws a batch of probes; those of which the documents leave open what is right fall out.
+    /// Generates a batch of probes. Those whose right answer the documents leave unspecified are
+    /// dropped.
     fn draw(&mut self, cases: u64) -> Vec<Drawn> {
         let mut batch = Vec::new();
         while batch.len() < BATCH && self.drawn < cases {
@@ -124,7 +126,7 @@ impl Fuzzer<'_> {
         batch
     }
 
-    /// Counts a failure; whether it is the first of its kind.
+    /// Counts a failure. Returns whether it is the first of its kind.
     fn is_new(&mut self, failure: &Failure) -> bool {
         let times = self.found.entry(failure.kind.clone()).or_default();
         *times += 1;
@@ -132,8 +134,8 @@ impl Fuzzer<'_> {
     }
 }
 
-/// The failures among a batch, in its order; an error for what could not be asked any more.
-/// `watch` hears how many were answered, until it is `over`.
+/// Asks a batch. Returns its failures in order, or an error if the subject can't be asked any more.
+/// `watch` is called with the number of answers until the time is `over`.
 fn ask(
     subject: &mut dyn Subject,
     batch: &[Drawn],
@@ -182,7 +184,7 @@ impl Questions for Asking<'_> {
     }
 }
 
-/// Makes a failing probe smaller as long as it fails in the same way and the time lasts.
+/// Shrinks a failing probe while it fails in the same way and there is time.
 fn shrink(
     author: &Author<'_>,
     subject: &mut dyn Subject,

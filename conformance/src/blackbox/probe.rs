@@ -1,4 +1,4 @@
-//! What is asked when nobody knows what to ask: values that proptest draws and shrinks.
+//! Probes: questions that proptest generates and shrinks.
 
 use actucheck_spec::model::{HexBytes, Packet};
 use actucheck_spec::wire::dynamixel2::reference;
@@ -11,42 +11,42 @@ use proptest::strategy::Union;
 use crate::adapter::{Hello, Wire};
 use crate::suite::codec::dynamixel2::generated::{data, instruction, status};
 
-/// The longest data of a probe.
+/// The longest data of a probe, in bytes.
 const LONGEST: usize = 48;
 
-/// A question in the making.
+/// A question before it becomes a check.
 #[derive(Clone, Debug)]
 pub(super) enum Probe {
     Crc(Vec<u8>),
     Stuff(Vec<u8>),
-    /// A body whose stuffing is to be taken out.
+    /// A body whose stuffing is to be removed.
     Unstuff(Vec<u8>),
     Encode(Named),
     /// A frame, with damage.
     Decode(Named, Vec<Damage>),
-    /// Frames with damage and what lies between them, and where the stream is cut, as parts of
-    /// 65,536 of its length.
+    /// Frames with damage and the bytes between them, with the places where the stream is cut, in
+    /// units of 1/65,536 of its length.
     Stream(Vec<Part>, Vec<u16>),
 }
 
-/// A packet and what its instruction is called.
+/// A packet and the name of its instruction.
 pub(super) type Named = (&'static str, Packet);
 
 /// A part of a stream: noise, then a frame with damage.
 pub(super) type Part = (Vec<u8>, Packet, Vec<Damage>);
 
-/// Something that happens to a frame; places are parts of 65,536 of its length.
+/// A damage to a frame. Places are in units of 1/65,536 of its length.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Damage {
     Flip(u16, u8),
     Set(u16, u8),
     Cut(u16),
     Insert(u16, u8),
-    /// The CRC is made right again, so that what stands behind its check is reached.
+    /// The CRC is recomputed, so that the code after the CRC check is reached.
     Repair,
 }
 
-/// Draws probes of all ops that `hello` offers of a wire; `None` if it offers none.
+/// Generates probes for all ops that `hello` offers on a wire; `None` if it offers none.
 pub(super) fn strategy(wire: Wire, hello: &Hello) -> Option<BoxedStrategy<Probe>> {
     if !hello.wires.iter().any(|offered| offered == wire.id()) {
         return None;
@@ -100,7 +100,7 @@ fn packet(wire: Wire) -> BoxedStrategy<Named> {
     }
 }
 
-/// Any code, with parameters that need not suit it.
+/// Any code, with parameters that may not fit it.
 fn any_instruction() -> impl Strategy<Value = Named> {
     let code = prop_oneof![Just(0xFF_u8), any::<u8>()]
         .prop_map(|code| if code == reference::STATUS { 0 } else { code });
@@ -110,7 +110,7 @@ fn any_instruction() -> impl Strategy<Value = Named> {
     })
 }
 
-/// A packet whose length takes both bytes.
+/// A packet whose length needs both bytes.
 fn long_status() -> impl Strategy<Value = Named> {
     data(240..600).prop_map(|params| {
         let params = params.into();

@@ -49,7 +49,7 @@ pub(crate) struct Codec {
     /// Ask the checks of this file too, as `actucheck fuzz` writes it; may be given more than once
     #[arg(long, value_name = "FILE")]
     also: Vec<PathBuf>,
-    /// Known failures, which do not fail the run as long as they do fail
+    /// Expected failures: these checks may fail, and must not pass
     #[arg(long, value_name = "FILE")]
     expect: Option<PathBuf>,
     #[command(flatten)]
@@ -64,7 +64,7 @@ pub(crate) struct Codec {
     adapter: Adapter,
 }
 
-/// Runs the checks and writes the reports; the exit status says what came out.
+/// Runs the checks, writes the reports, and returns the exit status.
 pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     let spec = shared::spec()?;
     let selection = &options.selection;
@@ -101,7 +101,7 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     });
     let seconds = started.elapsed().as_secs_f64();
     progress.finish_and_clear();
-    // The op that no adapter has is none of the checks.
+    // The invented op is not one of the checks.
     let asked = outcomes.iter().filter(|outcome| outcome.request != Some(Op::Invented)).count();
     expectations.apply(&mut outcomes);
 
@@ -140,7 +140,7 @@ impl Limit {
         self.max_fail.is_some_and(|most| self.failed >= most.get())
     }
 
-    /// Whether the run goes on after this outcome.
+    /// Whether the run continues after this outcome.
     fn after(&mut self, outcome: &Outcome, expectations: &Expectations) -> ControlFlow<()> {
         if outcome.verdict.is_failure() && !expectations.expect(&outcome.id) {
             self.failed += 1;

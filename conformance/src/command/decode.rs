@@ -40,7 +40,7 @@ pub(crate) struct Decode {
     /// The packet's wire
     #[arg(long, value_parser = wire(), default_value = "dynamixel2")]
     wire: Wire,
-    /// Which way the packet goes; an innfos frame does not tell
+    /// The packet's direction; an innfos frame does not state it
     #[arg(long, alias = "kind", value_parser = one_of(DIRECTIONS))]
     direction: Option<FrameKind>,
     /// The device whose registers are meant
@@ -49,7 +49,7 @@ pub(crate) struct Decode {
     /// The address at which a status packet's data was read
     #[arg(long, value_name = "ADDRESS")]
     address: Option<u16>,
-    /// What a fast status packet answers: bytes a device, and the devices in order
+    /// The request that a fast status packet answers: bytes per device, and the devices in order
     #[arg(long, value_name = "LENGTH:ID,ID…", value_parser = fast, conflicts_with = "address")]
     fast: Option<Fast>,
     /// The packet's bytes in hex, with or without spaces, commas and 0x; `-` reads them from
@@ -61,10 +61,10 @@ pub(crate) struct Decode {
 const DIRECTIONS: [(FrameKind, &str, &str); 2] =
     [(FrameKind::Request, "request", "From the host"), (FrameKind::Reply, "reply", "To the host")];
 
-/// The devices whose registers can be named.
+/// The devices whose registers have names here.
 const DEVICES: [&Device; 3] = [&ja40::DEVICE, &ja_variant::DEVICE, &xm430_w210::DEVICE];
 
-/// Where a packet has its instruction.
+/// Offset of the instruction in a packet.
 const INSTRUCTION: usize = 7;
 
 /// Explains the packet, or prints it as an object.
@@ -76,7 +76,7 @@ pub(crate) fn run(options: &Decode) -> Result<ExitCode, Failure> {
             .map_err(|error| invalid(&error, error.offset()))?,
     };
     let text = if options.json { json(options, bytes)? } else { table(&explanation) };
-    // A reader that has seen enough is no failure.
+    // A closed pipe, as of `| head`, is not an error.
     let _ = write!(anstream::stdout(), "{text}");
     Ok(ExitCode::SUCCESS)
 }
@@ -90,13 +90,13 @@ fn dynamixel2(options: &Decode, bytes: &[u8]) -> Result<Explanation, Failure> {
     explanation.map_err(|error| invalid(&error, error.offset()))
 }
 
-/// Which way an INNFOS frame goes; only the user can tell.
+/// The direction of an INNFOS frame, which the frame itself does not state.
 fn direction(options: &Decode) -> Result<actucheck_codec::innfos::Kind, Failure> {
     match options.direction {
         Some(FrameKind::Request) => Ok(actucheck_codec::innfos::Kind::Request),
         Some(FrameKind::Reply) => Ok(actucheck_codec::innfos::Kind::Reply),
         None => {
-            let message = "an innfos frame does not tell which way it goes; add \
+            let message = "an innfos frame does not state its direction; add \
                            --direction request or --direction reply";
             Err(Failure::usage(message))
         }
@@ -116,7 +116,7 @@ fn bytes(arguments: &[String]) -> Result<Vec<u8>, Failure> {
     Ok(bytes.0)
 }
 
-/// Refuses a packet that goes the other way than the user says.
+/// Refuses a packet whose direction is not the one that the user gave.
 fn check_direction(told: Option<FrameKind>, bytes: &[u8]) -> Result<(), Failure> {
     let found = match bytes.get(INSTRUCTION) {
         Some(code) if *code == Instruction::Status.code() => FrameKind::Reply,
@@ -163,13 +163,14 @@ fn table(explanation: &Explanation) -> String {
     format!("{BOLD}{}{BOLD:#}\n{}\n", explanation.title, lines.join("\n"))
 }
 
-/// Reads what a Fast Sync or Fast Bulk instruction asked for.
+/// Reads the request that a fast status packet answers.
 fn fast(text: &str) -> Result<Fast, String> {
     let parse = || {
         let (length, ids) = text.split_once(':')?;
         let ids = ids.split(',').map(|id| id.trim().parse().ok());
         Some(Fast { length: length.trim().parse().ok()?, ids: ids.collect::<Option<_>>()? })
     };
-    parse()
-        .ok_or_else(|| "expected the bytes a device and the devices' IDs, such as 4:1,2".to_owned())
+    parse().ok_or_else(|| {
+        "expected the bytes per device and the devices' IDs, such as 4:1,2".to_owned()
+    })
 }

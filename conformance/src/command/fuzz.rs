@@ -34,13 +34,13 @@ Exit status: 0 nothing found, 1 something found, 2 wrong usage, 3 the adapter fa
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Fuzz {
-    /// The wire whose packets are drawn
+    /// The wire whose packets are generated
     #[arg(long, value_parser = wire(), default_value = "dynamixel2")]
     wire: Wire,
-    /// How long, as in 90s, 10m or 1h; a minute if neither this nor --cases is given
+    /// How long to fuzz, as in 90s, 10m or 1h; one minute if neither this nor --cases is given
     #[arg(long, value_name = "TIME", value_parser = duration, conflicts_with = "cases")]
     time: Option<Duration>,
-    /// How many probes are drawn
+    /// How many probes are generated
     #[arg(long, value_name = "N")]
     cases: Option<u64>,
     /// The seed of the probes; another one each time if it is not given
@@ -53,13 +53,14 @@ pub(crate) struct Fuzz {
     adapter: Adapter,
 }
 
-/// How long it takes where the user does not say it.
+/// The duration if the user gives neither a time nor a number of probes.
 const MINUTE: Duration = Duration::from_mins(1);
 
-/// How often an adapter that fails is started again: each crash costs one, the hundredth as well.
+/// How often a failing adapter is restarted. Every crash needs one restart, also a crash that was
+/// seen before.
 const RESTARTS: u32 = 1000;
 
-/// Fuzzes, and shows and keeps what was found.
+/// Fuzzes, prints the findings and saves them.
 pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
     let spec = shared::spec()?;
     let mut subjects = Subjects::start_with(&options.adapter, 1, RESTARTS)?;
@@ -128,7 +129,7 @@ fn keep(options: &Fuzz, findings: &[Finding]) -> Result<(), Failure> {
     std::fs::write(&options.out, text).map_err(|error| cannot_write(&error))
 }
 
-/// The report on the smallest case of each kind of failure, and the kinds in a line each.
+/// Prints the report on the smallest case of each kind of failure, then one line per kind.
 fn show(report: &Report, findings: &[Finding], out: &mut impl Write) -> io::Result<()> {
     if findings.is_empty() {
         return Ok(());

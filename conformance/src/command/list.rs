@@ -20,7 +20,7 @@ pub(crate) struct List {
     selection: Selection,
 }
 
-/// Prints a line a check: its id, its level and its requirement.
+/// Prints one line per check: id, level and requirement.
 pub(crate) fn run(options: &List) -> Result<ExitCode, Failure> {
     let spec = shared::spec()?;
     let selection = &options.selection;
@@ -28,7 +28,7 @@ pub(crate) fn run(options: &List) -> Result<ExitCode, Failure> {
     selection.restrict(&mut plan)?;
     let mut out = io::BufWriter::new(io::stdout().lock());
     for check in plan.checks() {
-        // A reader that has seen enough is no failure.
+        // A closed pipe, as of `| head`, is not an error.
         if writeln!(out, "{}  {}  {}", check.id, check.level, check.requirement).is_err() {
             break;
         }

@@ -44,7 +44,7 @@ pub(crate) enum Command {
     Completions(completions::Completions),
 }
 
-/// The subcommand that these arguments begin with: `actucheck spec diff`.
+/// The subcommand at the beginning of these arguments, such as `actucheck spec diff`.
 pub(crate) fn named(arguments: impl Iterator<Item = String>) -> String {
     let mut name = "actucheck".to_owned();
     let mut command = Cli::command();

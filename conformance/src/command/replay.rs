@@ -27,8 +27,8 @@ Exit status: as `actucheck codec`.";
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Replay {
-    /// The check's id, as `actucheck list` and reports have it, or a file with checks, as
-    /// `actucheck fuzz` writes it
+    /// The check's id, as in `actucheck list` and in reports, or a file with checks, as `actucheck
+    /// fuzz` writes it
     #[arg(value_name = "ID|FILE")]
     what: String,
     #[command(flatten)]
@@ -68,7 +68,7 @@ pub(crate) fn run(options: &Replay) -> Result<ExitCode, Failure> {
     Ok(ExitCode::from(report.exit_status()))
 }
 
-/// The checks of a file if there is one of that name, else the one with that id.
+/// The checks of the file with this name, or the check with this id.
 fn named(options: &Replay, spec: &Spec, hello: &Hello) -> Result<(Wire, Vec<Check>), Failure> {
     let path = Path::new(&options.what);
     if !path.is_file() {

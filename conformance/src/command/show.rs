@@ -17,7 +17,7 @@ Example:
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(crate) struct Show {
-    /// The check's id, as `actucheck list` and reports have it
+    /// The check's id, as in `actucheck list` and in reports
     id: String,
     #[command(flatten)]
     growth: Growth,
@@ -29,7 +29,7 @@ pub(crate) fn run(options: &Show) -> Result<ExitCode, Failure> {
     let (_, check) = options.growth.named(&spec, &options.id, None)?;
     let mut text = Vec::new();
     text::check(&spec, &check, &mut text).map_err(Failure::incomplete)?;
-    // A reader that has seen enough is no failure.
+    // A closed pipe, as of `| head`, is not an error.
     let _ = anstream::stdout().write_all(&text);
     Ok(ExitCode::SUCCESS)
 }

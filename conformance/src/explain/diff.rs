@@ -1,4 +1,4 @@
-//! Two runs of bytes beside each other, with brackets around what differs.
+//! Compares two byte sequences and puts brackets around the differences.
 
 use std::fmt;
 
@@ -7,14 +7,14 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use similar::{Algorithm, DiffOp, capture_diff_slices};
 
-/// The bytes demanded and the bytes that came, cut where they differ.
+/// The expected and the actual bytes, split where they differ.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Diff {
-    /// What was demanded; what differs in it is missing.
+    /// The expected bytes; those that differ are missing in the actual ones.
     pub expected: Row,
-    /// What came; what differs in it is wrong.
+    /// The actual bytes; those that differ are wrong.
     pub actual: Row,
-    /// The first byte that differs, from 0; `None` if none does.
+    /// Index of the first byte that differs, from 0; `None` if they are equal.
     pub first: Option<usize>,
 }
 
@@ -22,19 +22,19 @@ pub struct Diff {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Row(pub Vec<Segment>);
 
-/// Some bytes of a row.
+/// A part of a row.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Segment {
-    /// They are in the other row too.
+    /// Bytes that both rows have.
     Same(HexBytes),
-    /// They are in this row only.
+    /// Bytes that only this row has.
     Differs(HexBytes),
-    /// So many bytes of a long stretch that both rows have.
+    /// A number of omitted bytes that both rows have.
     LeftOut(usize),
 }
 
-/// Compares two runs of bytes. Long stretches in which they agree are left out.
+/// Compares two byte sequences. Long equal parts are left out.
 ///
 /// ```
 /// let diff = actucheck::explain::diff::bytes(&[1, 0xFD, 0xFD], &[1, 0xFD]);
@@ -68,7 +68,7 @@ impl fmt::Display for Row {
     }
 }
 
-/// What differs stands in brackets.
+/// Differences are in brackets.
 impl fmt::Display for Segment {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -103,7 +103,7 @@ fn differs(bytes: &[u8]) -> Option<Segment> {
     (!bytes.is_empty()).then(|| Segment::Differs(bytes.to_vec().into()))
 }
 
-/// Of many bytes only the ends matter.
+/// Only the ends of a long part matter.
 fn same(bytes: &[u8]) -> Vec<Segment> {
     const ENDS: usize = 12;
     let whole = |bytes: &[u8]| Segment::Same(bytes.to_vec().into());

@@ -14,11 +14,11 @@ use super::table::{Explanation, Table, low_first, rounded};
 /// Bytes of header, ID and length.
 const PREFIX: usize = 7;
 
-/// Explains a whole frame. `address` is where the data of a read status was read, if that is
+/// Explains a whole frame. `address` is the address at which a status packet's data was read, if
 /// known.
 ///
 /// # Errors
-/// The rule that the bytes break.
+/// The first rule that the bytes break.
 pub fn explain(
     bytes: &[u8],
     device: &Device,
@@ -48,7 +48,7 @@ pub fn explain(
 /// Explains a fast status packet that answers a request for `fast`.
 ///
 /// # Errors
-/// The rule that the bytes break.
+/// The first rule that the bytes break.
 pub fn explain_fast(bytes: &[u8], fast: &Fast) -> Result<Explanation, FrameError> {
     let packet = FastStatus::parse(bytes, fast.length, &fast.ids)?;
     let mut table = Table::new(bytes);
@@ -78,10 +78,10 @@ fn crc(table: &mut Table<'_>) {
     table.take_last(2, "CRC", |bytes| format!("{:#06X}, right", low_first(bytes)));
 }
 
-/// Where the bytes of an unstuffed body are in the frame.
+/// Maps the bytes of an unstuffed body to their places in the frame.
 struct WireBody<'a> {
     plain: &'a [u8],
-    /// Place in the frame of each byte of `plain`, and of the end.
+    /// The place in the frame of each byte of `plain`, and of its end.
     places: Vec<usize>,
 }
 
@@ -207,8 +207,8 @@ fn status_data(
     }
 }
 
-/// Data of a control table from `address` on: a row a register, and one for what is no whole
-/// register.
+/// The data of a control table from `address` on: one row per register, and one for bytes that are
+/// not a whole register.
 fn data(
     table: &mut Table<'_>,
     wire: &WireBody<'_>,
@@ -278,7 +278,7 @@ fn value_words(register: &Register, value: i64) -> String {
     words
 }
 
-/// Bytes as the signed and unsigned number that they may be, if they are 1, 2 or 4.
+/// 1, 2 or 4 bytes as an unsigned and a signed number.
 fn numbers(bytes: &[u8]) -> String {
     let (unsigned, signed) = match *bytes {
         [a] => (u32::from(a), i32::from(i8::from_le_bytes([a]))),

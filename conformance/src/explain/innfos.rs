@@ -4,14 +4,14 @@ use actucheck_codec::innfos::{Frame, FrameError, Kind, Message, MessageError, Va
 
 use super::table::{Explanation, Table, rounded};
 
-/// Bytes of header, address, command and length; and of the CRC with the end byte behind it.
+/// Sizes in bytes: header, address, command and length together; the CRC with the end byte.
 const PREFIX: usize = 5;
 const CRC_AND_END: usize = 3;
 
 /// Explains a whole frame.
 ///
 /// # Errors
-/// The rule that the bytes break.
+/// The first rule that the bytes break.
 pub fn explain(kind: Kind, bytes: &[u8]) -> Result<Explanation, FrameError> {
     let frame = Frame::parse(kind, bytes)?;
     let mut table = Table::new(bytes);
@@ -48,7 +48,7 @@ pub fn explain(kind: Kind, bytes: &[u8]) -> Result<Explanation, FrameError> {
     Ok(Explanation { title, rows: table.rows })
 }
 
-/// The value, with the unit where it does not depend on the model.
+/// The value, with its unit if that does not depend on the model.
 fn words(message: &Message, value: Value) -> String {
     let row = message.command.row();
     let unit = row.and_then(|row| row.unit).unwrap_or_default();

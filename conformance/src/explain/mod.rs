@@ -1,4 +1,4 @@
-//! Says in a person's words what bytes are and where they differ.
+//! Explains in words what bytes mean and where they differ.
 
 pub mod diff;
 pub mod frame;

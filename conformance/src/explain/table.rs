@@ -1,6 +1,6 @@
-//! What an explanation of a frame is made of.
+//! The parts of an explanation of a frame.
 
-/// What a frame's bytes mean, a row a field.
+/// The meaning of a frame's bytes, one row per field.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Explanation {
     /// The whole frame in a sentence.
@@ -12,13 +12,13 @@ pub struct Explanation {
 /// One field of a frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Row {
-    /// Where it begins in the frame.
+    /// Its offset in the frame.
     pub offset: usize,
-    /// Its bytes, those put in by byte stuffing in parentheses.
+    /// Its bytes; bytes that byte stuffing added are in parentheses.
     pub bytes: String,
     /// Its name.
     pub field: String,
-    /// What it says.
+    /// Its meaning.
     pub meaning: String,
 }
 
@@ -34,7 +34,7 @@ impl<'a> Table<'a> {
         Self { frame, rows: Vec::new(), next: 0 }
     }
 
-    /// Adds a field that is not the next bytes of the frame.
+    /// Adds a field at any place.
     pub(super) fn push(&mut self, offset: usize, bytes: String, field: &str, meaning: &str) {
         let (field, meaning) = (field.to_owned(), meaning.to_owned());
         self.rows.push(Row { offset, bytes, field, meaning });

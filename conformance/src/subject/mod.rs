@@ -1,4 +1,4 @@
-//! The implementation under test: the built-in codec, or a library behind an adapter.
+//! The subject that is judged: the built-in codec, or a library behind an adapter.
 
 mod adapter;
 mod builtin;
@@ -8,15 +8,16 @@ use crate::adapter::{Hello, Op, Output, Rejection};
 pub use adapter::{Process, StartError};
 pub use builtin::Builtin;
 
-/// Something that can be asked.
+/// An implementation that can be asked.
 pub trait Subject {
     /// What it says of itself.
     fn hello(&self) -> &Hello;
 
-    /// Asks it. Never blocks for longer than its time limits.
+    /// Asks one question. Blocks no longer than the time limits.
     fn ask(&mut self, op: &Op) -> Answer;
 
-    /// Asks it all `questions`, several at once where it takes them, and answers them in any order.
+    /// Asks all `questions`, several at once if the subject takes them, and answers them in any
+    /// order.
     fn ask_all(&mut self, questions: &mut dyn Questions) {
         while let Some(number) = questions.next() {
             let Some(op) = questions.question(number) else { continue };
@@ -25,13 +26,13 @@ pub trait Subject {
         }
     }
 
-    /// The last lines that it logged; empty if there are none.
+    /// The last lines that it logged; may be empty.
     fn log(&self) -> String {
         String::new()
     }
 }
 
-/// Questions to a subject, and who waits for the answers.
+/// A source of questions, which takes the answers.
 pub trait Questions {
     /// The number of the next question; `None` if there is none, or none before something that is
     /// outstanding is answered.
@@ -44,21 +45,21 @@ pub trait Questions {
     fn answered(&mut self, number: usize, answer: Answer);
 }
 
-/// What came of a question.
+/// The answer to a question.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Answer {
-    /// What was asked for.
+    /// The result.
     Ok(Output),
     /// The bytes or the packet are rejected.
     Rejected(Rejection),
-    /// It is not offered, with the reason.
+    /// The subject does not offer it, with the reason.
     Skipped(String),
     /// There was no answer in time.
     TimedOut(String),
     /// The adapter ended instead of answering.
     Crashed(String),
-    /// The answer is none of the adapter protocol.
+    /// The answer violates the adapter protocol.
     Faulty(String),
-    /// The adapter could not be started again to ask it.
+    /// The adapter could not be restarted to ask it.
     NotAsked(String),
 }

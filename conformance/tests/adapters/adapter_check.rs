@@ -44,7 +44,7 @@ fn a_good_one_is_good() {
       ok     writes nothing but replies
       ok     ends at bye
 
-    well  its library is next: actucheck codec -- sh -c GOOD
+    well  check its library next: actucheck codec -- sh -c GOOD
     ");
 }
 

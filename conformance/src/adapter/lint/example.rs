@@ -1,4 +1,4 @@
-//! Questions that any library behind an adapter has an answer to.
+//! Questions that every library can answer.
 
 use serde_json::Value;
 
@@ -8,8 +8,8 @@ use crate::adapter::{Hello, Op, Output, Rejection};
 use crate::suite::check::{Check, Demand};
 use crate::suite::plan::Plan;
 
-/// The checks whose questions are asked, and what they ask for. An op and wire is there at least
-/// once, and what only one side of a line does for itself.
+/// The checks whose questions are asked, each with a description. Every op of every wire occurs at
+/// least once, and so does each kind of packet that only a host or only a device has to read.
 const CHECKS: [(&str, &str); 14] = [
     ("dynamixel2.write.instruction/crc", "crc on dynamixel2"),
     ("dynamixel2.stuffing.data/stuff", "stuff on dynamixel2"),
@@ -27,19 +27,19 @@ const CHECKS: [(&str, &str); 14] = [
     ("innfos.request.command.06/stream-twice", "stream on innfos"),
 ];
 
-/// A question of the documents, as it goes to the adapter.
+/// A question from the suite, as it is sent to the adapter.
 #[derive(Clone, Debug)]
 pub(super) struct Example {
-    /// What it asks for.
+    /// A description of the question.
     pub(super) name: &'static str,
     op: Op,
     pub(super) request: String,
-    /// The answers that are right.
+    /// The right answers.
     right: Vec<Output>,
 }
 
 impl Example {
-    /// The questions, taken out of the plans of all wires.
+    /// Takes the questions from the plans of all wires.
     pub(super) fn all(plans: &[Plan<'_>]) -> Vec<Self> {
         let example = |(id, name): &(&str, &'static str)| {
             let check = plans.iter().find_map(|plan| plan.find(id))?;
@@ -54,19 +54,19 @@ impl Example {
             Demand::YieldOneOf(outputs) => outputs.clone(),
             Demand::Reject(_) | Demand::Record(_) => Vec::new(),
         };
-        // Every op can be written as JSON: it has string keys only.
+        // Every op has string keys only, so it can be written as JSON.
         let request = serde_json::to_string(&check.op).unwrap_or_default();
         Self { name, op: check.op.clone(), request, right }
     }
 
-    /// Whether the adapter says that it answers it.
+    /// Whether the adapter offers the question's op and wire.
     pub(super) fn is_offered(&self, hello: &Hello) -> bool {
         let has = |names: &[String], name| names.iter().any(|offered| offered == name);
         let wire = self.op.wire().is_some_and(|wire| has(&hello.wires, wire.id()));
         wire && has(&hello.ops, self.op.name())
     }
 
-    /// A remark on an answer that has the form that it must have.
+    /// A remark on an answer whose form is right.
     pub(super) fn remark(&self, answer: &Answer) -> Result<String, Problem> {
         Ok(match answer {
             Answer::Skip(reason) => format!("skipped: {reason}"),
@@ -87,21 +87,21 @@ impl Example {
         })
     }
 
-    /// A problem with the form of an answer, with the right one as an example.
+    /// A problem with the form of an answer, with the right answer as an example.
     fn shown(&self, problem: Problem) -> Problem {
         let right = self.right.first().and_then(|right| serde_json::to_string(right).ok());
         let Some(right) = right else { return problem };
         Problem { mend: format!("{}; here it is {right}", problem.mend), ..problem }
     }
 
-    /// The request with a field more.
+    /// The request with an extra field.
     pub(super) fn with_another_field(&self) -> String {
         let fields = self.request.strip_suffix('}').unwrap_or(&self.request);
         format!("{fields},\"no-such-field\":[1]}}")
     }
 
-    /// The request once without each of its fields, but the op and the wire; and without the call,
-    /// which not every packet has.
+    /// For each field other than the op and the wire, the request without that field. The call is
+    /// removed from all of them, as not every packet has one.
     pub(super) fn lacking_fields(&self) -> Vec<String> {
         let Ok(Value::Object(request)) = serde_json::from_str(&self.request) else {
             return Vec::new();
@@ -124,7 +124,7 @@ impl Example {
         serde_json::to_string(&op).ok()
     }
 
-    /// The request with its bytes cut short, where they are a frame.
+    /// The request with its frame cut short; `None` if its bytes are not a frame.
     pub(super) fn cut_short(&self) -> Option<String> {
         let mut op = self.op.clone();
         let bytes = match &mut op {

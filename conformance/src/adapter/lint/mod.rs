@@ -1,7 +1,7 @@
-//! Checks an adapter itself: whether it keeps to the adapter protocol, whatever its library does.
+//! Checks an adapter itself: whether it follows the adapter protocol, whatever its library does.
 //!
-//! The points come in an order in which each builds on those before it. One that leaves the
-//! conversation in a state where nothing further can be said ends it.
+//! Each point relies on the points before it. A problem after which no reply can be trusted ends
+//! the check.
 
 mod example;
 mod points;
@@ -14,68 +14,68 @@ use crate::adapter::Hello;
 use crate::adapter::Settings;
 use crate::suite::plan::Plan;
 
-/// What came out for one point of the contract.
+/// The result for one point of the adapter protocol.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Point {
-    /// What a good adapter does: `skips an op that it does not know`.
+    /// What a good adapter does, such as `skips an op that it does not know`.
     pub name: String,
-    /// A remark, empty if there is none; or what is wrong.
+    /// A remark, which may be empty; or the problem.
     pub result: Result<String, Problem>,
-    /// The lines that were exchanged for it.
+    /// The lines that were exchanged for this point.
     pub said: Vec<Said>,
 }
 
-/// What is wrong with an adapter.
+/// A problem of an adapter.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
-    /// What it did.
+    /// What the adapter did.
     pub what: String,
-    /// What to do about it.
+    /// How to fix it.
     pub mend: String,
-    /// Whether it makes everything that would follow meaningless.
+    /// Whether the problem makes every later point meaningless.
     ends: bool,
 }
 
 impl Problem {
-    /// A problem after which the conversation can go on.
+    /// A problem after which the conversation can continue.
     fn new(what: impl fmt::Display, mend: impl Into<String>) -> Self {
         Self { what: what.to_string(), mend: mend.into(), ends: false }
     }
 
-    /// A problem after which nothing that comes can be relied on.
+    /// A problem after which no reply can be trusted.
     fn ending(what: impl fmt::Display, mend: impl Into<String>) -> Self {
         Self { ends: true, ..Self::new(what, mend) }
     }
 }
 
-/// A line that was exchanged.
+/// An exchanged line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Said {
-    /// Whether the adapter said it, or the suite.
+    /// Whether the adapter sent it; otherwise the suite did.
     pub by_adapter: bool,
     /// The line, without its end.
     pub line: String,
 }
 
-/// What came out for all points.
+/// The results of all points.
 #[derive(Clone, Debug)]
 pub struct Report {
-    /// What the adapter says of itself; `None` if it did not get so far.
+    /// The adapter's answer to `hello`; `None` if there was no valid one.
     pub hello: Option<Hello>,
-    /// The points, in order; those behind one that ends the conversation are missing.
+    /// The points, in order. Points after one that ended the conversation are missing.
     pub points: Vec<Point>,
-    /// What the adapter logged last.
+    /// The last lines that the adapter logged.
     pub log: String,
 }
 
 impl Report {
-    /// Whether all points are as they should be.
+    /// Whether the adapter passed every point.
     #[must_use]
     pub fn is_good(&self) -> bool {
         self.points.iter().all(|point| point.result.is_ok())
     }
 
-    /// Whether a problem left points that could not be looked at.
+    /// Whether a problem left points unchecked.
     #[must_use]
     pub fn ended_early(&self) -> bool {
         let last = self.points.last().map(|point| &point.result);
@@ -83,7 +83,7 @@ impl Report {
     }
 }
 
-/// Checks the adapter that `command`, a program and its arguments, starts. The questions are taken out of
+/// Checks the adapter that `command` (a program and its arguments) starts. The questions come from
 /// the `plans` of all wires.
 ///
 /// # Errors

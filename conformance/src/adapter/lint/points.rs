@@ -1,4 +1,4 @@
-//! The points of the contract, in order.
+//! The points of the check, in order.
 
 use std::io;
 use std::ops::ControlFlow;
@@ -10,20 +10,20 @@ use super::{Point, Problem, Report, shape};
 use crate::adapter::Settings;
 use crate::adapter::{Hello, Op, VERSION};
 
-/// Bytes of a line that is longer than a fixed buffer might be.
+/// Size of a line, in bytes, that overflows any usual fixed buffer.
 const LONG: usize = 70_000;
-/// How many requests are outstanding at the most.
+/// The maximum number of outstanding requests.
 const MAX_AT_ONCE: usize = 64;
-/// How long a line that nobody asked for is waited for.
+/// How long to wait for an unrequested line.
 const QUIET: Duration = Duration::from_millis(100);
 
-/// A remark, empty if there is none; or what is wrong.
+/// A remark, which may be empty; or the problem.
 type Found = Result<String, Problem>;
 
 /// A question and its answer.
 type Answered<'a> = (&'a Example, Answer);
 
-/// Looks at an adapter from its start to its end.
+/// Checks an adapter from its start to its end.
 pub(super) fn look(
     command: &[String],
     settings: &Settings,
@@ -34,13 +34,13 @@ pub(super) fn look(
     let hello = greeting.as_ref().ok().cloned();
     points.note("starts and says who it is", greeting.map(|hello| introduction(&hello)));
     if let Some(hello) = &hello {
-        // That the conversation ended early is told by its last point.
+        // The last point reports an early end of the conversation.
         let _ = points.look_on(hello, examples, || another(command, settings, hello));
     }
     Ok(Report { hello, points: points.points, log: points.talk.log() })
 }
 
-/// The conversation, and what came out so far.
+/// The conversation, and the results so far.
 struct Points {
     talk: Talk,
     points: Vec<Point>,
@@ -100,7 +100,7 @@ impl Points {
 
 fn greet(talk: &mut Talk, settings: &Settings) -> Result<Hello, Problem> {
     let op = Op::Hello { protocol: vec![VERSION] };
-    // Every op can be written as JSON: it has string keys only.
+    // Every op has string keys only, so it can be written as JSON.
     talk.send(&serde_json::to_string(&op).unwrap_or_default());
     match talk.receive(settings.timeouts.start)? {
         (_, Answer::Ok(ok)) => shape::hello(&ok),
@@ -142,7 +142,8 @@ fn must_skip(talk: &mut Talk, request: &str, mend: &'static str) -> Found {
     }
 }
 
-/// The same questions the other way round, behind bytes that leave a parser in the middle.
+/// Asks the same questions in reverse order, after bytes that leave a parser in the middle of a
+/// packet.
 fn again(talk: &mut Talk, answered: &[Answered<'_>]) -> Found {
     for request in answered.iter().filter_map(|(example, _)| example.cut_short()) {
         talk.ask(&request)?;
@@ -164,7 +165,7 @@ fn further_field(talk: &mut Talk, answered: &[Answered<'_>]) -> Found {
     Ok(String::new())
 }
 
-/// Whatever comes, something comes.
+/// Any answer is right, but there must be one.
 fn lacking_fields(talk: &mut Talk, answered: &[Answered<'_>]) -> Found {
     for request in answered.iter().flat_map(|(example, _)| example.lacking_fields()) {
         talk.ask(&request)?;
@@ -182,7 +183,7 @@ fn at_once(talk: &mut Talk, count: usize, answered: &[Answered<'_>]) -> Found {
         .take(count)
         .map(|(example, first)| (talk.send(&example.request), *example, first))
         .collect();
-    // A reply that is out of form leaves others under way.
+    // After a malformed reply, other replies are still outstanding.
     let answers: Result<Vec<_>, _> = asked
         .iter()
         .map(|_| talk.receive(talk.limit).map_err(|problem| Problem { ends: true, ..problem }))
@@ -196,7 +197,7 @@ fn at_once(talk: &mut Talk, count: usize, answered: &[Answered<'_>]) -> Found {
     Ok(format!("{count} of them"))
 }
 
-/// What a library says besides may differ from time to time.
+/// The library's own texts may differ from run to run.
 fn same(
     answer: &Answer,
     first: &Answer,
@@ -220,7 +221,7 @@ fn long_line(talk: &mut Talk) -> Found {
     must_skip(talk, &request, "read whole lines, however long they are")
 }
 
-/// `--jobs` starts several.
+/// Starts a second process, as `--jobs` does.
 fn another(command: &[String], settings: &Settings, hello: &Hello) -> Found {
     let mend = "let processes share no file, port or device: `--jobs` starts several";
     let told = Talk::start(command, settings)

@@ -1,4 +1,4 @@
-//! Whether an answer has the form that it must have. Whether it is right is the library's matter.
+//! Whether an answer has the right form. Its value is the library's responsibility.
 
 use actucheck_spec::model::Packet;
 use serde_json::Value;
@@ -6,7 +6,7 @@ use serde_json::Value;
 use super::Problem;
 use crate::adapter::{Hello, Op, Output, VERSION, Wire};
 
-/// The ops that `hello` may name. That there are `hello` and `bye` goes without saying.
+/// The ops that `hello` may name. Every adapter has `hello` and `bye`, so they are not listed.
 const OPS: [&str; 8] = ["hello", "crc", "stuff", "unstuff", "encode", "decode", "stream", "bye"];
 
 /// Reads the `ok` object of `hello`.
@@ -54,7 +54,7 @@ fn named(given: &[String], known: &[&str], field: &str, mend: &'static str) -> R
     }
 }
 
-/// Reads the `ok` object that answers an op.
+/// Reads the `ok` object of a reply to an op.
 pub(super) fn output(op: &Op, ok: &Value) -> Result<Output, Problem> {
     let output = Output::read(op, ok.clone()).map_err(|error| {
         Problem::new(
@@ -92,7 +92,7 @@ fn wire(packet: &Packet) -> Wire {
     }
 }
 
-/// Whether the bytes in an object are written as the protocol has them.
+/// Whether the bytes in an object are written as the adapter protocol requires.
 fn lowercase(value: &Value) -> Result<(), Problem> {
     let bytes = |name: &str| matches!(name, "bytes" | "params" | "data");
     match value {

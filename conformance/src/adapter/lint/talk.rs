@@ -1,4 +1,4 @@
-//! A conversation with an adapter, a line at a time.
+//! A conversation with an adapter, line by line.
 
 use std::collections::BTreeSet;
 use std::io;
@@ -14,7 +14,7 @@ use crate::adapter::{Line, Running, Settings};
 const ONLY_REPLIES: &str = "write nothing but replies to standard output, a JSON object a line; messages go to standard \
      error";
 
-/// What a reply says.
+/// The content of a reply.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Answer {
     Ok(Value),
@@ -22,7 +22,7 @@ pub(super) enum Answer {
     Skip(String),
 }
 
-/// What an adapter does when a line is waited for.
+/// What happens while the suite waits for a line.
 pub(super) enum Heard {
     Line(String),
     End(Option<ExitStatus>),
@@ -32,12 +32,12 @@ pub(super) enum Heard {
 /// A conversation with an adapter.
 pub(super) struct Talk {
     running: Running,
-    /// How long it may take for a request.
+    /// The time limit for a request.
     pub(super) limit: Duration,
     next_id: u64,
-    /// Requests without a reply.
+    /// Requests without a reply so far.
     outstanding: BTreeSet<u64>,
-    /// What was said since it was last taken.
+    /// The lines exchanged since they were last taken.
     said: Vec<Said>,
 }
 
@@ -58,7 +58,7 @@ impl Talk {
         self.receive(self.limit).map(|(_, answer)| answer)
     }
 
-    /// Sends a request, a JSON object to which the id is added; the id.
+    /// Adds an id to a request, which is a JSON object, and sends it. Returns the id.
     pub(super) fn send(&mut self, request: &str) -> u64 {
         let id = self.next_id;
         self.next_id += 1;
@@ -70,7 +70,7 @@ impl Talk {
         id
     }
 
-    /// Waits for a reply to any outstanding request: the request's id and the answer.
+    /// Waits for a reply to any outstanding request. Returns the request's id and the answer.
     pub(super) fn receive(&mut self, limit: Duration) -> Result<(u64, Answer), Problem> {
         let line = match self.hear(limit)? {
             Heard::Line(line) => line,
@@ -96,7 +96,7 @@ impl Talk {
         answer(&reply).map(|answer| (id, answer))
     }
 
-    /// Waits for a line, or whatever comes instead of one.
+    /// Waits for a line, the end of the adapter, or the time limit.
     pub(super) fn hear(&mut self, limit: Duration) -> Result<Heard, Problem> {
         match self.running.receive(limit) {
             Some(Line::Text(line)) => {
@@ -112,7 +112,8 @@ impl Talk {
         }
     }
 
-    /// The outstanding request that a reply is for, which it is no more then.
+    /// Finds the outstanding request that a reply answers, and removes it from the outstanding
+    /// ones.
     fn answered(&mut self, reply: &Map<String, Value>) -> Result<u64, Problem> {
         const MEND: &str = "copy `id` from the request into the one reply to it";
         let Some(id) = reply.get("id").and_then(Value::as_u64) else {
@@ -147,7 +148,7 @@ pub(super) fn ended(status: Option<ExitStatus>) -> String {
     )
 }
 
-/// What a reply says, which is one thing.
+/// The content of a reply, which has exactly one of `ok`, `err` and `skip`.
 fn answer(reply: &Map<String, Value>) -> Result<Answer, Problem> {
     let given = |name| reply.get(name).filter(|value| !value.is_null());
     match (given("ok"), given("err"), given("skip")) {

@@ -19,7 +19,7 @@ Examples:
 
 Exit status: 0 all is well, 1 something is wrong, 2 wrong usage, 4 the adapter could not be started.";
 
-/// Checks an adapter, point by point, before what it says of a library counts
+/// Checks an adapter itself, point by point, before its library is checked
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Check {
@@ -30,12 +30,12 @@ pub(crate) struct Check {
     command: Vec<String>,
 }
 
-/// How many lines of a conversation are shown, the last ones.
+/// How many of the last lines of a conversation are shown.
 const SHOWN: usize = 4;
 /// How many characters of a line are shown.
 const WIDTH: usize = 400;
 
-/// Looks at an adapter and prints what came out.
+/// Checks an adapter and prints the results.
 pub(crate) fn run(options: &Check) -> Result<ExitCode, Failure> {
     let spec = shared::spec()?;
     let plans = Wire::ALL.map(|wire| suite::plan(&spec, &Options::new(wire)));
@@ -60,7 +60,11 @@ fn write(report: &Report, command: &str, out: &mut impl Write) -> io::Result<()>
     if wrong == 0 {
         let style = AnsiColor::Green.on_default().bold();
         let offers = report.hello.as_ref().is_some_and(|hello| !hello.ops.is_empty());
-        let next = if offers { "its library is next" } else { "it offers no op yet" };
+        let next = if offers {
+            "check its library next"
+        } else {
+            "it offers no op yet; implement one, then run"
+        };
         return writeln!(out, "\n{style}well{style:#}  {next}: actucheck codec -- {command}");
     }
     if !report.log.is_empty() {
@@ -68,11 +72,11 @@ fn write(report: &Report, command: &str, out: &mut impl Write) -> io::Result<()>
         report.log.lines().try_for_each(|line| writeln!(out, "  {line}"))?;
     }
     let style = AnsiColor::Red.on_default().bold();
-    let rest = if report.ended_early() { ", and the rest could not be looked at" } else { "" };
+    let rest = if report.ended_early() { "; the remaining points were not checked" } else { "" };
     writeln!(out, "\n{style}WRONG{style:#}  {wrong} of {} points{rest}", report.points.len())
 }
 
-/// A point on a line, with what to do about it on further ones.
+/// Prints a point on one line; a problem and how to fix it follow on more lines.
 fn line(point: &Point, out: &mut impl Write) -> io::Result<()> {
     let name = &point.name;
     let problem = match &point.result {

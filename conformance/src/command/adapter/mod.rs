@@ -9,7 +9,7 @@ use clap::Subcommand;
 
 use super::Failure;
 
-/// Starts, and checks, the adapter that puts a library behind the suite
+/// Prints a template of an adapter, or checks an adapter
 #[derive(Debug, Subcommand)]
 pub(crate) enum Adapter {
     Template(template::Template),

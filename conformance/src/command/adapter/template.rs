@@ -12,7 +12,7 @@ Examples:
   actucheck adapter template python > adapter.py
   actucheck adapter template c > adapter.c";
 
-/// Prints an adapter to start from, which skips everything
+/// Prints an adapter to start from, which skips every question
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Template {
@@ -33,7 +33,7 @@ const LANGUAGES: [(&str, &str, &str); 2] = [
 
 /// Prints the template.
 pub(crate) fn run(options: &Template) -> ExitCode {
-    // A reader that has seen enough is no failure.
+    // A closed pipe, as of `| head`, is not an error.
     let _ = io::stdout().write_all(options.language.as_bytes());
     ExitCode::SUCCESS
 }

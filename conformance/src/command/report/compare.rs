@@ -19,7 +19,7 @@ Examples:
 
 Exit status: 0 compared, 2 wrong usage.";
 
-/// Shows which implementation gets what wrong
+/// Shows which implementation breaks which requirement
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Compare {

@@ -4,7 +4,7 @@ use std::fmt::{self, Display};
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 
-/// Why a command ends early, and with which exit status.
+/// Why a command ends early, and its exit status.
 #[derive(Debug)]
 pub(crate) struct Failure {
     /// The exit status.
@@ -22,7 +22,7 @@ impl Failure {
     /// The adapter could not be started.
     pub(crate) const NOT_STARTED: u8 = 4;
 
-    // Each takes one sentence that tells the user what to do.
+    // Each takes one sentence that says what the user can do.
 
     /// The packet is not valid.
     pub(crate) fn failed(message: impl Display) -> Self {
@@ -44,8 +44,8 @@ impl Failure {
         Self::new(Self::NOT_STARTED, &message)
     }
 
-    /// The command line does not parse: what clap says on several lines, on one. `command` is the
-    /// subcommand whose help is referred to.
+    /// The command line does not parse. Puts clap's message on one line; `command` is the
+    /// subcommand whose help is suggested.
     pub(crate) fn parse(error: &clap::Error, command: &str) -> Self {
         if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
             return Self::usage(format!("no subcommand; `{command} --help` lists them"));
@@ -75,7 +75,7 @@ impl Display for Failure {
     }
 }
 
-/// The name that is nearest to the one that clap does not know.
+/// The known name that is nearest to an unknown one.
 fn nearest(error: &clap::Error) -> Option<&str> {
     let kinds =
         [ContextKind::SuggestedSubcommand, ContextKind::SuggestedArg, ContextKind::SuggestedValue];

@@ -28,7 +28,7 @@ pub(crate) fn spec() -> Result<Spec, Failure> {
     })
 }
 
-/// A flag that Ctrl-C sets.
+/// Returns a flag that Ctrl-C sets.
 pub(crate) fn interrupted() -> Result<Arc<AtomicBool>, Failure> {
     let flag = Arc::new(AtomicBool::new(false));
     let setter = Arc::clone(&flag);

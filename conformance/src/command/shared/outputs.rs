@@ -9,7 +9,7 @@ use clap::Args;
 
 use super::Failure;
 
-/// The reports to be written.
+/// The reports to write.
 #[derive(Debug, Args)]
 pub(crate) struct Reports {
     /// Write a report: text, json, junit, markdown or html; `-` is standard output; may be given
@@ -25,7 +25,7 @@ impl Reports {
     }
 }
 
-/// A report to be written.
+/// A report to write.
 #[derive(Clone, Debug)]
 struct Target {
     format: Format,
@@ -56,16 +56,16 @@ pub(crate) struct Outputs {
     terminal: Terminal,
 }
 
-/// Where the text for a person goes.
+/// Where the text report goes.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Terminal {
     Stdout,
-    /// Standard output has a report for programs.
+    /// Used if a report for programs goes to standard output.
     Stderr,
 }
 
 impl Outputs {
-    /// Opens the reports before the work, so that a wrong path costs no time.
+    /// Opens the reports before the run, so that a wrong path is reported at once.
     pub(crate) fn open(reports: &Reports) -> Result<Self, Failure> {
         let mut outputs = Self { files: Vec::new(), terminal: Terminal::Stdout };
         for (index, target) in reports.targets.iter().enumerate() {
@@ -94,8 +94,8 @@ impl Outputs {
         Ok(Box::new(io::BufWriter::new(File::create(&target.path)?)))
     }
 
-    /// Writes every report with `report`, and the text for a person, which may have colours, with
-    /// `text`.
+    /// Writes every report with `report`, and the text on the terminal, which may have colours,
+    /// with `text`.
     pub(crate) fn write(
         self,
         report: impl Fn(Format, &mut dyn Write) -> io::Result<()>,
@@ -113,7 +113,7 @@ impl Outputs {
     }
 }
 
-/// A reader that has seen enough is no failure.
+/// A closed pipe, as of `| head`, is not an error.
 fn seen(name: &str, written: io::Result<()>) -> Result<(), Failure> {
     match written {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {

@@ -4,7 +4,8 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// A bar that shows on a terminal, and only there, after a second. Without a length it spins.
+/// A progress bar. It appears only on a terminal, after one second. Without a length it is a
+/// spinner.
 pub(crate) fn progress(length: Option<u64>, template: &str) -> ProgressBar {
     let bar = length.map_or_else(ProgressBar::no_length, ProgressBar::new);
     // If indicatif does not accept the template, the bar keeps its default style.

@@ -1,4 +1,4 @@
-//! Which checks there are, and which of them are meant.
+//! Which checks exist, and which of them are selected.
 
 use actucheck::adapter::{Hello, Wire};
 use actucheck::suite::check::Check;
@@ -10,10 +10,10 @@ use clap::Args;
 
 use super::{Failure, one_of, wire};
 
-/// Which checks are meant.
+/// The selection of checks.
 #[derive(Debug, Args)]
 pub(crate) struct Selection {
-    /// The wire whose checks are meant
+    /// The wire whose checks are run
     #[arg(long, value_parser = wire(), default_value = "dynamixel2")]
     pub(crate) wire: Wire,
     /// Only the checks whose id matches; may be given more than once
@@ -35,13 +35,13 @@ const LEVELS: [(Level, &str, &str); 3] = [
     (Level::May, "may", "Either way is right"),
 ];
 
-/// What generated checks grow from.
+/// How generated checks are made.
 #[derive(Clone, Copy, Debug, Args)]
 pub(crate) struct Growth {
     /// The seed of the generated checks; the same seed yields the same checks
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// How many packets are generated
+    /// The number of generated packets
     #[arg(long, value_name = "N", default_value_t = 1000)]
     cases: u32,
     /// The most bytes in the bodies of FF, FD, 00 and 01 that are all tried, alone and inside every
@@ -52,15 +52,15 @@ pub(crate) struct Growth {
 }
 
 impl Selection {
-    /// Leaves in a plan what is meant.
+    /// Restricts a plan to the selected checks.
     pub(crate) fn restrict(&self, plan: &mut Plan<'_>) -> Result<(), Failure> {
         plan.restrict(&self.select, &self.skip, self.level).map_err(Failure::usage)
     }
 }
 
 impl Growth {
-    /// Every check of a wire. An implementation that states the length of its longest packet gets
-    /// checks around that length.
+    /// Every check of a wire. If the implementation states the length of its longest packet, there
+    /// are checks around that length.
     pub(crate) fn plan<'a>(&self, spec: &'a Spec, wire: Wire, hello: Option<&Hello>) -> Plan<'a> {
         suite::plan(spec, &self.options(wire, hello))
     }
@@ -73,7 +73,7 @@ impl Growth {
         body_length.map_or(options, |length| options.with_bodies(length))
     }
 
-    /// The check with this id, of any wire, and with bodies of any length.
+    /// The check with this id, on any wire and with a body of any length.
     pub(crate) fn named(
         &self,
         spec: &Spec,

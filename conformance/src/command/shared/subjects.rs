@@ -1,4 +1,4 @@
-//! The implementation that is judged: the built-in codec, or a library behind an adapter.
+//! The subject that is judged: the built-in codec, or a library behind an adapter.
 
 use std::fs::File;
 use std::io::BufWriter;
@@ -37,7 +37,7 @@ pub(crate) struct Exchange {
 }
 
 impl Exchange {
-    /// How an adapter is run. Creates the trace.
+    /// How to run the adapter. Creates the trace file.
     pub(crate) fn settings(&self) -> Result<Settings, Failure> {
         let timeouts = Timeouts { start: self.start_timeout, request: self.timeout };
         let trace = self.trace.as_deref().map(open_trace).transpose()?;
@@ -45,9 +45,9 @@ impl Exchange {
     }
 }
 
-/// One implementation, in one or several processes.
+/// One subject, in one or several processes.
 pub(crate) struct Subjects {
-    /// What it says of itself.
+    /// Its answer to `hello`.
     pub(crate) hello: Hello,
     pub(crate) all: Vec<Box<dyn Subject + Send>>,
     trace: Option<Trace>,
@@ -59,10 +59,10 @@ impl Subjects {
         Self::start_with(adapter, jobs, Settings::default().restarts)
     }
 
-    /// The same, with another limit to how often each process is started again.
+    /// The same, with another limit of restarts per process.
     pub(crate) fn start_with(adapter: &Adapter, jobs: u8, restarts: u32) -> Result<Self, Failure> {
         if adapter.command.is_empty() {
-            // clap does not tell `--` with nothing behind it from no `--` at all.
+            // clap does not distinguish `--` with nothing after it from a missing `--`.
             if std::env::args_os().next_back().is_some_and(|last| last == "--") {
                 return Err(Failure::usage(
                     "no command behind `--`; give the adapter's, such as python3 adapter.py",
@@ -98,7 +98,7 @@ impl Subjects {
     }
 }
 
-/// Writes what is left of the trace.
+/// Writes the rest of the trace.
 pub(crate) fn finish(trace: Option<Trace>) -> Result<(), Failure> {
     let Some(trace) = trace else { return Ok(()) };
     trace.finish().map_err(|error| Failure::incomplete(format!("cannot write the trace: {error}")))

@@ -1,4 +1,4 @@
-//! Columns under each other, and words in lines that fit the terminal.
+//! Aligned columns, and text wrapped to the terminal's width.
 
 use std::io::{IsTerminal as _, stdout};
 
@@ -8,7 +8,8 @@ use textwrap::core::display_width;
 pub(crate) const BOLD: Style = Style::new().bold();
 pub(crate) const DIM: Style = Style::new().dimmed();
 
-/// Rows of cells as lines that begin with `indent`, each column as wide as its widest cell.
+/// Formats rows of cells as lines that begin with `indent`. Each column is as wide as its widest
+/// cell.
 pub(crate) fn lines<const N: usize>(indent: &str, rows: &[[String; N]]) -> Vec<String> {
     let mut widths = [0; N];
     for row in rows {
@@ -27,7 +28,7 @@ pub(crate) fn lines<const N: usize>(indent: &str, rows: &[[String; N]]) -> Vec<S
     rows.iter().map(line).collect()
 }
 
-/// A label and what it says; on a terminal in lines that fit it.
+/// A label and its text, wrapped on a terminal.
 pub(crate) fn labelled(label: &str, text: &str) -> String {
     let first = format!("  {label:11} ");
     if !stdout().is_terminal() {

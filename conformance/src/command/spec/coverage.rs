@@ -17,7 +17,7 @@ Example:
   actucheck spec coverage --document dynamixel2 --role codec --uncovered
       what the DYNAMIXEL document demands of a codec and nothing checks yet";
 
-/// Tells for every requirement of the documents what checks it
+/// Lists what checks each requirement of the documents
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(crate) struct Coverage {
@@ -40,7 +40,7 @@ const ROLES: [(Role, &str, &str); 3] = [
 
 const NOTHING: &str = "nothing yet";
 
-/// The matrix, a document after the other, and its totals.
+/// The matrix, document by document, and its totals.
 pub(super) fn text(spec: &Spec, options: &Coverage) -> Result<String, Failure> {
     let document = options.document.as_deref();
     super::known_document(spec, document)?;
@@ -50,7 +50,7 @@ pub(super) fn text(spec: &Spec, options: &Coverage) -> Result<String, Failure> {
         let plan = suite::plan(spec, &Options::new(wire));
         checks.extend(plan.checks().map(|check| (check.id, check.requirement)));
     }
-    // What the suite asks, it asks of codecs.
+    // All checks of the suite are for codecs.
     let names =
         checks.iter().map(|(id, requirement)| CheckName { id, requirement, role: Role::Codec });
     let mut rows = coverage::matrix(spec, names);
@@ -96,7 +96,7 @@ fn cells(row: &Row<'_>) -> [String; 5] {
     [id.clone(), level.to_string(), binds.join(" "), source.section.clone(), checked_by(row)]
 }
 
-/// What checks it. Checks of a role that it does not bind are told, but check it not.
+/// What checks the requirement. Checks of a role that it does not bind are named, but do not count.
 fn checked_by(row: &Row<'_>) -> String {
     let mut parts = Vec::new();
     for (role, checks) in &row.checks {
@@ -112,7 +112,7 @@ fn checked_by(row: &Row<'_>) -> String {
     if parts.is_empty() { NOTHING.to_owned() } else { parts.join("; ") }
 }
 
-/// Of one role, or of each.
+/// The totals of one role, or of each role.
 fn totals(rows: &[Row<'_>], only: Option<Role>) -> String {
     let head = ["role", "level", "requirements", "checked", "tested here", NOTHING];
     let mut cells = vec![head.map(str::to_owned)];

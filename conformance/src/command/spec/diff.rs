@@ -28,7 +28,7 @@ pub(crate) struct Diff {
     right: String,
 }
 
-/// What differs, section by section.
+/// The differences, section by section.
 pub(super) fn text(spec: &Spec, options: &Diff) -> Result<String, Failure> {
     let (left, right) = (device(spec, &options.left)?, device(spec, &options.right)?);
     let diff = diff::Diff::of(left, right);
@@ -99,7 +99,7 @@ fn only(text: &mut String, device: &Device, other: &Device, rows: &[Only<'_>]) {
     push(text, table::lines("  ", &rows));
 }
 
-/// A row for each fact; the address stands in the first of each register.
+/// One row per fact. Only the first row of a register has its address.
 fn changed(diff: &diff::Diff<'_>) -> Vec<String> {
     let [fact, left, right] = facts(&diff.left.device, &diff.right.device);
     let mut rows = vec![[String::new(), String::new(), fact, left, right]];

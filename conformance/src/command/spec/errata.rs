@@ -35,7 +35,7 @@ const STATUSES: [(Status, &str, &str); 3] = [
     (Status::Open, "open", "More than one reading stands"),
 ];
 
-/// The errata that are asked for, and how many they are.
+/// The selected errata, and their number.
 pub(super) fn text(spec: &Spec, options: &Errata) -> Result<String, Failure> {
     let document = options.document.as_deref();
     super::known_document(spec, document)?;

@@ -25,7 +25,7 @@ pub(crate) struct Export {
     output: Option<PathBuf>,
 }
 
-/// What the spec is written as.
+/// The formats of an export.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Format {
     /// Wires, devices and errata as one JSON file

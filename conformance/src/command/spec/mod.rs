@@ -34,11 +34,11 @@ pub(crate) fn run(command: &Spec) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Prints a text; its colours end where the terminal does.
+/// Prints a text, with colours only on a terminal.
 fn print(text: &str) -> Result<(), Failure> {
     let mut out = anstream::stdout();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        // A reader that has seen enough is no failure.
+        // A closed pipe, as of `| head`, is not an error.
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
             Err(Failure::incomplete(format!("cannot write: {error}")))
         }
@@ -46,7 +46,7 @@ fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Whether there is such a document, or none is asked for.
+/// Fails if a document is asked for that does not exist.
 fn known_document(spec: &data::Spec, id: Option<&str>) -> Result<(), Failure> {
     let documents = &spec.documents.content.documents;
     match id {

@@ -1,5 +1,5 @@
-//! A library behind an adapter, which is a child process. Whatever the adapter does, a question
-//! ends within its time limit, and an adapter that fails is started again.
+//! A library behind an adapter, which is a child process. Every question ends within its time
+//! limit, and an adapter that fails is restarted.
 
 mod together;
 
@@ -12,7 +12,7 @@ use thiserror::Error;
 use super::{Answer, Questions, Subject};
 use crate::adapter::{Hello, Line, Op, Output, Reply, Request, Running, Settings, VERSION};
 
-/// The most questions that are outstanding, whatever the adapter offers.
+/// The maximum number of outstanding questions, even if the adapter offers more.
 const MAX_IN_FLIGHT: usize = 256;
 
 /// Why an adapter could not be started.
@@ -26,14 +26,14 @@ pub enum StartError {
         /// What the system says.
         error: io::Error,
     },
-    /// It does not answer `hello` as it should.
+    /// It does not answer `hello` correctly.
     #[error("the adapter `{command}` {problem}{log}")]
     Hello {
         /// The program.
         command: String,
         /// What it did.
         problem: String,
-        /// What it logged, on lines of its own.
+        /// The lines that it logged.
         log: String,
     },
 }
@@ -49,7 +49,7 @@ pub struct Process {
     running: Option<Running>,
     restarts: u32,
     next_id: u64,
-    /// What the last process logged before it was ended.
+    /// The last lines of the previous process' log.
     last_log: String,
 }
 
@@ -57,7 +57,7 @@ impl Process {
     /// Starts `command`, a program and its arguments, and waits for its `hello`.
     ///
     /// # Errors
-    /// If it can't be run, or does not answer `hello` in time and in form.
+    /// If it can't be run, or does not answer `hello` correctly and in time.
     pub fn start(command: &[String], settings: Settings) -> Result<Self, StartError> {
         let (running, hello) = start(command, &settings)?;
         Ok(Self {
@@ -72,7 +72,7 @@ impl Process {
         })
     }
 
-    /// The running adapter, started again if need be and allowed.
+    /// The running adapter, restarted if necessary and allowed.
     fn running(&mut self) -> Result<&mut Running, String> {
         if self.running.is_none() {
             let most = self.settings.restarts;
@@ -84,7 +84,7 @@ impl Process {
                 Ok((running, _)) => self.running = Some(running),
                 Err(error) => {
                     self.restarts = most;
-                    return Err(format!("the adapter could not be started again: {error}"));
+                    return Err(format!("the adapter could not be restarted: {error}"));
                 }
             }
         }
@@ -115,7 +115,7 @@ impl Subject for Process {
             Ok(reply) => answer(op, reply),
             Err(failure) => failure,
         };
-        // After such an answer, nothing that follows can be trusted.
+        // After such an answer, no later reply can be trusted.
         if matches!(answer, Answer::TimedOut(_) | Answer::Crashed(_) | Answer::Faulty(_)) {
             self.end();
         }
@@ -163,7 +163,7 @@ fn start(command: &[String], settings: &Settings) -> Result<(Running, Hello), St
     }
 }
 
-/// Says hello; what the adapter did wrong if it did.
+/// Sends `hello`. The error says what the adapter did wrong.
 fn greet(running: &mut Running, limit: Duration) -> Result<Hello, String> {
     let op = Op::Hello { protocol: vec![VERSION] };
     let reply = exchange(running, 0, &op, limit).map_err(|failure| match failure {
@@ -200,7 +200,7 @@ fn exchange(running: &mut Running, id: u64, op: &Op, limit: Duration) -> Result<
     }
 }
 
-/// Waits for a reply, to whichever request.
+/// Waits for a reply to any request.
 fn read_reply(running: &mut Running, deadline: Instant, limit: Duration) -> Result<Reply, Answer> {
     let left = deadline.saturating_duration_since(Instant::now());
     let line = match running.receive(left) {
@@ -230,7 +230,7 @@ fn read_reply(running: &mut Running, deadline: Instant, limit: Duration) -> Resu
 
 /// A request as a line.
 fn request(id: u64, op: &Op) -> Vec<u8> {
-    // Every request can be written as JSON: it has string keys only.
+    // Every request has string keys only, so it can be written as JSON.
     serde_json::to_vec(&Request { id, op }).unwrap_or_default()
 }
 

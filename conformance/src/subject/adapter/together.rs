@@ -1,4 +1,4 @@
-//! Several questions at once, for an adapter that takes more than one.
+//! Several outstanding questions, for an adapter that takes more than one.
 
 use std::time::Instant;
 
@@ -14,8 +14,8 @@ struct Outstanding {
 
 impl Process {
     /// Keeps as many questions outstanding as the adapter takes, until none is left or the adapter
-    /// fails. Which question made it fail can't be told among several: those are asked again one
-    /// by one then, and the caller goes on so with the rest.
+    /// fails. If it fails, the outstanding questions are asked again one by one, so that the one to
+    /// blame is known; the caller continues with the rest.
     pub(super) fn ask_together(&mut self, questions: &mut dyn Questions) {
         let mut outstanding: Vec<Outstanding> = Vec::new();
         loop {
@@ -56,9 +56,8 @@ impl Process {
         Ok(id)
     }
 
-    /// Takes one question out of those outstanding, with the reply to it; `None` if the adapter
-    /// failed at one of them. The time limit begins anew with each reply: it is for the question
-    /// that the adapter has in hand.
+    /// Removes one answered question from the outstanding ones, with its reply; `None` if the
+    /// adapter failed. The time limit restarts with each reply.
     fn next_reply(&mut self, outstanding: &mut Vec<Outstanding>) -> Option<(usize, Reply)> {
         let limit = self.settings.timeouts.request;
         let running = self.running.as_mut()?;

@@ -12,7 +12,7 @@ use actucheck_spec::wire::dynamixel2::reference::Fast;
 use super::{Result, not_offered, output, rejection, unbuilt};
 use crate::adapter::{Op, Output, Rejection};
 
-/// What the codec makes of a request; `None` for one that it does not offer.
+/// The codec's answer to a question; `None` if it does not offer the op.
 pub(super) fn ask(op: &Op, buffer: &mut Vec<u8>) -> Option<Result> {
     Some(match op {
         Op::Crc { bytes, .. } => Ok(Output::Crc(crc::umts(bytes).into())),
@@ -27,7 +27,7 @@ pub(super) fn ask(op: &Op, buffer: &mut Vec<u8>) -> Option<Result> {
 }
 
 fn stuff(body: &[u8], buffer: &mut Vec<u8>) -> Result {
-    // No packet holds a body as long as a request may.
+    // A question may have a longer body than any packet.
     buffer.resize(buffer.len().max(stuffing::stuffed_len(body)), 0);
     let bytes = stuffing::stuff(body, buffer);
     bytes.map(output).map_err(|error| rejection(Fault::Oversize, &error))
@@ -78,7 +78,7 @@ fn packet(frame: &Frame<'_>) -> Packet {
     }
 }
 
-/// What the stream parser finds; at the end the bus is quiet.
+/// The packets that the stream parser finds. The bus is quiet after the last chunk.
 fn stream(chunks: &[HexBytes]) -> Output {
     let mut parser = Parser::new();
     let mut packets = Vec::new();
@@ -119,7 +119,7 @@ fn frame_rejection(error: FrameError) -> Rejection {
     rejection(fault(&error), &error)
 }
 
-/// The error class of the adapter protocol that an error of the codec belongs to.
+/// The adapter protocol's error class of a codec error.
 const fn fault(error: &FrameError) -> Fault {
     match error {
         FrameError::Header { .. } => Fault::Header,

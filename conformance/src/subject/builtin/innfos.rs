@@ -7,7 +7,7 @@ use actucheck_spec::model::{Fault, FrameKind, HexBytes, Packet};
 use super::{Result, not_offered, output, rejection, unbuilt};
 use crate::adapter::{Op, Output};
 
-/// What the codec makes of a request; `None` for one that it does not offer.
+/// The codec's answer to a question; `None` if it does not offer the op.
 pub(super) fn ask(op: &Op, buffer: &mut [u8]) -> Option<Result> {
     Some(match op {
         Op::Crc { bytes, .. } => Ok(Output::Crc(crc::modbus(bytes).into())),

@@ -1,4 +1,4 @@
-//! This project's own codec as an implementation under test.
+//! This project's own codec as a subject.
 
 mod dynamixel2;
 mod innfos;
@@ -9,11 +9,10 @@ use actucheck_spec::model::{Fault, HexBytes};
 use super::{Answer, Subject};
 use crate::adapter::{Hello, Implementation, Limits, Op, Output, Rejection, VERSION, Wire};
 
-/// The largest frame that a length field can tell of: 65,535 bytes of data, and INNFOS' eight
-/// around them.
+/// The largest frame of any wire: 65,535 bytes of data, and the eight bytes that INNFOS adds.
 const MAX_FRAME: usize = 65_535 + 8;
 
-/// What was asked for, or why it is rejected.
+/// The result, or why the input is rejected.
 type Result = std::result::Result<Output, Rejection>;
 
 /// The built-in codec.
@@ -81,7 +80,7 @@ fn unbuilt(error: &EncodeError) -> Rejection {
     rejection(class, error)
 }
 
-/// A packet of the other wire.
+/// A packet of another wire.
 fn not_offered() -> Rejection {
-    rejection(Fault::Parameter, &"the packet is one of another protocol")
+    rejection(Fault::Parameter, &"the packet belongs to another wire")
 }
