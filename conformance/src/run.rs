@@ -12,7 +12,6 @@ use actucheck_spec::model::Level;
 
 use self::merge::Merge;
 use self::worker::Worker;
-use crate::adapter::Op;
 use crate::subject::{Answer, Subject};
 use crate::suite::plan::{Group, Plan};
 use crate::verdict::{Outcome, Verdict};
@@ -26,16 +25,16 @@ pub type Sink<'s> = dyn FnMut(Outcome) -> ControlFlow<()> + Send + 's;
 /// another of its group is skipped where that one was. `sink` is given the same in the same order
 /// however many subjects there are. When `interrupted` is set, what is outstanding is waited for, and
 /// what was answered is handed on. An adapter that answers an op that does not exist is shown as a
-/// fault before all else.
+/// fault before all else. Returns of how many checks the outcome was handed on.
 pub fn run<'s>(
     subjects: &mut [Box<dyn Subject + Send>],
     plan: &'s Plan<'_>,
     interrupted: &'s AtomicBool,
     sink: &'s mut Sink<'s>,
-) {
+) -> usize {
     let fault = subjects.first_mut().and_then(|subject| invented_op(subject.as_mut()));
     if fault.is_some_and(|fault| sink(fault).is_break()) {
-        return;
+        return 0;
     }
     let source = Mutex::new(Source { groups: Box::new(plan.groups()), next: 0 });
     let work = Work { plan, source, merge: Merge::new(sink, interrupted) };
@@ -45,7 +44,7 @@ pub fn run<'s>(
             scope.spawn(|| worker.ask(subject.as_mut()));
         }
     });
-    work.merge.finish();
+    work.merge.finish()
 }
 
 /// Asks all checks of a plan that is known to be short, and keeps every outcome.
@@ -104,7 +103,7 @@ fn is_set(flag: &AtomicBool) -> bool {
 
 /// What a good adapter skips, so that it can skip what a later suite asks.
 fn invented_op(subject: &mut dyn Subject) -> Option<Outcome> {
-    let (verdict, detail) = match subject.ask(&Op::Invented) {
+    let (verdict, detail) = match subject.ask_invented() {
         Answer::Skipped(_) => return None,
         Answer::TimedOut(detail) => (Verdict::Timeout, detail),
         Answer::Crashed(detail) => (Verdict::Crash, detail),
@@ -120,7 +119,7 @@ fn invented_op(subject: &mut dyn Subject) -> Option<Outcome> {
         level: Level::Must,
         verdict,
         detail,
-        request: Some(Op::Invented),
+        request: None,
         expected: None,
         actual: None,
         behaviour: None,

@@ -5,9 +5,10 @@ use std::fmt;
 
 use actucheck_spec::model::{HexBytes, Level, Packet};
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::de::IgnoredAny;
+use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::adapter::{Op, Output};
+use crate::adapter::{Output, Question};
 
 /// What came out of a check, in one word.
 #[derive(
@@ -116,8 +117,8 @@ pub struct Outcome {
     /// Why, in a sentence; empty for a pass.
     pub detail: String,
     /// What was asked; only where it did not pass.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub request: Option<Op>,
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "question")]
+    pub request: Option<Question>,
     /// What was demanded; only where something else came.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub expected: Option<Output>,
@@ -136,6 +137,20 @@ pub struct Behaviour {
     pub question: String,
     /// What is done, in a few words.
     pub answer: String,
+}
+
+/// Earlier reports name an op that does not exist, too.
+fn question<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Question>, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged)]
+    enum Asked {
+        Question(Question),
+        Other(IgnoredAny),
+    }
+    Ok(match Deserialize::deserialize(deserializer)? {
+        Asked::Question(question) => Some(question),
+        Asked::Other(IgnoredAny) => None,
+    })
 }
 
 impl Outcome {

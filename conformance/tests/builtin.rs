@@ -5,7 +5,7 @@
 
 use std::collections::BTreeSet;
 
-use actucheck::adapter::{Hello, Op, Output, Wire};
+use actucheck::adapter::{Hello, Output, Question, Wire};
 use actucheck::run;
 use actucheck::subject::{Answer, Builtin, Subject};
 use actucheck::suite;
@@ -27,18 +27,18 @@ struct Bent<F> {
     bend: F,
 }
 
-impl<F: Fn(&Op, Answer) -> Answer + Send> Subject for Bent<F> {
+impl<F: Fn(&Question, Answer) -> Answer + Send> Subject for Bent<F> {
     fn hello(&self) -> &Hello {
         self.codec.hello()
     }
 
-    fn ask(&mut self, op: &Op) -> Answer {
+    fn ask(&mut self, op: &Question) -> Answer {
         let answer = self.codec.ask(op);
         (self.bend)(op, answer)
     }
 }
 
-fn outcomes(bend: impl Fn(&Op, Answer) -> Answer + Send + 'static) -> Vec<Outcome> {
+fn outcomes(bend: impl Fn(&Question, Answer) -> Answer + Send + 'static) -> Vec<Outcome> {
     let subject = Bent { codec: Builtin::default(), bend };
     run::outcomes(&mut [Box::new(subject)], &Plan::of(checks()))
 }
@@ -46,7 +46,7 @@ fn outcomes(bend: impl Fn(&Op, Answer) -> Answer + Send + 'static) -> Vec<Outcom
 /// The ops whose checks failed.
 fn failed_ops(outcomes: &[Outcome]) -> BTreeSet<&'static str> {
     let failed = outcomes.iter().filter(|outcome| outcome.verdict == Verdict::Fail);
-    failed.filter_map(|outcome| outcome.request.as_ref()).map(Op::name).collect()
+    failed.filter_map(|outcome| outcome.request.as_ref()).map(Question::name).collect()
 }
 
 #[test]
@@ -84,8 +84,8 @@ fn a_wrong_crc_fails_the_crc_checks() {
 #[test]
 fn bytes_without_stuffing_fail_encode_and_stuff() {
     let outcomes = outcomes(|op, answer| match (op, answer) {
-        (Op::Stuff { bytes, .. }, _) => Answer::Ok(Output::Bytes(bytes.clone())),
-        (Op::Encode { .. }, Answer::Ok(Output::Bytes(mut bytes))) => {
+        (Question::Stuff { bytes, .. }, _) => Answer::Ok(Output::Bytes(bytes.clone())),
+        (Question::Encode { .. }, Answer::Ok(Output::Bytes(mut bytes))) => {
             bytes.0.pop();
             Answer::Ok(Output::Bytes(bytes))
         }
@@ -97,7 +97,7 @@ fn bytes_without_stuffing_fail_encode_and_stuff() {
 #[test]
 fn stuffing_that_is_left_in_fails_unstuff() {
     let outcomes = outcomes(|op, answer| match op {
-        Op::Unstuff { bytes, .. } => Answer::Ok(Output::Bytes(bytes.clone())),
+        Question::Unstuff { bytes, .. } => Answer::Ok(Output::Bytes(bytes.clone())),
         _ => answer,
     });
     assert_eq!(failed_ops(&outcomes), ["unstuff"].into());
@@ -151,7 +151,7 @@ fn another_class_is_a_warning_and_a_breakdown_a_failure() {
 #[test]
 fn rejecting_everything_fails_all_that_is_valid_but_not_what_is_open() {
     let outcomes = outcomes(|op, answer| match answer {
-        Answer::Ok(_) if matches!(op, Op::Decode { .. }) => {
+        Answer::Ok(_) if matches!(op, Question::Decode { .. }) => {
             let detail = String::new();
             Answer::Rejected(actucheck::adapter::Rejection { class: Fault::Crc, detail })
         }

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread;
 use std::time::Duration;
 
-use actucheck::adapter::{Hello, Op, Wire};
+use actucheck::adapter::{Hello, Question, Wire};
 use actucheck::run;
 use actucheck::subject::{Answer, Builtin, Subject};
 use actucheck::suite::check::Check;
@@ -109,7 +109,7 @@ impl Subject for Waiting {
         self.codec.hello()
     }
 
-    fn ask(&mut self, op: &Op) -> Answer {
+    fn ask(&mut self, op: &Question) -> Answer {
         self.asked.fetch_add(1, Ordering::Relaxed);
         while !self.may.load(Ordering::Relaxed) {
             thread::sleep(Duration::from_millis(1));

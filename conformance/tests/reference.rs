@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
-use actucheck::adapter::{Hello, Op, Output, Rejection, Wire};
+use actucheck::adapter::{Hello, Output, Question, Rejection, Wire};
 use actucheck::run::outcomes;
 use actucheck::subject::{Answer, Builtin, Subject};
 use actucheck::suite;
@@ -20,7 +20,8 @@ fn no_check_judges_where_a_search_goes_on() {
     let options = suite::Options { cases: 1000, ..suite::Options::new(Wire::Dynamixel2) };
     let mut streams = 0;
     for check in suite::plan(&spec, &options).checks() {
-        let (Op::Stream { chunks, .. }, Demand::Yield(_)) = (&check.op, &check.demand) else {
+        let (Question::Stream { chunks, .. }, Demand::Yield(_)) = (&check.question, &check.demand)
+        else {
             continue;
         };
         let stream: Vec<_> = chunks.iter().flat_map(|chunk| chunk.0.clone()).collect();
@@ -38,29 +39,31 @@ impl Subject for Model {
         self.0.hello()
     }
 
-    fn ask(&mut self, op: &Op) -> Answer {
+    fn ask(&mut self, op: &Question) -> Answer {
         let bytes = |bytes: Vec<u8>| Ok(Output::Bytes(bytes.into()));
         let answer = match op {
-            Op::Crc { wire: Wire::Dynamixel2, bytes } => {
+            Question::Crc { wire: Wire::Dynamixel2, bytes } => {
                 Ok(Output::Crc(reference::crc(bytes).into()))
             }
-            Op::Crc { wire: Wire::Innfos, bytes } => Ok(Output::Crc(innfos::crc(bytes).into())),
-            Op::Stuff { bytes: body, .. } => bytes(reference::stuff(body)),
-            Op::Unstuff { bytes: body, .. } => reference::unstuff(body).and_then(bytes),
-            Op::Encode { wire, packet } => match wire {
+            Question::Crc { wire: Wire::Innfos, bytes } => {
+                Ok(Output::Crc(innfos::crc(bytes).into()))
+            }
+            Question::Stuff { bytes: body, .. } => bytes(reference::stuff(body)),
+            Question::Unstuff { bytes: body, .. } => reference::unstuff(body).and_then(bytes),
+            Question::Encode { wire, packet } => match wire {
                 Wire::Dynamixel2 => reference::encode(&packet.packet),
                 Wire::Innfos => innfos::encode(&packet.packet),
             }
             .ok_or(Fault::Length)
             .and_then(bytes),
-            Op::Decode { bytes, fast: Some(fast), .. } => {
+            Question::Decode { bytes, fast: Some(fast), .. } => {
                 reference::decode_fast(bytes, fast).map(Output::Packet)
             }
-            Op::Decode { bytes, kind: Some(kind), .. } => {
+            Question::Decode { bytes, kind: Some(kind), .. } => {
                 innfos::decode(*kind, bytes).map(Output::Packet)
             }
-            Op::Decode { bytes, .. } => reference::decode(bytes).map(Output::Packet),
-            Op::Stream { chunks, kind, .. } => Ok(Output::Packets(match kind {
+            Question::Decode { bytes, .. } => reference::decode(bytes).map(Output::Packet),
+            Question::Stream { chunks, kind, .. } => Ok(Output::Packets(match kind {
                 Some(kind) => {
                     chunks.iter().flat_map(|chunk| innfos::packets(*kind, chunk)).collect()
                 }
@@ -68,7 +71,6 @@ impl Subject for Model {
                     reference::packets(&chunks.iter().flat_map(|c| c.0.clone()).collect::<Vec<_>>())
                 }
             })),
-            Op::Hello { .. } | Op::Invented | Op::Bye => return self.0.ask(op),
         };
         answer.map_or_else(
             |class| Answer::Rejected(Rejection { class, detail: String::new() }),

@@ -10,8 +10,8 @@ use std::time::Duration;
 
 pub(crate) use process::{Line, Running};
 pub use requests::{
-    Called, Hello, Implementation, Limits, Op, Output, Rejection, Reply, Request, Skip, VERSION,
-    Wire,
+    Called, Hello, Implementation, Limits, Output, Question, Rejection, Reply, Request, Skip,
+    VERSION, Wire,
 };
 pub use trace::Trace;
 

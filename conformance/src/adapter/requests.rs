@@ -45,25 +45,29 @@ impl Wire {
     }
 }
 
-/// A request as it is sent over the pipe.
+/// What the suite says to an adapter, as it is sent over the pipe, without its id.
 #[derive(Clone, Debug, Serialize)]
-pub struct Request<'a> {
-    /// A number that counts up; the reply repeats it.
-    pub id: u64,
-    /// The question.
-    #[serde(flatten)]
-    pub op: &'a Op,
-}
-
-/// What the suite asks.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "op", rename_all = "lowercase")]
-pub enum Op {
+pub enum Request<'a> {
     /// Who are you, and what can you do?
     Hello {
         /// The versions of the adapter protocol that the suite speaks.
-        protocol: Vec<u32>,
+        protocol: &'a [u32],
     },
+    /// An op that no version of the protocol has.
+    #[serde(rename = "no-such-op")]
+    Invented,
+    /// The end.
+    Bye,
+    /// A question about packets.
+    #[serde(untagged)]
+    Ask(&'a Question),
+}
+
+/// What is asked about the packets of a wire.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "op", rename_all = "lowercase")]
+pub enum Question {
     /// The CRC of some bytes.
     Crc {
         /// Which CRC.
@@ -115,47 +119,38 @@ pub enum Op {
         #[serde(skip_serializing_if = "Option::is_none")]
         kind: Option<FrameKind>,
     },
-    /// An op that no version of the protocol has.
-    #[serde(rename = "no-such-op")]
-    Invented,
-    /// The end.
-    Bye,
 }
 
-impl Op {
-    /// Its name in the adapter protocol.
+impl Question {
+    /// The name of its op in the adapter protocol.
     #[must_use]
     pub const fn name(&self) -> &'static str {
         match self {
-            Self::Hello { .. } => "hello",
             Self::Crc { .. } => "crc",
             Self::Stuff { .. } => "stuff",
             Self::Unstuff { .. } => "unstuff",
             Self::Encode { .. } => "encode",
             Self::Decode { .. } => "decode",
             Self::Stream { .. } => "stream",
-            Self::Invented => "no-such-op",
-            Self::Bye => "bye",
         }
     }
 
-    /// The wire of the question; `None` for a request that is no question.
+    /// The wire of the question.
     #[must_use]
-    pub const fn wire(&self) -> Option<Wire> {
+    pub const fn wire(&self) -> Wire {
         match self {
             Self::Crc { wire, .. }
             | Self::Stuff { wire, .. }
             | Self::Unstuff { wire, .. }
             | Self::Encode { wire, .. }
             | Self::Decode { wire, .. }
-            | Self::Stream { wire, .. } => Some(*wire),
-            Self::Hello { .. } | Self::Invented | Self::Bye => None,
+            | Self::Stream { wire, .. } => *wire,
         }
     }
 }
 
 /// As it is sent over the pipe, without its id.
-impl fmt::Display for Op {
+impl fmt::Display for Question {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&json(self)?)
     }
@@ -278,7 +273,7 @@ impl Output {
     ///
     /// # Errors
     /// What is wrong with the object.
-    pub fn read(op: &Op, ok: Value) -> Result<Self, serde_json::Error> {
+    pub fn read(op: &Question, ok: Value) -> Result<Self, serde_json::Error> {
         #[derive(Deserialize)]
         struct Crc {
             crc: u64,
@@ -296,9 +291,9 @@ impl Output {
             packets: Vec<Packet>,
         }
         Ok(match op {
-            Op::Crc { .. } => Self::Crc(serde_json::from_value::<Crc>(ok)?.crc),
-            Op::Decode { .. } => Self::Packet(serde_json::from_value::<One>(ok)?.packet),
-            Op::Stream { .. } => Self::Packets(serde_json::from_value::<Many>(ok)?.packets),
+            Question::Crc { .. } => Self::Crc(serde_json::from_value::<Crc>(ok)?.crc),
+            Question::Decode { .. } => Self::Packet(serde_json::from_value::<One>(ok)?.packet),
+            Question::Stream { .. } => Self::Packets(serde_json::from_value::<Many>(ok)?.packets),
             _ => Self::Bytes(serde_json::from_value::<Bytes>(ok)?.bytes),
         })
     }

@@ -6,7 +6,7 @@ use actucheck_spec::wire::dynamixel2::reference::{self, Call};
 use actucheck_spec::wire::innfos::reference as innfos;
 
 use super::probe::{Probe, cut, damaged, joined};
-use crate::adapter::{Called, Op, Output, Wire};
+use crate::adapter::{Called, Output, Question, Wire};
 use crate::suite::check::{Check, Demand};
 use crate::suite::{Author, parameters_of};
 
@@ -20,22 +20,22 @@ impl Probe {
         Some(author.check(id, &requirement, op, demand))
     }
 
-    fn dynamixel2(&self, author: &Author<'_>) -> Option<(String, Op, Demand)> {
+    fn dynamixel2(&self, author: &Author<'_>) -> Option<(String, Question, Demand)> {
         let wire = Wire::Dynamixel2;
         let bytes = |bytes: &[u8]| bytes.to_vec().into();
         let (requirement, op, demand) = match self {
             Self::Crc(message) => {
                 let crc = Output::Crc(reference::crc(message).into());
-                let op = Op::Crc { wire, bytes: bytes(message) };
+                let op = Question::Crc { wire, bytes: bytes(message) };
                 ("dynamixel2.crc.value".to_owned(), op, Demand::Yield(crc))
             }
             Self::Stuff(body) => {
                 let stuffed = Output::Bytes(reference::stuff(body).into());
-                let op = Op::Stuff { wire, bytes: bytes(body) };
+                let op = Question::Stuff { wire, bytes: bytes(body) };
                 ("dynamixel2.stuffing.transmit".to_owned(), op, Demand::Yield(stuffed))
             }
             Self::Unstuff(body) => {
-                let op = Op::Unstuff { wire, bytes: reference::stuff(body).into() };
+                let op = Question::Unstuff { wire, bytes: reference::stuff(body).into() };
                 let body = Output::Bytes(bytes(body));
                 ("dynamixel2.stuffing.receive".to_owned(), op, Demand::Yield(body))
             }
@@ -47,7 +47,7 @@ impl Probe {
                     name => parameters_of(author.spec, name),
                 };
                 let packet = Called { call: Call::of(packet), packet: packet.clone() };
-                let op = Op::Encode { wire, packet };
+                let op = Question::Encode { wire, packet };
                 (requirement, op, Demand::Yield(Output::Bytes(frame.into())))
             }
             Self::Decode((_, packet), damage) => {
@@ -68,7 +68,7 @@ impl Probe {
                     Err(Fault::Crc) => ("receive.crc", Demand::Reject(Fault::Crc)),
                     Err(fault) => ("receive.length", Demand::Reject(fault)),
                 };
-                let op = Op::Decode { wire, bytes: frame.into(), fast: None, kind: None };
+                let op = Question::Decode { wire, bytes: frame.into(), fast: None, kind: None };
                 (format!("dynamixel2.{requirement}"), op, demand)
             }
             Self::Stream(parts, cuts) => {
@@ -83,7 +83,7 @@ impl Probe {
                     return None;
                 }
                 let chunks = cut(&stream, cuts);
-                let op = Op::Stream { wire, chunks, kind: None };
+                let op = Question::Stream { wire, chunks, kind: None };
                 let found = Demand::Yield(Output::Packets(packets));
                 ("dynamixel2.receive.stream".to_owned(), op, found)
             }
@@ -91,18 +91,21 @@ impl Probe {
         Some((requirement, op, demand))
     }
 
-    fn innfos(&self) -> Option<(String, Op, Demand)> {
+    fn innfos(&self) -> Option<(String, Question, Demand)> {
         let wire = Wire::Innfos;
         let (requirement, op, demand) = match self {
             Self::Crc(message) if !message.is_empty() => {
                 let crc = innfos::crc(message);
                 let numbers = [crc, crc.swap_bytes()].map(|number| Output::Crc(number.into()));
-                let op = Op::Crc { wire, bytes: message.clone().into() };
+                let op = Question::Crc { wire, bytes: message.clone().into() };
                 ("innfos.crc.value", op, Demand::YieldOneOf(numbers.into()))
             }
             Self::Encode((_, packet)) if !is_open(packet) => {
                 let frame = innfos::encode(packet)?;
-                let op = Op::Encode { wire, packet: Called { packet: packet.clone(), call: None } };
+                let op = Question::Encode {
+                    wire,
+                    packet: Called { packet: packet.clone(), call: None },
+                };
                 ("innfos.frame.layout", op, Demand::Yield(Output::Bytes(frame.into())))
             }
             Self::Decode((_, packet), damage) => {
@@ -116,7 +119,8 @@ impl Probe {
                     Err(Fault::Crc) => ("innfos.crc.verify", Demand::Reject(Fault::Crc)),
                     Err(fault) => ("innfos.frame.length", Demand::Reject(fault)),
                 };
-                let op = Op::Decode { wire, bytes: frame.into(), fast: None, kind: Some(kind) };
+                let op =
+                    Question::Decode { wire, bytes: frame.into(), fast: None, kind: Some(kind) };
                 (requirement, op, demand)
             }
             // One datagram of valid frames in one direction. What a receiver does after a damaged
@@ -130,7 +134,7 @@ impl Probe {
                     .collect();
                 let frames: Option<Vec<_>> = packets.iter().map(innfos::encode).collect();
                 let chunks = vec![frames?.concat().into()];
-                let op = Op::Stream { wire, chunks, kind: Some(kind) };
+                let op = Question::Stream { wire, chunks, kind: Some(kind) };
                 ("innfos.frame.transparent", op, Demand::Yield(Output::Packets(packets)))
             }
             _ => return None,

@@ -100,7 +100,7 @@ impl Failure {
             _ => return None,
         };
         let requirement = check.requirement.clone();
-        Some(Self { kind: Kind { op: check.op.name(), requirement, symptom }, outcome })
+        Some(Self { kind: Kind { op: check.question.name(), requirement, symptom }, outcome })
     }
 }
 

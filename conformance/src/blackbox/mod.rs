@@ -18,7 +18,7 @@ use proptest::test_runner::TestRunner;
 
 use self::finding::Failure;
 use self::probe::Probe;
-use crate::adapter::{Op, Wire};
+use crate::adapter::{Question, Wire};
 use crate::subject::{Answer, Questions, Subject};
 use crate::suite::Author;
 use crate::suite::check::Check;
@@ -166,8 +166,8 @@ impl Questions for Asking<'_> {
         (number < self.batch.len() && !self.over.get()).then_some(number)
     }
 
-    fn question(&self, number: usize) -> Option<&Op> {
-        self.batch.get(number).map(|drawn| &drawn.check.op)
+    fn question(&self, number: usize) -> Option<&Question> {
+        self.batch.get(number).map(|drawn| &drawn.check.question)
     }
 
     fn answered(&mut self, number: usize, answer: Answer) {
@@ -206,7 +206,8 @@ fn shrink(
             break;
         }
         let check = drawn.tree.current().check(author, id.clone());
-        let failure = check.as_ref().and_then(|check| Failure::of(check, subject.ask(&check.op)));
+        let failure =
+            check.as_ref().and_then(|check| Failure::of(check, subject.ask(&check.question)));
         smaller = match (check, failure) {
             (Some(check), Some(failure)) if failure.kind == smallest.kind => {
                 smallest = Finding { check, outcome: failure.outcome, ..smallest };

@@ -8,9 +8,9 @@ use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-use actucheck::adapter::Op;
 use actucheck::report::{Report, Run, Stopped, text};
 use actucheck::run;
+use actucheck::suite::check::Check;
 use actucheck::suite::expect::Expectations;
 use actucheck::suite::saved;
 use actucheck::verdict::Outcome;
@@ -75,8 +75,8 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     let mut records = BTreeMap::new();
     for path in &options.also {
         let more = saved::read(path).map_err(Failure::usage)?;
-        let more = more.into_iter().filter(|(wire, _)| *wire == selection.wire);
-        let more: Vec<_> = more.map(|(_, check)| check).collect();
+        let of_wire = |check: &Check| check.question.wire() == selection.wire;
+        let more: Vec<_> = more.into_iter().filter(of_wire).collect();
         records.extend(more.iter().map(|check| (check.id.clone(), path.clone())));
         plan.add(more);
     }
@@ -93,7 +93,7 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     let interrupted = shared::interrupted()?;
     let mut limit = Limit::new(options.max_fail);
     let mut outcomes = Vec::new();
-    run::run(&mut subjects.all, &plan, &interrupted, &mut |outcome| {
+    let asked = run::run(&mut subjects.all, &plan, &interrupted, &mut |outcome| {
         progress.inc(1);
         let goes_on = limit.after(&outcome, &expectations);
         outcomes.push(outcome);
@@ -101,8 +101,6 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     });
     let seconds = started.elapsed().as_secs_f64();
     progress.finish_and_clear();
-    // The invented op is not one of the checks.
-    let asked = outcomes.iter().filter(|outcome| outcome.request != Some(Op::Invented)).count();
     expectations.apply(&mut outcomes);
 
     let report = Report::from(Run {

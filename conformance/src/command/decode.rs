@@ -4,7 +4,7 @@ use std::fmt;
 use std::io::{self, Read as _, Write as _};
 use std::process::ExitCode;
 
-use actucheck::adapter::{Op, Output, Wire};
+use actucheck::adapter::{Output, Question, Wire};
 use actucheck::explain::frame::{explain, explain_fast};
 use actucheck::explain::{Explanation, innfos};
 use actucheck::subject::{Answer, Builtin, Subject as _};
@@ -139,7 +139,7 @@ fn invalid(error: &impl fmt::Display, offset: usize) -> Failure {
 
 /// The packet as the adapter protocol has it.
 fn json(options: &Decode, bytes: Vec<u8>) -> Result<String, Failure> {
-    let op = Op::Decode {
+    let op = Question::Decode {
         wire: options.wire,
         bytes: bytes.into(),
         fast: options.fast.clone(),

@@ -10,7 +10,7 @@ use indexmap::{IndexMap, IndexSet};
 use super::model::{
     CheckResult, Question, Report, RequirementResult, Statement, Stopped, Tally, VERSION,
 };
-use crate::adapter::{Implementation, Op, Wire};
+use crate::adapter::{self, Implementation, Wire};
 use crate::explain::diff;
 use crate::suite::Options;
 use crate::verdict::{Outcome, Totals, Verdict};
@@ -130,9 +130,11 @@ fn result(run: &Run<'_>, outcome: &Outcome) -> CheckResult {
     let diff = bytes.map(|(expected, actual)| diff::bytes(expected, actual));
     let first = diff.as_ref().and_then(|diff| diff.first);
     let differs_in = match (&outcome.request, bytes, first) {
-        (Some(Op::Encode { wire: Wire::Dynamixel2, .. }), Some((expected, _)), Some(at)) => {
-            Some(diff::part_of_frame(expected, at).to_owned())
-        }
+        (
+            Some(adapter::Question::Encode { wire: Wire::Dynamixel2, .. }),
+            Some((expected, _)),
+            Some(at),
+        ) => Some(diff::part_of_frame(expected, at).to_owned()),
         _ => None,
     };
     let replay = outcome.request.is_some().then(|| replay(run, &outcome.id));

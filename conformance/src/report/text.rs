@@ -59,7 +59,7 @@ pub fn check(spec: &Spec, check: &Check, out: &mut dyn Write) -> io::Result<()> 
         statement(check.level, &words, out)?;
     }
     writeln!(out, "  {:9} {DIM}{}{DIM:#}", "packet of", spec.place(&check.source))?;
-    writeln!(out, "  {:9} {}", "request", check.op)?;
+    writeln!(out, "  {:9} {}", "request", check.question)?;
     let (outputs, reject) = match &check.demand {
         Demand::Yield(output) => (std::slice::from_ref(output), None),
         Demand::YieldOneOf(outputs) => (outputs.as_slice(), None),

@@ -25,6 +25,8 @@ pub(super) struct Merge<'s> {
 
 struct State<'s> {
     sink: &'s mut Sink<'s>,
+    /// How many outcomes the sink was given.
+    count: usize,
     /// The first batch that is not yet done. Its outcomes go straight to the sink.
     first: u64,
     /// What came of later ones, and whether they are done.
@@ -33,7 +35,7 @@ struct State<'s> {
 
 impl<'s> Merge<'s> {
     pub(super) fn new(sink: &'s mut Sink<'s>, interrupted: &'s AtomicBool) -> Self {
-        let state = State { sink, first: 0, held: BTreeMap::new() };
+        let state = State { sink, count: 0, first: 0, held: BTreeMap::new() };
         let (moved, over) = (Condvar::new(), AtomicBool::new(false));
         Self { state: Mutex::new(state), moved, over, interrupted }
     }
@@ -86,15 +88,20 @@ impl<'s> Merge<'s> {
         self.moved.notify_all();
     }
 
-    /// Hands on what an early end left behind.
-    pub(super) fn finish(self) {
+    /// Hands on what an early end left behind. Returns how many outcomes the sink was given.
+    pub(super) fn finish(self) -> usize {
         let mut state = self.state.into_inner().unwrap_or_else(PoisonError::into_inner);
         let held = std::mem::take(&mut state.held).into_values();
         for outcome in held.flat_map(|(outcomes, _)| outcomes) {
-            if is_set(&self.over) || (state.sink)(outcome).is_break() {
-                return;
+            if is_set(&self.over) {
+                break;
+            }
+            state.count += 1;
+            if (state.sink)(outcome).is_break() {
+                break;
             }
         }
+        state.count
     }
 
     fn hand_on(&self, state: &mut State<'_>, outcomes: Vec<Outcome>) {
@@ -102,6 +109,7 @@ impl<'s> Merge<'s> {
             if is_set(&self.over) {
                 return;
             }
+            state.count += 1;
             if (state.sink)(outcome).is_break() {
                 self.over.store(true, Ordering::Relaxed);
             }

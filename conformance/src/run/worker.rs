@@ -4,7 +4,7 @@ use std::collections::{HashMap, VecDeque};
 use std::time::{Duration, Instant};
 
 use super::{Work, lock};
-use crate::adapter::{Hello, Op};
+use crate::adapter::{Hello, Question};
 use crate::subject::{Answer, Questions, Subject};
 use crate::suite::check::Check;
 use crate::verdict::{Outcome, Verdict};
@@ -225,9 +225,9 @@ impl Questions for Worker<'_, '_, '_> {
         None
     }
 
-    fn question(&self, number: usize) -> Option<&Op> {
+    fn question(&self, number: usize) -> Option<&Question> {
         match &self.slot(number)?.state {
-            State::Open(check) => Some(&check.op),
+            State::Open(check) => Some(&check.question),
             _ => None,
         }
     }
@@ -248,13 +248,12 @@ impl Questions for Worker<'_, '_, '_> {
 
 /// Why a check is not asked, by the adapter's own word.
 fn not_offered(hello: &Hello, check: &Check) -> Option<String> {
-    let name = check.op.name();
+    let name = check.question.name();
     if !hello.ops.iter().any(|op| op == name) {
         return Some(format!("the adapter offers no {name}"));
     }
-    if let Some(wire) = check.op.wire()
-        && !hello.wires.iter().any(|offered| offered == wire.id())
-    {
+    let wire = check.question.wire();
+    if !hello.wires.iter().any(|offered| offered == wire.id()) {
         return Some(format!("the adapter offers no {}", wire.id()));
     }
     let (limit, size) = (hello.limits.max_packet?, check.packet_size()?);

@@ -3,7 +3,7 @@
 mod adapter;
 mod builtin;
 
-use crate::adapter::{Hello, Op, Output, Rejection};
+use crate::adapter::{Hello, Output, Question, Rejection};
 
 pub use adapter::{Process, StartError};
 pub use builtin::Builtin;
@@ -14,7 +14,12 @@ pub trait Subject {
     fn hello(&self) -> &Hello;
 
     /// Asks one question. Blocks no longer than the time limits.
-    fn ask(&mut self, op: &Op) -> Answer;
+    fn ask(&mut self, op: &Question) -> Answer;
+
+    /// Asks for an op that no version of the adapter protocol has.
+    fn ask_invented(&mut self) -> Answer {
+        Answer::Skipped("there is no such op".to_owned())
+    }
 
     /// Asks all `questions`, several at once if the subject takes them, and answers them in any
     /// order.
@@ -39,7 +44,7 @@ pub trait Questions {
     fn next(&mut self) -> Option<usize>;
 
     /// The question with this number; `None` if there is no such question without an answer.
-    fn question(&self, number: usize) -> Option<&Op>;
+    fn question(&self, number: usize) -> Option<&Question>;
 
     /// Takes the answer to the question with this number.
     fn answered(&mut self, number: usize, answer: Answer);

@@ -3,7 +3,7 @@
 use actucheck_spec::model::{Citation, Fault, Level};
 use serde::{Deserialize, Serialize};
 
-use crate::adapter::{Op, Output, Rejection};
+use crate::adapter::{Output, Question, Rejection};
 use crate::subject::Answer;
 use crate::verdict::{Behaviour, Outcome, Verdict};
 
@@ -25,7 +25,7 @@ pub struct Check {
     pub requires: Option<String>,
     /// What is asked.
     #[serde(rename = "request")]
-    pub op: Op,
+    pub question: Question,
     /// What is demanded.
     #[serde(with = "serde_yaml::with::singleton_map_recursive")]
     pub demand: Demand,
@@ -131,7 +131,7 @@ impl Check {
             level: self.level,
             verdict,
             detail: if behaviour.is_some() { String::new() } else { detail },
-            request: unmet.then_some(self.op),
+            request: unmet.then_some(self.question),
             actual: actual.filter(|_| unmet),
             behaviour,
         }
@@ -146,11 +146,12 @@ impl Check {
     /// Bytes of the whole packet that it is about; `None` if it is about no whole one.
     #[must_use]
     pub fn packet_size(&self) -> Option<usize> {
-        match (&self.op, self.expected()) {
-            (Op::Decode { bytes, .. }, _) | (Op::Encode { .. }, Some(Output::Bytes(bytes))) => {
-                Some(bytes.len())
+        match (&self.question, self.expected()) {
+            (Question::Decode { bytes, .. }, _)
+            | (Question::Encode { .. }, Some(Output::Bytes(bytes))) => Some(bytes.len()),
+            (Question::Stream { chunks, .. }, _) => {
+                Some(chunks.iter().map(|chunk| chunk.len()).sum())
             }
-            (Op::Stream { chunks, .. }, _) => Some(chunks.iter().map(|chunk| chunk.len()).sum()),
             _ => None,
         }
     }

@@ -17,7 +17,7 @@ use actucheck_spec::wire::dynamixel2::reference::{self, Call};
 
 use self::check::{Check, Demand};
 use self::plan::Plan;
-use crate::adapter::{Called, Op, Output, Wire};
+use crate::adapter::{Called, Output, Question, Wire};
 
 /// What decides which checks there are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,7 +71,13 @@ pub(crate) struct Author<'a> {
 }
 
 impl Author<'_> {
-    pub(crate) fn check(&self, id: String, requirement: &str, op: Op, demand: Demand) -> Check {
+    pub(crate) fn check(
+        &self,
+        id: String,
+        requirement: &str,
+        question: Question,
+        demand: Demand,
+    ) -> Check {
         let row = self.spec.requirement(requirement);
         Check {
             id,
@@ -80,7 +86,7 @@ impl Author<'_> {
             level: row.map_or(Level::Must, |row| row.level),
             source: row.map_or_else(unknown, |row| row.source.clone()),
             requires: None,
-            op,
+            question,
             demand,
         }
     }
@@ -89,9 +95,13 @@ impl Author<'_> {
     fn both_ways(&self, id: &str, requirement: &str, packet: &Packet) -> Vec<Check> {
         let Some(bytes) = reference::encode(packet) else { return Vec::new() };
         let called = Called { call: Call::of(packet), packet: packet.clone() };
-        let encode = Op::Encode { wire: self.wire, packet: called };
-        let decode =
-            Op::Decode { wire: self.wire, bytes: bytes.clone().into(), fast: None, kind: None };
+        let encode = Question::Encode { wire: self.wire, packet: called };
+        let decode = Question::Decode {
+            wire: self.wire,
+            bytes: bytes.clone().into(),
+            fast: None,
+            kind: None,
+        };
         let (bytes, packet) = (Output::Bytes(bytes.into()), Output::Packet(packet.clone()));
         vec![
             self.check(format!("{id}/encode"), requirement, encode, Demand::Yield(bytes)),
@@ -110,7 +120,7 @@ impl Author<'_> {
             Ok(packet) => Demand::Yield(Output::Packet(packet)),
             Err(fault) => Demand::Reject(fault),
         };
-        let op = Op::Decode { wire: self.wire, bytes: bytes.into(), fast: None, kind: None };
+        let op = Question::Decode { wire: self.wire, bytes: bytes.into(), fast: None, kind: None };
         self.check(id, requirement, op, demand)
     }
 
@@ -118,7 +128,7 @@ impl Author<'_> {
     fn streamed(&self, id: String, requirement: &str, chunks: &[Vec<u8>]) -> Check {
         let packets = reference::packets(&chunks.concat());
         let chunks = chunks.iter().map(|chunk| chunk.clone().into()).collect();
-        let op = Op::Stream { wire: self.wire, chunks, kind: None };
+        let op = Question::Stream { wire: self.wire, chunks, kind: None };
         self.check(id, requirement, op, Demand::Yield(Output::Packets(packets)))
     }
 }

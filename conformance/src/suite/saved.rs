@@ -6,7 +6,6 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::check::Check;
-use crate::adapter::Wire;
 
 /// Version of the file's form. It changes when a field goes or takes another meaning.
 pub const VERSION: u32 = 1;
@@ -38,14 +37,6 @@ pub enum SavedError {
         /// Its version.
         version: u32,
     },
-    /// A check asks nothing about packets.
-    #[error("{path}: the check `{id}` is about no wire")]
-    Wire {
-        /// The file.
-        path: String,
-        /// The check.
-        id: String,
-    },
 }
 
 #[derive(Serialize, Deserialize)]
@@ -63,11 +54,11 @@ pub fn write(checks: &[Check]) -> Result<String, serde_yaml::Error> {
     serde_yaml::to_string(&File { version: VERSION, checks: checks.to_vec() })
 }
 
-/// Reads the file at `path`; each check with its wire.
+/// Reads the file at `path`.
 ///
 /// # Errors
 /// If it can't be read, is malformed or of another version.
-pub fn read(path: &Path) -> Result<Vec<(Wire, Check)>, SavedError> {
+pub fn read(path: &Path) -> Result<Vec<Check>, SavedError> {
     let name = path.display().to_string();
     let text = std::fs::read_to_string(path)
         .map_err(|error| SavedError::Read { path: name.clone(), error })?;
@@ -76,9 +67,5 @@ pub fn read(path: &Path) -> Result<Vec<(Wire, Check)>, SavedError> {
     if file.version != VERSION {
         return Err(SavedError::Version { path: name, version: file.version });
     }
-    let with_wire = |check: Check| match check.op.wire() {
-        Some(wire) => Ok((wire, check)),
-        None => Err(SavedError::Wire { path: name.clone(), id: check.id }),
-    };
-    file.checks.into_iter().map(with_wire).collect()
+    Ok(file.checks)
 }

@@ -1,6 +1,6 @@
 //! Implementations of DYNAMIXEL Protocol 2.0 that are wrong in one way each.
 
-use actucheck::adapter::{Op, Output};
+use actucheck::adapter::{Output, Question};
 use actucheck_spec::model::Packet;
 use actucheck_spec::wire::dynamixel2::reference::{self, HEADER};
 
@@ -30,7 +30,7 @@ pub(super) static MUTANTS: [Mutant; 14] = [
     Mutant {
         name: "stuffs the first pattern only",
         wrong: Wrong::Answers(|op| match op {
-            Op::Stuff { bytes: body, .. } => {
+            Question::Stuff { bytes: body, .. } => {
                 let at = body.windows(3).position(|window| window == [0xFF, 0xFF, 0xFD])? + 3;
                 Some(bytes([&body[..at], &[0xFD], &body[at..]].concat()))
             }
@@ -66,7 +66,7 @@ pub(super) static MUTANTS: [Mutant; 14] = [
     Mutant {
         name: "takes every FD behind FF FD for stuffing",
         wrong: Wrong::Answers(|op| match op {
-            Op::Unstuff { bytes: body, .. } => {
+            Question::Unstuff { bytes: body, .. } => {
                 let mut out: Vec<u8> = Vec::new();
                 for byte in body.iter() {
                     if *byte != 0xFD || !out.ends_with(&[0xFF, 0xFD]) {
@@ -83,7 +83,7 @@ pub(super) static MUTANTS: [Mutant; 14] = [
     Mutant {
         name: "leaves stuffing in what it reads",
         wrong: Wrong::Answers(|op| match op {
-            Op::Decode { bytes, fast: None, .. } => match reference::decode(bytes).ok()? {
+            Question::Decode { bytes, fast: None, .. } => match reference::decode(bytes).ok()? {
                 Packet::Status { id, error, .. } => {
                     let params = bytes[9..bytes.len() - 2].to_vec().into();
                     Some(Output::Packet(Packet::Status { id, error, params }))
@@ -98,7 +98,7 @@ pub(super) static MUTANTS: [Mutant; 14] = [
     Mutant {
         name: "starts the CRC with FFFF",
         wrong: Wrong::Answers(|op| match op {
-            Op::Crc { bytes, .. } => {
+            Question::Crc { bytes, .. } => {
                 let whole = [&[0xFF, 0xFF], bytes.0.as_slice()].concat();
                 Some(Output::Crc(reference::crc(&whole).into()))
             }
@@ -110,7 +110,9 @@ pub(super) static MUTANTS: [Mutant; 14] = [
     Mutant {
         name: "does not look at the CRC",
         wrong: Wrong::Answers(|op| match op {
-            Op::Decode { bytes, fast: None, .. } => read_leniently(&with_crc(bytes.0.clone())),
+            Question::Decode { bytes, fast: None, .. } => {
+                read_leniently(&with_crc(bytes.0.clone()))
+            }
             _ => None,
         }),
         found_by: "dynamixel2.negative.status.flip-13-0/decode",
@@ -119,7 +121,7 @@ pub(super) static MUTANTS: [Mutant; 14] = [
     Mutant {
         name: "does not look at the reserved byte",
         wrong: Wrong::Answers(|op| match op {
-            Op::Decode { bytes, fast: None, .. } if bytes.len() > 7 => {
+            Question::Decode { bytes, fast: None, .. } if bytes.len() > 7 => {
                 let mut frame = bytes.0.clone();
                 let right = reference::crc(&frame[..frame.len() - 2]).to_le_bytes();
                 frame[3] = HEADER[3];
@@ -133,7 +135,7 @@ pub(super) static MUTANTS: [Mutant; 14] = [
     Mutant {
         name: "reads the length's low byte only",
         wrong: Wrong::Answers(|op| match op {
-            Op::Encode { packet, .. } => {
+            Question::Encode { packet, .. } => {
                 let mut frame = reference::encode(&packet.packet)?;
                 frame[6] = 0;
                 Some(bytes(with_crc(frame)))
@@ -146,7 +148,7 @@ pub(super) static MUTANTS: [Mutant; 14] = [
     Mutant {
         name: "drops the alert bit",
         wrong: Wrong::Answers(|op| match op {
-            Op::Decode { bytes, fast: None, .. } => match reference::decode(bytes).ok()? {
+            Question::Decode { bytes, fast: None, .. } => match reference::decode(bytes).ok()? {
                 Packet::Status { id, error, params } => {
                     Some(Output::Packet(Packet::Status { id, error: error & 0x7F, params }))
                 }
@@ -160,7 +162,7 @@ pub(super) static MUTANTS: [Mutant; 14] = [
     Mutant {
         name: "forgets what it has of a packet when a chunk ends",
         wrong: Wrong::Answers(|op| match op {
-            Op::Stream { chunks, .. } => Some(Output::Packets(
+            Question::Stream { chunks, .. } => Some(Output::Packets(
                 chunks.iter().flat_map(|chunk| reference::packets(chunk)).collect(),
             )),
             _ => None,
@@ -171,7 +173,7 @@ pub(super) static MUTANTS: [Mutant; 14] = [
     Mutant {
         name: "gives up the stream at a wrong CRC",
         wrong: Wrong::Answers(|op| match op {
-            Op::Stream { chunks, .. } => {
+            Question::Stream { chunks, .. } => {
                 let stream: Vec<u8> = chunks.iter().flat_map(|chunk| chunk.0.clone()).collect();
                 let at = stream.windows(4).position(|window| window == HEADER)?;
                 let frame = &stream[at..];
@@ -187,8 +189,8 @@ pub(super) static MUTANTS: [Mutant; 14] = [
 ];
 
 /// ID and body of a packet that is to be encoded.
-fn body_of(op: &Op) -> Option<(u8, Vec<u8>)> {
-    let Op::Encode { packet, .. } = op else { return None };
+fn body_of(op: &Question) -> Option<(u8, Vec<u8>)> {
+    let Question::Encode { packet, .. } = op else { return None };
     match &packet.packet {
         Packet::Instruction { id, instruction, params } => {
             Some((*id, [&[*instruction], params.0.as_slice()].concat()))

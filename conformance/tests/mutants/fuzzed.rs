@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use actucheck::adapter::{Op, Wire};
+use actucheck::adapter::{Question, Wire};
 use actucheck::blackbox::{Fuzzed, Symptom, fuzz};
 use actucheck::run;
 use actucheck::subject::{Answer, Builtin, Subject};
@@ -20,7 +20,7 @@ fn fuzzed(subject: &mut dyn Subject, seed: u64, cases: u64) -> Fuzzed {
 }
 
 /// How large a question is.
-fn size(op: &Op) -> usize {
+fn size(op: &Question) -> usize {
     serde_json::to_string(op).unwrap().len()
 }
 
@@ -39,10 +39,10 @@ fn nothing_is_found_in_the_builtin_codec() {
 fn every_mutant_is_found_and_made_small() {
     for mutant in &MUTANTS {
         let fuzzed = fuzzed(&mut Mutated::new(mutant), 1, 5_000);
-        let sizes = fuzzed.findings.iter().map(|finding| size(&finding.check.op));
+        let sizes = fuzzed.findings.iter().map(|finding| size(&finding.check.question));
         // A length of two bytes is 256 bytes, and twice as many digits.
         let smallest = sizes.min().filter(|size| *size < 700);
-        let found: Vec<_> = fuzzed.findings.iter().map(|finding| &finding.check.op).collect();
+        let found: Vec<_> = fuzzed.findings.iter().map(|finding| &finding.check.question).collect();
         assert!(smallest.is_some(), "{}: {found:?}", mutant.name);
     }
 }
@@ -64,7 +64,7 @@ fn what_was_found_is_kept_and_fails_again() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("findings.yaml");
     std::fs::write(&file, saved::write(&checks).unwrap()).unwrap();
-    let read: Vec<_> = saved::read(&file).unwrap().into_iter().map(|(_, check)| check).collect();
+    let read = saved::read(&file).unwrap();
     assert_eq!(read, checks);
     let verdicts = |subject: Box<dyn Subject + Send>| -> Vec<_> {
         let outcomes = run::outcomes(&mut [subject], &Plan::of(read.clone()));
@@ -85,9 +85,9 @@ impl Subject for Ending {
         self.0.hello()
     }
 
-    fn ask(&mut self, op: &Op) -> Answer {
+    fn ask(&mut self, op: &Question) -> Answer {
         match op {
-            Op::Crc { bytes, .. } if bytes.contains(&0xFD) => Answer::Crashed(String::new()),
+            Question::Crc { bytes, .. } if bytes.contains(&0xFD) => Answer::Crashed(String::new()),
             op => self.0.ask(op),
         }
     }
@@ -98,6 +98,6 @@ fn a_crash_is_a_finding_and_small() {
     let findings = fuzzed(&mut Ending(Builtin::default()), 1, 2_000).findings;
     let [finding] = findings.as_slice() else { panic!("{findings:?}") };
     assert_eq!((finding.kind.op, &finding.kind.symptom), ("crc", &Symptom::Crashed));
-    assert!(size(&finding.check.op) < 70, "{:?}", finding.check.op);
+    assert!(size(&finding.check.question) < 70, "{:?}", finding.check.question);
     assert!(finding.times > 10);
 }

@@ -1,6 +1,6 @@
 //! Implementations of the INNFOS Ethernet protocol that are wrong in one way each.
 
-use actucheck::adapter::{Op, Output};
+use actucheck::adapter::{Output, Question};
 use actucheck_spec::model::{FrameKind, Packet};
 use actucheck_spec::wire::innfos::reference;
 
@@ -33,7 +33,7 @@ pub(super) static MUTANTS: [Mutant; 7] = [
     Mutant {
         name: "reads the length's low byte only",
         wrong: Wrong::Rejects(
-            |op| matches!(op, Op::Decode { bytes, .. } if bytes.get(3).is_some_and(|high| *high > 0)),
+            |op| matches!(op, Question::Decode { bytes, .. } if bytes.get(3).is_some_and(|high| *high > 0)),
         ),
         found_by: "innfos.reply.size.256/decode",
         found_by_documents: false,
@@ -41,7 +41,7 @@ pub(super) static MUTANTS: [Mutant; 7] = [
     Mutant {
         name: "does not look at the CRC",
         wrong: Wrong::Answers(|op| {
-            let Op::Decode { bytes, kind, .. } = op else { return None };
+            let Question::Decode { bytes, kind, .. } = op else { return None };
             let mut frame = bytes.0.clone();
             let crc = reference::crc(frame.get(5..frame.len().checked_sub(3)?)?).to_le_bytes();
             let at = frame.len() - 3;
@@ -54,7 +54,7 @@ pub(super) static MUTANTS: [Mutant; 7] = [
     Mutant {
         name: "does not look at the tail",
         wrong: Wrong::Answers(|op| {
-            let Op::Decode { bytes, kind, .. } = op else { return None };
+            let Question::Decode { bytes, kind, .. } = op else { return None };
             let mut frame = bytes.0.clone();
             *frame.last_mut()? = 0xED;
             read(kind.unwrap_or(FrameKind::Reply), &frame)
@@ -65,7 +65,7 @@ pub(super) static MUTANTS: [Mutant; 7] = [
     Mutant {
         name: "takes the first ED for the tail",
         wrong: Wrong::Rejects(|op| match op {
-            Op::Decode { bytes, .. } => {
+            Question::Decode { bytes, .. } => {
                 bytes.iter().position(|byte| *byte == 0xED) != Some(bytes.len().saturating_sub(1))
             }
             _ => false,
@@ -76,7 +76,7 @@ pub(super) static MUTANTS: [Mutant; 7] = [
     Mutant {
         name: "reads the first frame of a datagram only",
         wrong: Wrong::Answers(|op| {
-            let Op::Stream { chunks, kind, .. } = op else { return None };
+            let Question::Stream { chunks, kind, .. } = op else { return None };
             let found = chunks.iter().filter_map(|chunk| {
                 reference::packets(kind.unwrap_or(FrameKind::Reply), chunk).into_iter().next()
             });
@@ -88,9 +88,9 @@ pub(super) static MUTANTS: [Mutant; 7] = [
 ];
 
 /// What is to be encoded.
-fn packet(op: &Op) -> Option<&Packet> {
+fn packet(op: &Question) -> Option<&Packet> {
     match op {
-        Op::Encode { packet, .. } => Some(&packet.packet),
+        Question::Encode { packet, .. } => Some(&packet.packet),
         _ => None,
     }
 }

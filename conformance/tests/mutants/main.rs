@@ -9,7 +9,7 @@ mod innfos;
 mod killing;
 mod stubs;
 
-use actucheck::adapter::{Hello, Op, Output, Rejection, Wire};
+use actucheck::adapter::{Hello, Output, Question, Rejection, Wire};
 use actucheck::run;
 use actucheck::subject::{Answer, Builtin, Subject};
 use actucheck::suite;
@@ -32,11 +32,11 @@ struct Mutant {
 /// What it does wrong.
 enum Wrong {
     /// It answers this instead, where it is something.
-    Answers(fn(&Op) -> Option<Output>),
+    Answers(fn(&Question) -> Option<Output>),
     /// It rejects what it should accept.
-    Rejects(fn(&Op) -> bool),
+    Rejects(fn(&Question) -> bool),
     /// It rejects everything after such a request.
-    RejectsAfter(fn(&Op) -> bool),
+    RejectsAfter(fn(&Question) -> bool),
 }
 
 fn bytes(bytes: Vec<u8>) -> Output {
@@ -47,7 +47,7 @@ fn bytes(bytes: Vec<u8>) -> Output {
 struct Mutated {
     codec: Builtin,
     mutant: &'static Mutant,
-    last: Option<Op>,
+    last: Option<Question>,
 }
 
 impl Mutated {
@@ -61,7 +61,7 @@ impl Subject for Mutated {
         self.codec.hello()
     }
 
-    fn ask(&mut self, op: &Op) -> Answer {
+    fn ask(&mut self, op: &Question) -> Answer {
         let last = self.last.replace(op.clone());
         let rejection = || Answer::Rejected(Rejection { class: Fault::Crc, detail: String::new() });
         match self.mutant.wrong {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-use actucheck::adapter::{Hello, Implementation, Op, Output, Rejection, Wire};
+use actucheck::adapter::{Hello, Implementation, Output, Question, Rejection, Wire};
 use actucheck::report::{Report, Run, Stopped};
 use actucheck::run::outcomes;
 use actucheck::subject::{Answer, Builtin, Subject};
@@ -20,7 +20,7 @@ pub(crate) const NAME: &str = "<script>alert('odd')</script> & |co|";
 struct Odd {
     codec: Builtin,
     hello: Hello,
-    bend: fn(&Op, Answer) -> Answer,
+    bend: fn(&Question, Answer) -> Answer,
 }
 
 impl Subject for Odd {
@@ -28,15 +28,15 @@ impl Subject for Odd {
         &self.hello
     }
 
-    fn ask(&mut self, op: &Op) -> Answer {
+    fn ask(&mut self, op: &Question) -> Answer {
         (self.bend)(op, self.codec.ask(op))
     }
 }
 
 /// Sends without byte stuffing, as several libraries do.
-fn unstuffed(op: &Op, answer: Answer) -> Answer {
+fn unstuffed(op: &Question, answer: Answer) -> Answer {
     match op {
-        Op::Encode { packet, .. } => match &packet.packet {
+        Question::Encode { packet, .. } => match &packet.packet {
             Packet::Instruction { id, instruction, params } => {
                 let body = [&[*instruction], params.0.as_slice()].concat();
                 Answer::Ok(Output::Bytes(reference::frame(*id, &body).into()))
@@ -48,17 +48,17 @@ fn unstuffed(op: &Op, answer: Answer) -> Answer {
 }
 
 /// Meets every verdict.
-fn odd(op: &Op, answer: Answer) -> Answer {
+fn odd(op: &Question, answer: Answer) -> Answer {
     let said = || "<b>said</b> \u{1b}[31mthis\n```".to_owned();
     match (op, answer) {
-        (Op::Crc { bytes, .. }, answer) => match bytes.len() {
+        (Question::Crc { bytes, .. }, answer) => match bytes.len() {
             8 => Answer::TimedOut(said()),
             9 => Answer::Crashed(said()),
             11 => Answer::Faulty(said()),
             12 => Answer::NotAsked(said()),
             _ => answer,
         },
-        (Op::Unstuff { .. }, _) => Answer::Skipped(said()),
+        (Question::Unstuff { .. }, _) => Answer::Skipped(said()),
         (_, Answer::Rejected(_)) => {
             Answer::Rejected(Rejection { class: Fault::Parameter, detail: said() })
         }
@@ -71,9 +71,12 @@ static SPEC: LazyLock<Spec> = LazyLock::new(|| Spec::embedded().unwrap());
 const OPTIONS: Options = Options { cases: 10, ..Options::new(Wire::Dynamixel2) };
 
 /// Reads without taking the byte stuffing out.
-fn left_in(op: &Op, answer: Answer) -> Answer {
+fn left_in(op: &Question, answer: Answer) -> Answer {
     match (op, answer) {
-        (Op::Decode { .. }, Answer::Ok(Output::Packet(Packet::Status { id, error, params }))) => {
+        (
+            Question::Decode { .. },
+            Answer::Ok(Output::Packet(Packet::Status { id, error, params })),
+        ) => {
             let params = reference::stuff(&params).into();
             Answer::Ok(Output::Packet(Packet::Status { id, error, params }))
         }
@@ -81,7 +84,7 @@ fn left_in(op: &Op, answer: Answer) -> Answer {
     }
 }
 
-fn report(name: &str, only: &str, bend: fn(&Op, Answer) -> Answer, expect: &str) -> Report {
+fn report(name: &str, only: &str, bend: fn(&Question, Answer) -> Answer, expect: &str) -> Report {
     let mut plan = suite::plan(&SPEC, &OPTIONS);
     let not = ["*.stuffing.body.*".to_owned()];
     plan.restrict(&[only.to_owned()], &not, Level::May).unwrap();

@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::talk::Answer;
 use super::{Problem, shape};
-use crate::adapter::{Hello, Op, Output, Rejection};
+use crate::adapter::{Hello, Output, Question, Rejection};
 use crate::suite::check::{Check, Demand};
 use crate::suite::plan::Plan;
 
@@ -32,7 +32,7 @@ const CHECKS: [(&str, &str); 14] = [
 pub(super) struct Example {
     /// A description of the question.
     pub(super) name: &'static str,
-    op: Op,
+    question: Question,
     pub(super) request: String,
     /// The right answers.
     right: Vec<Output>,
@@ -54,16 +54,16 @@ impl Example {
             Demand::YieldOneOf(outputs) => outputs.clone(),
             Demand::Reject(_) | Demand::Record(_) => Vec::new(),
         };
-        // Every op has string keys only, so it can be written as JSON.
-        let request = serde_json::to_string(&check.op).unwrap_or_default();
-        Self { name, op: check.op.clone(), request, right }
+        // Every question has string keys only, so it can be written as JSON.
+        let request = serde_json::to_string(&check.question).unwrap_or_default();
+        Self { name, question: check.question.clone(), request, right }
     }
 
     /// Whether the adapter offers the question's op and wire.
     pub(super) fn is_offered(&self, hello: &Hello) -> bool {
         let has = |names: &[String], name| names.iter().any(|offered| offered == name);
-        let wire = self.op.wire().is_some_and(|wire| has(&hello.wires, wire.id()));
-        wire && has(&hello.ops, self.op.name())
+        let wire = has(&hello.wires, self.question.wire().id());
+        wire && has(&hello.ops, self.question.name())
     }
 
     /// A remark on an answer whose form is right.
@@ -77,7 +77,8 @@ impl Example {
                 )
             }
             Answer::Ok(ok) => {
-                let output = shape::output(&self.op, ok).map_err(|problem| self.shown(problem))?;
+                let output =
+                    shape::output(&self.question, ok).map_err(|problem| self.shown(problem))?;
                 if self.right.contains(&output) {
                     String::new()
                 } else {
@@ -116,9 +117,9 @@ impl Example {
     }
 
     fn without_call(&self) -> Option<String> {
-        let mut op = self.op.clone();
+        let mut op = self.question.clone();
         match &mut op {
-            Op::Encode { packet, .. } => packet.call.take()?,
+            Question::Encode { packet, .. } => packet.call.take()?,
             _ => return None,
         };
         serde_json::to_string(&op).ok()
@@ -126,10 +127,10 @@ impl Example {
 
     /// The request with its frame cut short; `None` if its bytes are not a frame.
     pub(super) fn cut_short(&self) -> Option<String> {
-        let mut op = self.op.clone();
+        let mut op = self.question.clone();
         let bytes = match &mut op {
-            Op::Decode { bytes, .. } => bytes,
-            Op::Stream { chunks, .. } => chunks.last_mut()?,
+            Question::Decode { bytes, .. } => bytes,
+            Question::Stream { chunks, .. } => chunks.last_mut()?,
             _ => return None,
         };
         bytes.0.truncate(bytes.len().saturating_sub(3));

@@ -8,7 +8,7 @@ use super::example::Example;
 use super::talk::{Answer, Heard, Talk, ended};
 use super::{Point, Problem, Report, shape};
 use crate::adapter::Settings;
-use crate::adapter::{Hello, Op, VERSION};
+use crate::adapter::{Hello, Request, VERSION};
 
 /// Size of a line, in bytes, that overflows any usual fixed buffer.
 const LONG: usize = 70_000;
@@ -99,9 +99,9 @@ impl Points {
 }
 
 fn greet(talk: &mut Talk, settings: &Settings) -> Result<Hello, Problem> {
-    let op = Op::Hello { protocol: vec![VERSION] };
-    // Every op has string keys only, so it can be written as JSON.
-    talk.send(&serde_json::to_string(&op).unwrap_or_default());
+    let hello = Request::Hello { protocol: &[VERSION] };
+    // Every request has string keys only, so it can be written as JSON.
+    talk.send(&serde_json::to_string(&hello).unwrap_or_default());
     match talk.receive(settings.timeouts.start)? {
         (_, Answer::Ok(ok)) => shape::hello(&ok),
         _ => Err(Problem::ending(

@@ -4,7 +4,7 @@ use actucheck_spec::model::Packet;
 use serde_json::Value;
 
 use super::Problem;
-use crate::adapter::{Hello, Op, Output, VERSION, Wire};
+use crate::adapter::{Hello, Output, Question, VERSION, Wire};
 
 /// The ops that `hello` may name. Every adapter has `hello` and `bye`, so they are not listed.
 const OPS: [&str; 8] = ["hello", "crc", "stuff", "unstuff", "encode", "decode", "stream", "bye"];
@@ -54,8 +54,8 @@ fn named(given: &[String], known: &[&str], field: &str, mend: &'static str) -> R
     }
 }
 
-/// Reads the `ok` object of a reply to an op.
-pub(super) fn output(op: &Op, ok: &Value) -> Result<Output, Problem> {
+/// Reads the `ok` object of a reply to a question.
+pub(super) fn output(op: &Question, ok: &Value) -> Result<Output, Problem> {
     let output = Output::read(op, ok.clone()).map_err(|error| {
         Problem::new(
             format!("`ok` does not fit {}: {error}", op.name()),
@@ -74,7 +74,7 @@ pub(super) fn output(op: &Op, ok: &Value) -> Result<Output, Problem> {
         Output::Packets(packets) => packets,
         Output::Crc(_) | Output::Bytes(_) => &[],
     };
-    if packets.iter().any(|packet| Some(wire(packet)) != op.wire()) {
+    if packets.iter().any(|packet| wire(packet) != op.wire()) {
         return Err(Problem::new(
             "the packet is of a kind that this wire has not",
             "on dynamixel2 `kind` is instruction, status or fast_status, on innfos request or reply",

@@ -7,10 +7,12 @@ use std::fmt::Write as _;
 use std::io;
 use std::time::{Duration, Instant};
 
+use serde::Serialize;
+use serde_json::Value;
 use thiserror::Error;
 
 use super::{Answer, Questions, Subject};
-use crate::adapter::{Hello, Line, Op, Output, Reply, Request, Running, Settings, VERSION};
+use crate::adapter::{Hello, Line, Output, Question, Reply, Request, Running, Settings, VERSION};
 
 /// The maximum number of outstanding questions, even if the adapter offers more.
 const MAX_IN_FLIGHT: usize = 256;
@@ -91,6 +93,30 @@ impl Process {
         self.running.as_mut().ok_or_else(|| "the adapter is not running".to_owned())
     }
 
+    /// Sends a request and waits for the answer, whose `ok` is read with `read`.
+    fn say(
+        &mut self,
+        request: &Request<'_>,
+        read: impl FnOnce(Value) -> Result<Output, serde_json::Error>,
+    ) -> Answer {
+        let id = self.next_id;
+        self.next_id += 1;
+        let limit = self.settings.timeouts.request;
+        let running = match self.running() {
+            Ok(running) => running,
+            Err(reason) => return Answer::NotAsked(reason),
+        };
+        let answer = match exchange(running, id, request, limit) {
+            Ok(reply) => answer(reply, read),
+            Err(failure) => failure,
+        };
+        // After such an answer, nothing that follows can be trusted.
+        if matches!(answer, Answer::TimedOut(_) | Answer::Crashed(_) | Answer::Faulty(_)) {
+            self.end();
+        }
+        answer
+    }
+
     fn end(&mut self) {
         if let Some(running) = self.running.take() {
             self.last_log = running.log();
@@ -103,23 +129,12 @@ impl Subject for Process {
         &self.hello
     }
 
-    fn ask(&mut self, op: &Op) -> Answer {
-        let id = self.next_id;
-        self.next_id += 1;
-        let limit = self.settings.timeouts.request;
-        let running = match self.running() {
-            Ok(running) => running,
-            Err(reason) => return Answer::NotAsked(reason),
-        };
-        let answer = match exchange(running, id, op, limit) {
-            Ok(reply) => answer(op, reply),
-            Err(failure) => failure,
-        };
-        // After such an answer, no later reply can be trusted.
-        if matches!(answer, Answer::TimedOut(_) | Answer::Crashed(_) | Answer::Faulty(_)) {
-            self.end();
-        }
-        answer
+    fn ask(&mut self, op: &Question) -> Answer {
+        self.say(&Request::Ask(op), |ok| Output::read(op, ok))
+    }
+
+    fn ask_invented(&mut self) -> Answer {
+        self.say(&Request::Invented, |_| Ok(Output::Packets(Vec::new())))
     }
 
     fn ask_all(&mut self, questions: &mut dyn Questions) {
@@ -141,7 +156,7 @@ impl Subject for Process {
 impl Drop for Process {
     fn drop(&mut self) {
         if let Some(running) = &mut self.running {
-            running.farewell(&request(self.next_id, &Op::Bye));
+            running.farewell(&line(self.next_id, &Request::Bye));
         }
     }
 }
@@ -165,8 +180,8 @@ fn start(command: &[String], settings: &Settings) -> Result<(Running, Hello), St
 
 /// Sends `hello`. The error says what the adapter did wrong.
 fn greet(running: &mut Running, limit: Duration) -> Result<Hello, String> {
-    let op = Op::Hello { protocol: vec![VERSION] };
-    let reply = exchange(running, 0, &op, limit).map_err(|failure| match failure {
+    let hello = Request::Hello { protocol: &[VERSION] };
+    let reply = exchange(running, 0, &hello, limit).map_err(|failure| match failure {
         Answer::TimedOut(_) => format!(
             "did not say hello within {} s; --start-timeout gives it more time",
             limit.as_secs_f32()
@@ -188,9 +203,14 @@ fn greet(running: &mut Running, limit: Duration) -> Result<Hello, String> {
 }
 
 /// Sends a request and waits for its reply.
-fn exchange(running: &mut Running, id: u64, op: &Op, limit: Duration) -> Result<Reply, Answer> {
+fn exchange(
+    running: &mut Running,
+    id: u64,
+    request: &Request<'_>,
+    limit: Duration,
+) -> Result<Reply, Answer> {
     let deadline = Instant::now() + limit;
-    running.send(&request(id, op));
+    running.send(&line(id, request));
     let reply = read_reply(running, deadline, limit)?;
     match reply.id {
         Some(other) if other != id => {
@@ -229,14 +249,20 @@ fn read_reply(running: &mut Running, deadline: Instant, limit: Duration) -> Resu
 }
 
 /// A request as a line.
-fn request(id: u64, op: &Op) -> Vec<u8> {
+fn line(id: u64, request: &Request<'_>) -> Vec<u8> {
+    #[derive(Serialize)]
+    struct Line<'a> {
+        id: u64,
+        #[serde(flatten)]
+        request: &'a Request<'a>,
+    }
     // Every request has string keys only, so it can be written as JSON.
-    serde_json::to_vec(&Request { id, op }).unwrap_or_default()
+    serde_json::to_vec(&Line { id, request }).unwrap_or_default()
 }
 
-fn answer(op: &Op, reply: Reply) -> Answer {
+fn answer(reply: Reply, read: impl FnOnce(Value) -> Result<Output, serde_json::Error>) -> Answer {
     match (reply.ok, reply.err, reply.skip) {
-        (Some(ok), None, None) => Output::read(op, ok)
+        (Some(ok), None, None) => read(ok)
             .map_or_else(|error| Answer::Faulty(format!("a wrong `ok`: {error}")), Answer::Ok),
         (None, Some(rejection), None) => Answer::Rejected(rejection),
         (None, None, Some(skip)) => Answer::Skipped(skip.reason),

@@ -2,8 +2,8 @@
 
 use std::time::Instant;
 
-use super::{Process, answer, read_reply, request};
-use crate::adapter::{Op, Reply};
+use super::{Process, answer, line, read_reply};
+use crate::adapter::{Output, Question, Reply, Request};
 use crate::subject::{Answer, Questions, Subject};
 
 /// A question that was sent and is not yet answered.
@@ -33,7 +33,7 @@ impl Process {
             }
             let Some((number, reply)) = self.next_reply(&mut outstanding) else { break };
             let Some(op) = questions.question(number) else { continue };
-            let answer = answer(op, reply);
+            let answer = answer(reply, |ok| Output::read(op, ok));
             let faulty = matches!(answer, Answer::Faulty(_));
             questions.answered(number, answer);
             if faulty {
@@ -49,10 +49,10 @@ impl Process {
         }
     }
 
-    fn send_next(&mut self, op: &Op) -> Result<u64, String> {
+    fn send_next(&mut self, op: &Question) -> Result<u64, String> {
         let id = self.next_id;
         self.next_id += 1;
-        self.running()?.send(&request(id, op));
+        self.running()?.send(&line(id, &Request::Ask(op)));
         Ok(id)
     }
 

@@ -9,20 +9,19 @@ use actucheck_codec::dynamixel2::{FastStatus, Frame, FrameError, Instruction, fr
 use actucheck_spec::model::{self, Fault, HexBytes, Packet};
 use actucheck_spec::wire::dynamixel2::reference::Fast;
 
-use super::{Result, not_offered, output, rejection, unbuilt};
-use crate::adapter::{Op, Output, Rejection};
+use super::{Answer, Result, answer, not_offered, output, rejection, unbuilt};
+use crate::adapter::{Output, Question, Rejection};
 
-/// The codec's answer to a question; `None` if it does not offer the op.
-pub(super) fn ask(op: &Op, buffer: &mut Vec<u8>) -> Option<Result> {
-    Some(match op {
-        Op::Crc { bytes, .. } => Ok(Output::Crc(crc::umts(bytes).into())),
-        Op::Stuff { bytes, .. } => stuff(bytes, buffer),
-        Op::Unstuff { bytes, .. } => unstuff(bytes, buffer),
-        Op::Encode { packet, .. } => encode(&packet.packet, buffer),
-        Op::Decode { bytes, fast: None, .. } => decode(bytes),
-        Op::Decode { bytes, fast: Some(fast), .. } => decode_fast(bytes, fast),
-        Op::Stream { chunks, .. } => Ok(stream(chunks)),
-        Op::Hello { .. } | Op::Invented | Op::Bye => return None,
+/// The codec's answer to a question.
+pub(super) fn ask(question: &Question, buffer: &mut Vec<u8>) -> Answer {
+    answer(match question {
+        Question::Crc { bytes, .. } => Ok(Output::Crc(crc::umts(bytes).into())),
+        Question::Stuff { bytes, .. } => stuff(bytes, buffer),
+        Question::Unstuff { bytes, .. } => unstuff(bytes, buffer),
+        Question::Encode { packet, .. } => encode(&packet.packet, buffer),
+        Question::Decode { bytes, fast: None, .. } => decode(bytes),
+        Question::Decode { bytes, fast: Some(fast), .. } => decode_fast(bytes, fast),
+        Question::Stream { chunks, .. } => Ok(stream(chunks)),
     })
 }
 

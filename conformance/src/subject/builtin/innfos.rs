@@ -4,17 +4,17 @@ use actucheck_codec::crc;
 use actucheck_codec::innfos::{self, Command, Frame, FrameError, Kind};
 use actucheck_spec::model::{Fault, FrameKind, HexBytes, Packet};
 
-use super::{Result, not_offered, output, rejection, unbuilt};
-use crate::adapter::{Op, Output};
+use super::{Answer, Result, answer, not_offered, output, rejection, unbuilt};
+use crate::adapter::{Output, Question};
 
-/// The codec's answer to a question; `None` if it does not offer the op.
-pub(super) fn ask(op: &Op, buffer: &mut [u8]) -> Option<Result> {
-    Some(match op {
-        Op::Crc { bytes, .. } => Ok(Output::Crc(crc::modbus(bytes).into())),
-        Op::Encode { packet, .. } => encode(&packet.packet, buffer),
-        Op::Decode { bytes, kind: Some(kind), .. } => decode(*kind, bytes),
-        Op::Stream { chunks, kind: Some(kind), .. } => Ok(stream(*kind, chunks)),
-        _ => return None,
+/// The codec's answer to a question.
+pub(super) fn ask(question: &Question, buffer: &mut [u8]) -> Answer {
+    answer(match question {
+        Question::Crc { bytes, .. } => Ok(Output::Crc(crc::modbus(bytes).into())),
+        Question::Encode { packet, .. } => encode(&packet.packet, buffer),
+        Question::Decode { bytes, kind: Some(kind), .. } => decode(*kind, bytes),
+        Question::Stream { chunks, kind: Some(kind), .. } => Ok(stream(*kind, chunks)),
+        _ => return Answer::Skipped(format!("the codec has no {}", question.name())),
     })
 }
 

@@ -3,11 +3,13 @@
 mod dynamixel2;
 mod innfos;
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
 use actucheck_codec::EncodeError;
 use actucheck_spec::model::{Fault, HexBytes};
 
 use super::{Answer, Subject};
-use crate::adapter::{Hello, Implementation, Limits, Op, Output, Rejection, VERSION, Wire};
+use crate::adapter::{Hello, Implementation, Limits, Output, Question, Rejection, VERSION, Wire};
 
 /// The largest frame of any wire: 65,535 bytes of data, and the eight bytes that INNFOS adds.
 const MAX_FRAME: usize = 65_535 + 8;
@@ -48,18 +50,24 @@ impl Subject for Builtin {
         &self.hello
     }
 
-    fn ask(&mut self, op: &Op) -> Answer {
-        let result = match op.wire() {
-            Some(Wire::Dynamixel2) => dynamixel2::ask(op, &mut self.buffer),
-            Some(Wire::Innfos) => innfos::ask(op, &mut self.buffer),
-            None => None,
+    fn ask(&mut self, question: &Question) -> Answer {
+        let buffer = &mut self.buffer;
+        let ask = || match question.wire() {
+            Wire::Dynamixel2 => dynamixel2::ask(question, buffer),
+            Wire::Innfos => innfos::ask(question, buffer),
         };
-        match result {
-            Some(Ok(output)) => Answer::Ok(output),
-            Some(Err(rejection)) => Answer::Rejected(rejection),
-            None => Answer::Skipped(format!("the codec has no {}", op.name())),
-        }
+        // A panic is a finding among others. The buffer is written before it is read.
+        catch_unwind(AssertUnwindSafe(ask)).unwrap_or_else(|panic| {
+            let text = panic.downcast_ref::<String>().map(String::as_str);
+            let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
+            let detail = format!("panicked: {}", text.unwrap_or("it does not say why"));
+            Answer::Rejected(Rejection { class: Fault::Internal, detail })
+        })
     }
+}
+
+fn answer(result: Result) -> Answer {
+    result.map_or_else(Answer::Rejected, Answer::Ok)
 }
 
 fn output(bytes: &[u8]) -> Output {

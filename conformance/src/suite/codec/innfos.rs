@@ -5,7 +5,7 @@ use actucheck_spec::model::{Citation, Fault, FrameKind, Outcome, Packet, Vector}
 use actucheck_spec::wire::innfos::reference;
 
 use super::dynamixel2::golden::{demand, way};
-use crate::adapter::{Called, Op, Output};
+use crate::adapter::{Called, Output, Question};
 use crate::suite::check::{Check, Demand, Unspecified, Way};
 use crate::suite::plan::{Family, Group};
 use crate::suite::{Author, hex};
@@ -151,10 +151,10 @@ fn frame(vector: &Vector) -> Output {
 
 /// The CRC of a packet's data. The document's function returns the two bytes the other way round
 /// than the CRC's name says; either number is right.
-fn crc(author: &Author<'_>, packet: &Packet) -> Option<(Op, Demand)> {
+fn crc(author: &Author<'_>, packet: &Packet) -> Option<(Question, Demand)> {
     let (Packet::Request { data, .. } | Packet::Reply { data, .. }) = packet else { return None };
     let crc = reference::crc(data);
-    let op = Op::Crc { wire: author.wire, bytes: data.clone() };
+    let op = Question::Crc { wire: author.wire, bytes: data.clone() };
     let numbers = [crc, crc.swap_bytes()].map(|number| Output::Crc(number.into()));
     (!data.is_empty()).then(|| (op, Demand::YieldOneOf(numbers.to_vec())))
 }
@@ -166,13 +166,13 @@ fn kind_of(packet: &Packet) -> FrameKind {
     }
 }
 
-fn encode(author: &Author<'_>, packet: &Packet) -> Op {
-    Op::Encode { wire: author.wire, packet: Called { packet: packet.clone(), call: None } }
+fn encode(author: &Author<'_>, packet: &Packet) -> Question {
+    Question::Encode { wire: author.wire, packet: Called { packet: packet.clone(), call: None } }
 }
 
-fn decode(author: &Author<'_>, kind: FrameKind, bytes: &[u8]) -> Op {
+fn decode(author: &Author<'_>, kind: FrameKind, bytes: &[u8]) -> Question {
     let bytes = bytes.to_vec().into();
-    Op::Decode { wire: author.wire, bytes, fast: None, kind: Some(kind) }
+    Question::Decode { wire: author.wire, bytes, fast: None, kind: Some(kind) }
 }
 
 /// A packet built, read, and found twice in a datagram. Where the CRC is open, nothing.
@@ -196,7 +196,8 @@ fn both_ways(
     };
     let Some(frame) = reference::encode(&packet) else { return Vec::new() };
     let chunk = [frame.as_slice(), &frame].concat();
-    let stream = Op::Stream { wire: author.wire, kind: Some(kind), chunks: vec![chunk.into()] };
+    let stream =
+        Question::Stream { wire: author.wire, kind: Some(kind), chunks: vec![chunk.into()] };
     let (once, twice) = (Output::Packet(packet.clone()), vec![packet.clone(), packet.clone()]);
     let built = Demand::Yield(Output::Bytes(frame.clone().into()));
     let read = Demand::Yield(once);
@@ -299,7 +300,8 @@ fn behind_damage(author: &Author<'_>, kind: FrameKind) -> Vec<Check> {
         );
         let open = Unspecified { question, ways: ways.into() };
         let id = format!("innfos.open.{word}.behind-{name}/stream");
-        let op = Op::Stream { wire: author.wire, chunks: vec![datagram.into()], kind: Some(kind) };
+        let op =
+            Question::Stream { wire: author.wire, chunks: vec![datagram.into()], kind: Some(kind) };
         author.check(id, "innfos.frame.layout", op, Demand::Record(open))
     };
     scenarios.map(check).into()

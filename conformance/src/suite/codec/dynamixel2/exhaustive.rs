@@ -4,7 +4,7 @@
 use actucheck_spec::model::Packet;
 use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, STATUS};
 
-use crate::adapter::{Op, Output};
+use crate::adapter::{Output, Question};
 use crate::suite::check::{Check, Demand};
 use crate::suite::plan::{Family, Group};
 use crate::suite::{Author, Options, hex};
@@ -82,13 +82,13 @@ fn stuffing(author: &Author<'_>, id: &str, body: &[u8]) -> [Check; 2] {
         author.check(
             format!("{id}/stuff"),
             "dynamixel2.stuffing.transmit",
-            Op::Stuff { wire, bytes: body.to_vec().into() },
+            Question::Stuff { wire, bytes: body.to_vec().into() },
             Demand::Yield(Output::Bytes(Clone::clone(&stuffed))),
         ),
         author.check(
             format!("{id}/unstuff"),
             "dynamixel2.stuffing.receive",
-            Op::Unstuff { wire, bytes: stuffed },
+            Question::Unstuff { wire, bytes: stuffed },
             Demand::Yield(Output::Bytes(plain)),
         ),
     ]
@@ -213,7 +213,7 @@ fn instruction(author: &Author<'_>, id: &str, code: u8) -> Vec<Check> {
 
 /// The packet alone: what is sent is bytes, not a request that a library may know.
 fn without_call(mut check: Check) -> Check {
-    if let Op::Encode { packet, .. } = &mut check.op {
+    if let Question::Encode { packet, .. } = &mut check.question {
         packet.call = None;
     }
     check

@@ -5,7 +5,7 @@ use actucheck_spec::Spec;
 use actucheck_spec::model::{Citation, Fault, HexBytes, Outcome, Packet, Vector, VectorsFile};
 use actucheck_spec::wire::dynamixel2::reference::{Call, Fast};
 
-use crate::adapter::{Called, Op, Output, Wire};
+use crate::adapter::{Called, Output, Question, Wire};
 use crate::suite::check::{Check, Demand, Unspecified, Way};
 use crate::suite::plan::{Family, by_stem};
 use crate::suite::{Author, of_reading};
@@ -54,7 +54,7 @@ impl Golden<'_> {
         checks
     }
 
-    fn check(&self, name: &str, requirement: &str, op: Op, demand: Demand) -> Check {
+    fn check(&self, name: &str, requirement: &str, op: Question, demand: Demand) -> Check {
         let id = format!("{}/{name}", self.vector.id);
         let source = self.source().clone();
         Check { source, ..self.author.check(id, requirement, op, demand) }
@@ -72,7 +72,7 @@ impl Golden<'_> {
     fn crc(&self, frame: &[u8]) -> Check {
         let (bytes, crc) = frame.split_at(frame.len().saturating_sub(CRC));
         let value = crc.iter().rev().fold(0, |value, byte| value << 8 | u64::from(*byte));
-        let op = Op::Crc { wire: self.wire, bytes: bytes.to_vec().into() };
+        let op = Question::Crc { wire: self.wire, bytes: bytes.to_vec().into() };
         let demand = Demand::Yield(Output::Crc(value));
         self.check("crc", "dynamixel2.crc.value", op, demand)
     }
@@ -100,13 +100,13 @@ impl Golden<'_> {
             self.check(
                 "stuff",
                 "dynamixel2.stuffing.transmit",
-                Op::Stuff { wire, bytes: plain.clone() },
+                Question::Stuff { wire, bytes: plain.clone() },
                 Demand::Yield(Output::Bytes(stuffed.clone())),
             ),
             self.check(
                 "unstuff",
                 "dynamixel2.stuffing.receive",
-                Op::Unstuff { wire, bytes: stuffed },
+                Question::Unstuff { wire, bytes: stuffed },
                 Demand::Yield(Output::Bytes(plain)),
             ),
         ]
@@ -114,13 +114,13 @@ impl Golden<'_> {
 
     fn encode(&self, requirement: &str, packet: &Packet, frame: &[u8]) -> Check {
         let packet = Called { call: Call::of(packet), packet: packet.clone() };
-        let op = Op::Encode { wire: self.wire, packet };
+        let op = Question::Encode { wire: self.wire, packet };
         let demand = self.demand(Output::Bytes(frame.to_vec().into()));
         self.check("encode", requirement, op, demand)
     }
 
     fn decode(&self, requirement: &str, packet: &Packet, frame: &[u8]) -> Check {
-        let op = Op::Decode {
+        let op = Question::Decode {
             wire: self.wire,
             bytes: frame.to_vec().into(),
             fast: asked_for(packet),
@@ -150,7 +150,7 @@ impl Golden<'_> {
         ]
         .into_iter()
         .map(|(name, requirement, chunks)| {
-            let op = Op::Stream { wire: self.wire, chunks, kind: None };
+            let op = Question::Stream { wire: self.wire, chunks, kind: None };
             let demand = Demand::Yield(Output::Packets(vec![packet.clone()]));
             let check = self.check(name, requirement, op, demand);
             Check { requires: Some(format!("{}/decode", self.vector.id)), ..check }
@@ -160,7 +160,7 @@ impl Golden<'_> {
 
     fn rejects(&self, name: &str, requirement: &str, bytes: &[u8], fault: Fault) -> Check {
         let packet_asked = self.vector.packet.as_ref().and_then(asked_for);
-        let op = Op::Decode {
+        let op = Question::Decode {
             wire: self.wire,
             bytes: bytes.to_vec().into(),
             fast: packet_asked,

@@ -4,7 +4,7 @@
 use actucheck_spec::model::{Block, Fault, Packet};
 use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, Fast};
 
-use crate::adapter::{Op, Output};
+use crate::adapter::{Output, Question};
 use crate::suite::Author;
 use crate::suite::check::{Check, Demand};
 
@@ -97,7 +97,7 @@ fn fast_both_ways(
     let id = format!("{document}.said.{rest}.{name}");
     let decode = |bytes: &[u8], fast: &Fast| {
         let bytes = bytes.to_vec().into();
-        Op::Decode { wire: author.wire, bytes, fast: Some(fast.clone()), kind: None }
+        Question::Decode { wire: author.wire, bytes, fast: Some(fast.clone()), kind: None }
     };
     let more = Fast { ids: [fast.ids.as_slice(), &[42]].concat(), ..fast.clone() };
     let from_one = reference::frame(

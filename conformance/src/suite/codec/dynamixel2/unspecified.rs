@@ -4,7 +4,7 @@
 use actucheck_spec::model::{HexBytes, Packet};
 use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, Call, HEADER, STATUS};
 
-use crate::adapter::{Called, Op, Output};
+use crate::adapter::{Called, Output, Question};
 use crate::suite::check::{Check, Demand, Unspecified, Way};
 use crate::suite::{Author, hex};
 
@@ -17,7 +17,13 @@ pub(super) fn checks(author: &Author<'_>) -> Vec<Check> {
     checks
 }
 
-fn record(author: &Author<'_>, id: &str, requirement: &str, op: Op, open: Unspecified) -> Check {
+fn record(
+    author: &Author<'_>,
+    id: &str,
+    requirement: &str,
+    op: Question,
+    open: Unspecified,
+) -> Check {
     let id = format!("dynamixel2.open.{id}/{}", op.name());
     author.check(id, requirement, op, Demand::Record(open))
 }
@@ -27,8 +33,8 @@ fn open(question: &str, ways: impl IntoIterator<Item = (&'static str, Output)>) 
     Unspecified { question: question.to_owned(), ways: ways.collect() }
 }
 
-fn decode(author: &Author<'_>, bytes: Vec<u8>) -> Op {
-    Op::Decode { wire: author.wire, bytes: bytes.into(), fast: None, kind: None }
+fn decode(author: &Author<'_>, bytes: Vec<u8>) -> Question {
+    Question::Decode { wire: author.wire, bytes: bytes.into(), fast: None, kind: None }
 }
 
 fn bytes(bytes: &[u8]) -> HexBytes {
@@ -55,7 +61,7 @@ fn bare_patterns(author: &Author<'_>) -> Vec<Check> {
             )
         };
         let name = format!("bare-pattern.{}", hex(data));
-        let op = Op::Unstuff { wire: author.wire, bytes: bytes(data) };
+        let op = Question::Unstuff { wire: author.wire, bytes: bytes(data) };
         let body = ways(&|data| Output::Bytes(bytes(data)));
         checks.push(record(author, &name, requirement, op, body));
         let frame = reference::frame(1, &[&[STATUS, 0], data].concat());
@@ -100,8 +106,8 @@ fn ids(author: &Author<'_>) -> Vec<Check> {
     checks
 }
 
-fn encode(author: &Author<'_>, packet: Packet) -> Op {
-    Op::Encode { wire: author.wire, packet: Called { call: Call::of(&packet), packet } }
+fn encode(author: &Author<'_>, packet: Packet) -> Question {
+    Question::Encode { wire: author.wire, packet: Called { call: Call::of(&packet), packet } }
 }
 
 /// An instruction that names a device twice. A host must not send it; whether the codec beneath
@@ -180,7 +186,7 @@ pub(super) fn resumed(author: &Author<'_>, id: String, what: &str, chunks: &[Vec
         .map(|(name, packets)| (name, Output::Packets(packets))),
     );
     let chunks = chunks.iter().map(|chunk| chunk.clone().into()).collect();
-    let op = Op::Stream { wire: author.wire, chunks, kind: None };
+    let op = Question::Stream { wire: author.wire, chunks, kind: None };
     author.check(id, "dynamixel2.receive.resume", op, Demand::Record(ways))
 }
 
