@@ -1,9 +1,9 @@
-//! The suite: checks an implementation of an actuator protocol against the documents.
+//! Checks implementations of robot actuators' protocols against the documents.
 //!
-//! [`suite`] turns the spec into [`suite::check::Check`]s, [`run`] asks a [`subject`] for each, judges the
-//! answers, and [`report`] tells a person or a program what came out. [`blackbox`] looks for questions
-//! of which no check thought, and [`suite::saved`] keeps those that it found. [`adapter::lint`] checks the adapter
-//! itself, before what it says of a library counts.
+//! [`suite`] makes [`suite::check::Check`]s from the spec. [`run`] asks them of a [`subject`] and
+//! judges the answers, and [`report`] writes the results for people and programs. [`blackbox`]
+//! looks for failures that no check foresees, and [`suite::saved`] keeps its findings.
+//! [`adapter::lint`] checks an adapter itself, before its library is checked.
 
 #![forbid(unsafe_code)]
 

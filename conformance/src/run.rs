@@ -1,4 +1,4 @@
-//! Asks subjects the checks of a plan, and hands on what comes out as it comes.
+//! Asks subjects the checks of a plan, and passes each outcome on at once.
 
 mod merge;
 mod worker;
@@ -16,16 +16,16 @@ use crate::subject::{Answer, Subject};
 use crate::suite::plan::{Group, Plan};
 use crate::verdict::{Outcome, Verdict};
 
-/// Takes what comes out of a run, an outcome after the other in the order of the plan. With a break
-/// the run ends, and that outcome was the last.
+/// Receives the outcomes of a run, one by one in the order of the plan. If it breaks, the run ends
+/// and that outcome was the last.
 pub type Sink<'s> = dyn FnMut(Outcome) -> ControlFlow<()> + Send + 's;
 
-/// Asks all checks of `plan` of some subjects that are the same implementation, each of which works
-/// through them beside the others. A subject takes some groups at a time; a check that requires
-/// another of its group is skipped where that one was. `sink` is given the same in the same order
-/// however many subjects there are. When `interrupted` is set, what is outstanding is waited for, and
-/// what was answered is handed on. An adapter that answers an op that does not exist is shown as a
-/// fault before all else. Returns of how many checks the outcome was handed on.
+/// Asks `subjects`, all of the same implementation, the checks of `plan` in parallel. A subject
+/// takes a few groups at a time. A check that requires another check of its group is skipped if
+/// that one was skipped. `sink` receives the same outcomes in the same order for any number of
+/// subjects. When `interrupted` is set, the run waits for the outstanding questions and passes on
+/// what was answered. If an adapter answers an op that does not exist, the first outcome reports
+/// that fault. Returns of how many checks the outcome was handed on.
 pub fn run<'s>(
     subjects: &mut [Box<dyn Subject + Send>],
     plan: &'s Plan<'_>,
@@ -47,7 +47,7 @@ pub fn run<'s>(
     work.merge.finish()
 }
 
-/// Asks all checks of a plan that is known to be short, and keeps every outcome.
+/// Asks all checks of a short plan, and keeps every outcome.
 pub fn outcomes(subjects: &mut [Box<dyn Subject + Send>], plan: &Plan<'_>) -> Vec<Outcome> {
     let mut outcomes = Vec::new();
     run(subjects, plan, &AtomicBool::new(false), &mut |outcome| {
@@ -57,26 +57,26 @@ pub fn outcomes(subjects: &mut [Box<dyn Subject + Send>], plan: &Plan<'_>) -> Ve
     outcomes
 }
 
-/// What the workers share.
+/// The state that the workers share.
 struct Work<'s, 'a> {
     plan: &'s Plan<'a>,
     source: Mutex<Source<'s, 'a>>,
     merge: Merge<'s>,
 }
 
-/// The groups that nobody has taken yet.
+/// The groups that no worker has taken yet.
 struct Source<'p, 'a> {
     groups: Box<dyn Iterator<Item = Group<'a>> + Send + 'p>,
     /// The number of the next batch.
     next: u64,
 }
 
-/// The most checks of a batch, but for a group that has more.
+/// The maximum number of checks in a batch; a batch of one group may have more.
 const BATCH: usize = 64;
 
 impl<'a> Source<'_, 'a> {
-    /// The groups of the next batch; none if all were taken. The first batches are small, so that
-    /// there is some for every subject of a short run.
+    /// Takes the groups of the next batch; empty if none are left. The first batches are small, so
+    /// that a short run has work for every subject.
     fn take(&mut self) -> Vec<Group<'a>> {
         let most = usize::try_from(self.next).unwrap_or(BATCH).saturating_add(2).min(BATCH);
         let (mut groups, mut size) = (Vec::new(), 0);
@@ -91,17 +91,17 @@ impl<'a> Source<'_, 'a> {
     }
 }
 
-/// Locks what no panic can leave half done.
+/// Locks a value that stays valid even if a holder of the lock panics.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Whether a flag is set that only ever goes one way.
+/// Reads a flag that is never reset.
 fn is_set(flag: &AtomicBool) -> bool {
     flag.load(Ordering::Relaxed)
 }
 
-/// What a good adapter skips, so that it can skip what a later suite asks.
+/// A question that every adapter must skip, as it must skip unknown ops of later versions.
 fn invented_op(subject: &mut dyn Subject) -> Option<Outcome> {
     let (verdict, detail) = match subject.ask_invented() {
         Answer::Skipped(_) => return None,

@@ -1,4 +1,4 @@
-//! What came out of a check.
+//! The verdict on an answer, and the outcome of a check.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -10,33 +10,33 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::adapter::{Output, Question};
 
-/// What came out of a check, in one word.
+/// The result of a check in one word.
 #[derive(
     Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema,
 )]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
-    /// As demanded.
+    /// The answer is right.
     Pass,
-    /// Not as demanded.
+    /// The answer is wrong.
     Fail,
-    /// Not as recommended, or rejected for another reason than the right one.
+    /// The answer breaks a recommendation, or rejects the input for the wrong reason.
     Warn,
-    /// The documents leave it open; what is done is recorded, not judged.
+    /// The documents leave it unspecified; the answer is noted, not judged.
     Recorded,
-    /// The implementation does not offer it.
+    /// The subject does not offer the op.
     Skip,
-    /// No answer in time.
+    /// There was no answer in time.
     Timeout,
     /// The adapter ended instead of answering.
     Crash,
-    /// The adapter's answer is none of the adapter protocol.
+    /// The answer violates the adapter protocol.
     AdapterFault,
-    /// The adapter could not be started again to ask it.
+    /// The adapter could not be restarted to ask the check.
     NotRun,
-    /// Not as demanded, as the expected-failures file says.
+    /// The answer is wrong, as the expected-failures file says.
     ExpectedFailure,
-    /// As demanded, though the expected-failures file says otherwise.
+    /// The answer is right, although the expected-failures file says otherwise.
     UnexpectedPass,
 }
 
@@ -56,8 +56,7 @@ impl Verdict {
         Self::UnexpectedPass,
     ];
 
-    /// Every verdict, the one that says most about a whole first: what went wrong before what
-    /// could not be tried, and that before what went well.
+    /// Every verdict, the worst one first: failures, then what could not be asked, then passes.
     const WORST_FIRST: [Self; 11] = [
         Self::Fail,
         Self::UnexpectedPass,
@@ -72,7 +71,7 @@ impl Verdict {
         Self::Skip,
     ];
 
-    /// Whether it tells of something that is not as demanded, or that could not be found out.
+    /// Whether it is a failure, or the answer could not be judged.
     #[must_use]
     pub const fn is_wrong(self) -> bool {
         !matches!(self, Self::Pass | Self::Warn | Self::Recorded | Self::Skip)
@@ -110,32 +109,33 @@ pub struct Outcome {
     pub id: String,
     /// The id of the requirement that it tests.
     pub requirement: String,
-    /// How binding that is.
+    /// The level of that requirement.
     pub level: Level,
-    /// What came out.
+    /// The verdict.
     pub verdict: Verdict,
-    /// Why, in a sentence; empty for a pass.
+    /// The reason in a sentence; empty for a pass.
     pub detail: String,
-    /// What was asked; only where it did not pass.
+    /// The request; only if the check did not pass.
     #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "question")]
     pub request: Option<Question>,
-    /// What was demanded; only where something else came.
+    /// The expected answer; only if another one came.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub expected: Option<Output>,
-    /// What came instead.
+    /// The actual answer.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub actual: Option<Output>,
-    /// What is done where the documents leave it open; only of [`Verdict::Recorded`].
+    /// What the subject does where the documents leave it unspecified; only for
+    /// [`Verdict::Recorded`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub behaviour: Option<Behaviour>,
 }
 
-/// What an implementation does where the documents leave it open.
+/// What a subject does where the documents leave it unspecified.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Behaviour {
     /// The question, in words.
     pub question: String,
-    /// What is done, in a few words.
+    /// The behaviour in a few words.
     pub answer: String,
 }
 
@@ -154,8 +154,8 @@ fn question<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Questio
 }
 
 impl Outcome {
-    /// The bytes demanded and the bytes that came, where they differ; of packets the parameters of
-    /// the first that has others.
+    /// The expected and the actual bytes, if they differ. For packets: the parameters of the first
+    /// packet that differs.
     #[must_use]
     pub fn bytes(&self) -> Option<(&HexBytes, &HexBytes)> {
         let (expected, actual) = (self.expected.as_ref()?, self.actual.as_ref()?);
@@ -183,13 +183,13 @@ fn parameters(packet: &Packet) -> Vec<&HexBytes> {
     }
 }
 
-/// How often each verdict came out.
+/// The count of each verdict.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(transparent)]
 pub struct Totals(BTreeMap<Verdict, usize>);
 
 impl Totals {
-    /// Counts the verdicts of some outcomes; every verdict is there, if only with 0.
+    /// Counts the verdicts of some outcomes. Every verdict has an entry, even if its count is 0.
     pub fn of<'a>(outcomes: impl IntoIterator<Item = &'a Outcome>) -> Self {
         let mut counts: BTreeMap<_, _> = Verdict::ALL.map(|verdict| (verdict, 0)).into();
         for outcome in outcomes {
@@ -198,31 +198,31 @@ impl Totals {
         Self(counts)
     }
 
-    /// How often this verdict came out.
+    /// The count of this verdict.
     #[must_use]
     pub fn count(&self, verdict: Verdict) -> usize {
         self.0.get(&verdict).copied().unwrap_or_default()
     }
 
-    /// All checks.
+    /// The count of all checks.
     #[must_use]
     pub fn sum(&self) -> usize {
         self.0.values().sum()
     }
 
-    /// The verdict on all of them: the worst that came out; `None` of no checks.
+    /// The worst verdict of all checks; `None` if there are no checks.
     #[must_use]
     pub fn worst(&self) -> Option<Verdict> {
         Verdict::WORST_FIRST.into_iter().find(|verdict| self.count(*verdict) > 0)
     }
 
-    /// The verdicts that came out and how often, in the order of reports.
+    /// The verdicts that occurred, with their counts, in the order of reports.
     pub fn counts(&self) -> impl Iterator<Item = (Verdict, usize)> {
         let counts = Verdict::ALL.into_iter().map(|verdict| (verdict, self.count(verdict)));
         counts.filter(|(_, count)| *count > 0)
     }
 
-    /// The exit status of a run with this outcome: 0 all passed, 1 something failed, 3 something
+    /// The exit status of a run with these totals: 0 all passed, 1 something failed, 3 something
     /// could not be run.
     #[must_use]
     pub fn exit_status(&self) -> u8 {

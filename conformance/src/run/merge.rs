@@ -1,4 +1,4 @@
-//! What several workers found, brought into the order of the plan.
+//! Puts the outcomes of several workers into the order of the plan.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -8,17 +8,18 @@ use std::time::Duration;
 use super::{Sink, is_set, lock};
 use crate::verdict::Outcome;
 
-/// How many batches a worker may be ahead of the slowest one; what they found is held back so long.
+/// How many batches a worker may be ahead of the slowest one. Their outcomes are held back until
+/// then.
 const AHEAD: u64 = 64;
-/// How soon an interrupt is seen while nothing else happens.
+/// The longest delay before an interrupt is noticed.
 const INTERRUPT: Duration = Duration::from_millis(100);
 
-/// Hands the outcomes of batches on in the order of the batches.
+/// Passes on the outcomes of batches in the order of the batches.
 pub(super) struct Merge<'s> {
     state: Mutex<State<'s>>,
-    /// The first batch that is not yet done is another one.
+    /// Signals that the first unfinished batch has changed.
     moved: Condvar,
-    /// The sink wants no more.
+    /// The sink has ended the run.
     over: AtomicBool,
     interrupted: &'s AtomicBool,
 }
@@ -27,9 +28,9 @@ struct State<'s> {
     sink: &'s mut Sink<'s>,
     /// How many outcomes the sink was given.
     count: usize,
-    /// The first batch that is not yet done. Its outcomes go straight to the sink.
+    /// The first unfinished batch. Its outcomes go directly to the sink.
     first: u64,
-    /// What came of later ones, and whether they are done.
+    /// The outcomes of later batches, and whether these are finished.
     held: BTreeMap<u64, (Vec<Outcome>, bool)>,
 }
 
@@ -40,31 +41,31 @@ impl<'s> Merge<'s> {
         Self { state: Mutex::new(state), moved, over, interrupted }
     }
 
-    /// Whether nothing more is to be asked.
+    /// Whether to stop asking.
     pub(super) fn is_over(&self) -> bool {
         is_set(&self.over) || is_set(self.interrupted)
     }
 
-    /// Has nothing more asked.
+    /// Stops the asking.
     pub(super) fn end(&self) {
         self.over.store(true, Ordering::Relaxed);
     }
 
-    /// Whether the batch with this number may be begun.
+    /// Whether the batch with this number may start.
     pub(super) fn has_room(&self, number: u64) -> bool {
         number < lock(&self.state).first + AHEAD
     }
 
-    /// Waits a moment, or until the batch with this number may be begun.
+    /// Waits a moment, or until the batch with this number may start.
     pub(super) fn wait_for_room(&self, number: u64) {
         let state = lock(&self.state);
         let full = |state: &mut State<'_>| number >= state.first + AHEAD && !self.is_over();
-        // Nobody tells of an interrupt.
+        // An interrupt does not wake the thread.
         let waited = self.moved.wait_timeout_while(state, INTERRUPT, full);
         drop(waited.unwrap_or_else(PoisonError::into_inner));
     }
 
-    /// Takes outcomes of a batch, in order behind those that were put before; `done` with the last.
+    /// Adds outcomes to a batch, in order; `done` marks the last ones.
     pub(super) fn put(&self, number: u64, outcomes: Vec<Outcome>, done: bool) {
         let mut state = lock(&self.state);
         if number != state.first {
@@ -88,7 +89,8 @@ impl<'s> Merge<'s> {
         self.moved.notify_all();
     }
 
-    /// Hands on what an early end left behind. Returns how many outcomes the sink was given.
+    /// Passes on the outcomes that were still held back at an early end. Returns how many outcomes
+    /// the sink was given.
     pub(super) fn finish(self) -> usize {
         let mut state = self.state.into_inner().unwrap_or_else(PoisonError::into_inner);
         let held = std::mem::take(&mut state.held).into_values();

@@ -1,4 +1,4 @@
-//! A subject at work: takes batches of checks, asks them, and gives back what came out.
+//! A worker: takes batches of checks, asks its subject, and returns the outcomes.
 
 use std::collections::{HashMap, VecDeque};
 use std::time::{Duration, Instant};
@@ -9,49 +9,49 @@ use crate::subject::{Answer, Questions, Subject};
 use crate::suite::check::Check;
 use crate::verdict::{Outcome, Verdict};
 
-/// How long what came out is held back at the most, while more comes.
+/// How long outcomes may be held back while more arrive.
 const PATIENCE: Duration = Duration::from_millis(50);
 
-/// What one subject is asked.
+/// The questions of one subject.
 pub(super) struct Worker<'r, 's, 'a> {
     work: &'r Work<'s, 'a>,
     hello: Hello,
-    /// Batches of which something is not answered yet.
+    /// Batches with unanswered questions.
     batches: VecDeque<Batch>,
     /// The number of the next question.
     next: usize,
-    /// The number of the first question that is not loaded.
+    /// The number of the first question that is not loaded yet.
     end: usize,
-    /// Questions that wait for the answer to another.
+    /// Questions that wait for the answer to another question.
     waiting: VecDeque<usize>,
     flushed: Instant,
 }
 
-/// Checks that were taken together.
+/// Checks that were taken together: a batch.
 struct Batch {
     number: u64,
     /// The number of its first question.
     first: usize,
     slots: Vec<Slot>,
-    /// How many outcomes were given back.
+    /// How many outcomes were returned.
     given: usize,
 }
 
 struct Slot {
     state: State,
-    /// The question that has to be answered before.
+    /// The question that must be answered first.
     requires: Option<usize>,
 }
 
 enum State {
     Open(Check),
     Answered(Outcome),
-    /// Given back; whether it was skipped.
+    /// Returned; the value says whether it was skipped.
     Given(bool),
 }
 
 impl State {
-    /// Whether it was skipped; `None` if it is not answered yet.
+    /// Whether the question was skipped; `None` if it is not answered yet.
     const fn is_skipped(&self) -> Option<bool> {
         match self {
             Self::Open(_) => None,
@@ -74,7 +74,7 @@ impl<'r, 's, 'a> Worker<'r, 's, 'a> {
         self.flush();
     }
 
-    /// Takes and builds the next batch; whether there was one.
+    /// Takes and builds the next batch. Returns whether there was one.
     fn load(&mut self) -> bool {
         self.flush();
         let (number, groups) = loop {
@@ -87,7 +87,7 @@ impl<'r, 's, 'a> Worker<'r, 's, 'a> {
                 break (number, source.take());
             }
             drop(source);
-            // It may be this one's own answers for which the others wait.
+            // The other workers may be waiting for this worker's answers.
             if !self.batches.is_empty() {
                 return false;
             }
@@ -109,7 +109,7 @@ impl<'r, 's, 'a> Worker<'r, 's, 'a> {
         true
     }
 
-    /// Gives back what is answered, as far as nothing before it is open.
+    /// Returns the outcomes that have no unanswered question before them.
     fn flush(&mut self) {
         for batch in &mut self.batches {
             let outcomes = batch.take();
@@ -140,7 +140,7 @@ impl<'r, 's, 'a> Worker<'r, 's, 'a> {
         }
     }
 
-    /// Whether the question is to be asked; if not, it is answered.
+    /// Whether the question must be asked; if not, its answer is set.
     fn is_asked(&mut self, number: usize, required_skipped: bool) -> bool {
         let reason = if required_skipped {
             Some("the check that it requires is skipped too".to_owned())
@@ -160,7 +160,7 @@ impl<'r, 's, 'a> Worker<'r, 's, 'a> {
     }
 }
 
-/// A panic goes on in the thread that started the run, once no other works.
+/// A panic is resumed in the thread that started the run, after the other workers ended.
 impl Drop for Worker<'_, '_, '_> {
     fn drop(&mut self) {
         if std::thread::panicking() {
@@ -170,7 +170,7 @@ impl Drop for Worker<'_, '_, '_> {
 }
 
 impl Batch {
-    /// Takes out the outcomes that nothing open stands before.
+    /// Removes the outcomes that have no unanswered question before them.
     fn take(&mut self) -> Vec<Outcome> {
         let mut outcomes = Vec::new();
         for slot in self.slots.iter_mut().skip(self.given) {
@@ -185,8 +185,8 @@ impl Batch {
     }
 }
 
-/// For each check the number of the one that it requires, if that stands before it; `first` is the
-/// number of the first.
+/// For each check, the number of the check that it requires, if that comes before it. `first` is
+/// the number of the first check.
 fn required(checks: &[Check], first: usize) -> Vec<Option<usize>> {
     let mut places = HashMap::new();
     let requires = checks.iter().any(|check| check.requires.is_some());
@@ -246,7 +246,7 @@ impl Questions for Worker<'_, '_, '_> {
     }
 }
 
-/// Why a check is not asked, by the adapter's own word.
+/// Why a check is not asked, according to the adapter's answer to `hello`.
 fn not_offered(hello: &Hello, check: &Check) -> Option<String> {
     let name = check.question.name();
     if !hello.ops.iter().any(|op| op == name) {

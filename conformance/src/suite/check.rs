@@ -1,4 +1,4 @@
-//! One question to an implementation, and the judgement of its answer.
+//! One question to a subject, and the verdict on its answer.
 
 use actucheck_spec::model::{Citation, Fault, Level};
 use serde::{Deserialize, Serialize};
@@ -7,7 +7,7 @@ use crate::adapter::{Output, Question, Rejection};
 use crate::subject::Answer;
 use crate::verdict::{Behaviour, Outcome, Verdict};
 
-/// One question to an implementation.
+/// One question to a subject, and what its answer must be.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Check {
@@ -15,56 +15,56 @@ pub struct Check {
     pub id: String,
     /// The id of the requirement that it tests.
     pub requirement: String,
-    /// How binding that is.
+    /// The level of that requirement.
     pub level: Level,
-    /// Where the packet stands that it asks about.
+    /// The source of the packet in the question.
     pub source: Citation,
-    /// The check that shows whether this one makes sense: one that is skipped there is skipped
-    /// here. A host's library reads no instruction packets, alone or in a stream.
+    /// The check that must be answered first. If that check is skipped, so is this one: a host's
+    /// library that reads no instruction packets finds none in a stream.
     #[serde(default, alias = "presumes", skip_serializing_if = "Option::is_none")]
     pub requires: Option<String>,
     /// What is asked.
     #[serde(rename = "request")]
     pub question: Question,
-    /// What is demanded.
+    /// What the answer must be.
     #[serde(with = "serde_yaml::with::singleton_map_recursive")]
     pub demand: Demand,
 }
 
-/// What a check demands of the answer.
+/// What the answer to a question must be.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Demand {
-    /// This and nothing else.
+    /// Exactly this output.
     Yield(Output),
-    /// One of these.
+    /// One of these outputs.
     YieldOneOf(Vec<Output>),
-    /// A rejection. One for another reason than this is a warning.
+    /// A rejection. A rejection for another reason gets a warning.
     Reject(Fault),
-    /// Nothing: the documents leave it open, and what is done is recorded.
+    /// Any answer: the documents leave it unspecified. The report shows what the subject does.
     Record(Unspecified),
 }
 
-/// A question that the documents leave open.
+/// A question that the documents leave unspecified.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Unspecified {
     /// The question, in words.
     pub question: String,
-    /// What may be done beside rejecting, the way of the reference first.
+    /// The foreseen behaviours beside a rejection; the reference model's own is the first.
     pub ways: Vec<Way>,
 }
 
-/// One of several right ways.
+/// One of several right behaviours.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Way {
-    /// What is done, in a few words.
+    /// The behaviour in a few words.
     pub name: String,
-    /// What comes of it.
+    /// The output of this behaviour.
     pub output: Output,
 }
 
 impl Unspecified {
-    /// What was done, in a few words; `None` if the implementation broke down or was not asked.
+    /// The behaviour in a few words; `None` if the subject failed or was not asked.
     fn behaviour(&self, answer: &Answer) -> Option<Behaviour> {
         let answer = match answer {
             Answer::Ok(output) => match self.ways.iter().find(|way| way.output == *output) {
@@ -79,7 +79,7 @@ impl Unspecified {
         Some(Behaviour { question: self.question.clone(), answer })
     }
 
-    /// What none of the ways foresees.
+    /// An answer that is none of the foreseen ones.
     fn other(&self, output: &Output) -> String {
         match (output, self.ways.first().map(|way| &way.output)) {
             (Output::Packets(found), Some(Output::Packets(whole)))
@@ -94,7 +94,7 @@ impl Unspecified {
 }
 
 impl Check {
-    /// What an answer comes to.
+    /// The outcome of an answer.
     #[must_use]
     pub fn judge(self, answer: Answer) -> Outcome {
         let broken = matches!(&answer, Answer::Rejected(why) if why.class == Fault::Internal);
@@ -137,13 +137,13 @@ impl Check {
         }
     }
 
-    /// What is done where the requirement allows it and demands nothing.
+    /// The behaviour where a requirement allows something and demands nothing.
     fn allowed(&self, answer: &str) -> Behaviour {
         let question = format!("Does it do what {} allows?", self.requirement);
         Behaviour { question, answer: answer.to_owned() }
     }
 
-    /// Bytes of the whole packet that it is about; `None` if it is about no whole one.
+    /// Size in bytes of the packet in the question; `None` if the question has no whole packet.
     #[must_use]
     pub fn packet_size(&self) -> Option<usize> {
         match (&self.question, self.expected()) {

@@ -1,4 +1,5 @@
-//! Audited expected failures: what an implementation is known to get wrong, and why that is.
+//! Expected failures: the checks that a subject is known to fail, each with a reason. The file is
+//! audited: an expected failure that passes is reported.
 
 use std::fmt;
 use std::path::Path;
@@ -12,7 +13,7 @@ use super::plan::Plan;
 use super::select::Patterns;
 use crate::verdict::{Outcome, Verdict};
 
-/// Why an expected-failures file is of no use.
+/// Why an expected-failures file can't be used.
 #[derive(Debug, Error)]
 pub enum ExpectError {
     /// It can't be read.
@@ -23,7 +24,7 @@ pub enum ExpectError {
         /// What the system says.
         error: std::io::Error,
     },
-    /// It is no such file.
+    /// It is not an expected-failures file.
     #[error("{path}: {message}")]
     Parse {
         /// The file.
@@ -31,7 +32,7 @@ pub enum ExpectError {
         /// What is wrong, with line and column.
         message: String,
     },
-    /// A row's id is no glob, or is that of no check.
+    /// An id in a row is not a glob, or matches no check.
     #[error("{path}: row {row}: {message}")]
     Row {
         /// The file.
@@ -54,13 +55,13 @@ struct ExpectationsFile {
 struct Row {
     /// Ids of checks, or globs over ids.
     ids: Vec<String>,
-    /// Why the failure is the implementation's own and known.
+    /// Why the failure is expected.
     reason: String,
-    /// Where that is reported or can be seen.
+    /// A link to a report or other evidence.
     upstream: Option<String>,
 }
 
-/// The failures that are expected of an implementation.
+/// The expected failures of a subject.
 #[derive(Debug, Default)]
 pub struct Expectations {
     globs: Vec<Expectation>,
@@ -70,9 +71,9 @@ pub struct Expectations {
 #[derive(Debug)]
 struct Expectation {
     glob: GlobMatcher,
-    /// The row that it stands in.
+    /// The row of the glob.
     row: Arc<Row>,
-    /// How many checks it stands for.
+    /// How many checks it matches.
     checks: usize,
 }
 
@@ -80,7 +81,7 @@ impl Expectations {
     /// Reads the file at `path`.
     ///
     /// # Errors
-    /// If it can't be read, is malformed, or has a row that is about no check of the plan.
+    /// If it can't be read, is malformed, or has a row that matches no check of the plan.
     pub fn read(path: &Path, plan: &Plan<'_>) -> Result<Self, ExpectError> {
         let name = path.display().to_string();
         let text = std::fs::read_to_string(path)
@@ -115,14 +116,13 @@ impl Expectations {
         self.globs.iter().any(|expected| expected.glob.is_match(id))
     }
 
-    /// Turns expected failures into [`Verdict::ExpectedFailure`]. Where all checks that an id or
-    /// glob stands for were asked and none of them failed, their passes become
-    /// [`Verdict::UnexpectedPass`].
+    /// Turns expected failures into [`Verdict::ExpectedFailure`]. If all checks that an id or glob
+    /// matches were asked and none of them failed, their passes become [`Verdict::UnexpectedPass`].
     pub fn apply(&self, outcomes: &mut [Outcome]) {
         for Expectation { glob, row, checks } in &self.globs {
             let mut matched: Vec<_> =
                 outcomes.iter_mut().filter(|outcome| glob.is_match(&outcome.id)).collect();
-            // Another row may have been first.
+            // Another row may have changed it already.
             let failed = matched.iter().any(|outcome| {
                 outcome.verdict.is_failure() || outcome.verdict == Verdict::ExpectedFailure
             });

@@ -1,8 +1,8 @@
-//! The checks: where they come from, what they demand, and files of them.
+//! The checks: their sources, what their answers must be, and files of checks.
 //!
-//! What a golden check demands is printed in a document; what the others demand comes from
-//! [`mod@reference`]. Ids are permanent: they name what is asked, not its place in
-//! the list.
+//! The right answer of a golden check is printed in a document; the right answers of the other
+//! checks come from [`mod@reference`]. Ids are permanent: an id names the question, not its place
+//! in the list.
 
 pub mod check;
 pub(crate) mod codec;
@@ -19,30 +19,30 @@ use self::check::{Check, Demand};
 use self::plan::Plan;
 use crate::adapter::{Called, Output, Question, Wire};
 
-/// What decides which checks there are.
+/// The options that determine the checks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
     /// The wire.
     pub wire: Wire,
-    /// What the generated checks grow from.
+    /// The seed of the generated checks.
     pub seed: u64,
-    /// How many packets are generated.
+    /// The number of generated packets.
     pub cases: u32,
-    /// Bytes of the longest bodies of the pattern's bytes that are all tried inside every kind of
-    /// packet, at most [`Options::LONGEST_BODY`]; a byte more means four times as many.
+    /// The most bytes in the bodies of the pattern's bytes that are all tried inside every kind of
+    /// packet, up to [`Options::LONGEST_BODY`]. Each further byte means four times as many checks.
     pub body_length: u32,
     /// The same of bodies without a packet around them.
     pub bare_length: u32,
-    /// Bytes of the longest frame that the implementation says it takes.
+    /// Size in bytes of the longest frame that the subject states to take.
     pub max_packet: Option<usize>,
 }
 
 impl Options {
-    /// Bytes of the longest bodies that are tried at all.
+    /// The longest body in bytes that is tried at all.
     pub const LONGEST_BODY: u32 = 7;
 
-    /// The checks of a wire as they are without further options. Bare bodies are long enough for two
-    /// patterns in a row, at which a published library fails.
+    /// The default options of a wire. Bare bodies are long enough for two patterns in a row, at
+    /// which a published library fails.
     #[must_use]
     pub const fn new(wire: Wire) -> Self {
         let (body_length, bare_length) = (4, Self::LONGEST_BODY);
@@ -82,7 +82,7 @@ impl Author<'_> {
         Check {
             id,
             requirement: requirement.to_owned(),
-            // A test holds every requirement that is named to be there.
+            // A test checks that every named requirement exists.
             level: row.map_or(Level::Must, |row| row.level),
             source: row.map_or_else(unknown, |row| row.source.clone()),
             requires: None,
@@ -91,7 +91,7 @@ impl Author<'_> {
         }
     }
 
-    /// Encode and decode of one packet, as the reference has it.
+    /// Encodes and decodes one packet; the reference model gives the right answers.
     fn both_ways(&self, id: &str, requirement: &str, packet: &Packet) -> Vec<Check> {
         let Some(bytes) = reference::encode(packet) else { return Vec::new() };
         let called = Called { call: Call::of(packet), packet: packet.clone() };
@@ -114,7 +114,7 @@ impl Author<'_> {
         ]
     }
 
-    /// A frame that the reference rejects, or the packet that it is.
+    /// Decodes a frame; the reference model says whether it is a packet.
     fn decoded(&self, id: String, requirement: &str, bytes: Vec<u8>) -> Check {
         let demand = match reference::decode(&bytes) {
             Ok(packet) => Demand::Yield(Output::Packet(packet)),
@@ -124,7 +124,7 @@ impl Author<'_> {
         self.check(id, requirement, op, demand)
     }
 
-    /// The packets of a stream as the reference finds them.
+    /// The packets of a stream that the reference model finds.
     fn streamed(&self, id: String, requirement: &str, chunks: &[Vec<u8>]) -> Check {
         let packets = reference::packets(&chunks.concat());
         let chunks = chunks.iter().map(|chunk| chunk.clone().into()).collect();
@@ -133,7 +133,7 @@ impl Author<'_> {
     }
 }
 
-/// The requirement on a reader that answers one on a sender.
+/// The requirement on a receiver that corresponds to one on a sender.
 fn of_reading(requirement: &str) -> &str {
     match requirement {
         "dynamixel2.stuffing.transmit" => "dynamixel2.stuffing.receive",
@@ -145,7 +145,7 @@ fn unknown() -> Citation {
     Citation { document: String::new(), section: String::new() }
 }
 
-/// Hex digits for an id; `empty` for no bytes.
+/// Bytes as hex digits for an id; `empty` for no bytes.
 fn hex(bytes: &[u8]) -> String {
     match bytes {
         [] => "empty".to_owned(),

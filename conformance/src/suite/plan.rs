@@ -1,8 +1,8 @@
-//! Checks that cost nothing until they are asked.
+//! A lazy list of checks: a check is built when it is asked.
 //!
-//! A plan is a list of families; a family yields groups, and a group builds its checks. An id or a
-//! glob is compared with what the ids of a family begin with, then with the ids that a group names, so
-//! that nothing else is built. No more than a few groups are in memory at any time.
+//! A plan is a list of families; a family yields groups, and a group builds its checks. To find an
+//! id or a glob, the plan compares it with the prefix of each family and then with the ids that
+//! each group names. Nothing else is built, and only a few groups are in memory at any time.
 
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
@@ -21,7 +21,7 @@ pub struct Plan<'a> {
     level: Level,
 }
 
-/// Groups whose checks' ids begin alike.
+/// Groups whose checks' ids have a common prefix.
 pub(crate) struct Family<'a> {
     prefix: String,
     groups: Yield<'a>,
@@ -34,7 +34,7 @@ type Yield<'a> = Box<dyn Fn() -> Groups<'a> + Send + Sync + 'a>;
 /// Groups, one after the other.
 type Groups<'a> = Box<dyn Iterator<Item = Group<'a>> + Send + 'a>;
 
-/// Checks that one subject is asked in order. A check may require another of its group, before it.
+/// Checks that one subject is asked in order. A check may require an earlier check of its group.
 pub(crate) struct Group<'a> {
     stem: String,
     names: Names,
@@ -67,7 +67,7 @@ impl<'a> Plan<'a> {
         Self { families, only, not, level: Level::May }
     }
 
-    /// These checks and no others. They are one group: one subject is asked them all.
+    /// A plan of these checks only, as one group: one subject is asked them all.
     #[must_use]
     pub fn of(checks: Vec<Check>) -> Self {
         let mut plan = Self::new(Vec::new());
@@ -75,7 +75,7 @@ impl<'a> Plan<'a> {
         plan
     }
 
-    /// Has these checks asked behind all others, as one group.
+    /// Adds these checks at the end, as one group.
     pub fn add(&mut self, checks: Vec<Check>) {
         let checks: Arc<[Check]> = checks.into();
         self.families.push(Family::new("", move || {
@@ -86,11 +86,11 @@ impl<'a> Plan<'a> {
         }));
     }
 
-    /// Keeps the checks whose id matches any of `only`, or all if there are none, but none whose
-    /// id matches any of `not`, and of those the ones that bind at least as `level` says.
+    /// Keeps the checks whose id matches any pattern of `only` (all checks if there are none),
+    /// whose id matches no pattern of `not`, and whose level is `level` or stricter.
     ///
     /// # Errors
-    /// In a sentence, if a pattern is no glob or matches no check.
+    /// If a pattern is not a glob or matches no check.
     pub fn restrict(
         &mut self,
         only: &[String],
@@ -118,7 +118,7 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// How many checks each pattern matches, whatever the plan is restricted to.
+    /// How many checks each pattern matches, even if the plan is restricted.
     #[must_use]
     pub fn count_matches(&self, patterns: &Patterns) -> Vec<usize> {
         let mut counts = vec![0; patterns.texts().len()];
@@ -129,7 +129,7 @@ impl<'a> Plan<'a> {
         counts
     }
 
-    /// Hands on the place of each pattern for each id that it matches; nothing is built for it.
+    /// Calls back with the index of a pattern for each id that it matches. No check is built.
     fn each_match(&self, patterns: &Patterns, mut matched: impl FnMut(usize) -> ControlFlow<()>) {
         let may_match = |beginning: &str| patterns.may_match(beginning);
         let families = self.families.iter().filter(|family| may_match(&family.prefix));
@@ -143,7 +143,7 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// The groups that have something to ask, in order.
+    /// The groups that have a check to ask, in order.
     pub(crate) fn groups(&self) -> impl Iterator<Item = Group<'a>> + Send + '_ {
         let families = self.families.iter().filter(|family| {
             self.is_whole()
@@ -155,7 +155,7 @@ impl<'a> Plan<'a> {
             .filter(|group| self.is_whole() || self.has_some(group))
     }
 
-    /// Whether every check of it is meant.
+    /// Whether every check of the group is selected.
     fn is_whole(&self) -> bool {
         self.only.is_empty() && self.not.is_empty() && self.level == Level::May
     }
@@ -168,7 +168,7 @@ impl<'a> Plan<'a> {
         self.may_have(&group.stem) && group.ids().any(|id| self.has(&id))
     }
 
-    /// The checks of a group that are meant.
+    /// The selected checks of a group.
     pub(crate) fn build(&self, group: Group<'_>) -> Vec<Check> {
         let mut checks = (group.build)();
         if self.is_whole() {
@@ -182,12 +182,12 @@ impl<'a> Plan<'a> {
         (self.only.is_empty() || self.only.is_match(id)) && !self.not.is_match(id)
     }
 
-    /// Every check, each built when it is asked for.
+    /// Every check; each is built when it is needed.
     pub fn checks(&self) -> impl Iterator<Item = Check> + '_ {
         self.groups().flat_map(|group| self.build(group))
     }
 
-    /// The id of every check; nothing is built for it unless the level is restricted.
+    /// The id of every check. No check is built, unless the level is restricted.
     #[must_use]
     pub fn ids(&self) -> Box<dyn Iterator<Item = String> + '_> {
         if self.level != Level::May {
@@ -199,7 +199,7 @@ impl<'a> Plan<'a> {
         Box::new(ids.filter(|id| self.has(id)))
     }
 
-    /// The check with this id, whatever the plan is restricted to.
+    /// The check with this id, even if the plan is restricted.
     #[must_use]
     pub fn find(&self, id: &str) -> Option<Check> {
         let has = |group: &Group<'_>| id.starts_with(&group.stem) && group.ids().any(|it| it == id);
@@ -245,8 +245,7 @@ impl<'a> Family<'a> {
     }
 }
 
-/// Checks that are built already, as groups of those whose ids are alike but for what follows the
-/// last slash.
+/// Groups of checks that are already built; the ids in a group differ only after the last slash.
 pub(crate) fn by_stem<'a>(checks: Vec<Check>) -> impl Iterator<Item = Group<'a>> + Send {
     let mut checks = checks.into_iter().peekable();
     std::iter::from_fn(move || {

@@ -1,4 +1,4 @@
-//! Checks in a file, so that what was found once can be asked again.
+//! Checks in a file, so that findings can be asked again.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use super::check::Check;
 /// Version of the file's form. It changes when a field goes or takes another meaning.
 pub const VERSION: u32 = 1;
 
-/// Why a file with checks is of no use.
+/// Why a file of checks can't be used.
 #[derive(Debug, Error)]
 pub enum SavedError {
     /// It can't be read.
@@ -21,7 +21,7 @@ pub enum SavedError {
         /// What the system says.
         error: std::io::Error,
     },
-    /// It is no file with checks.
+    /// It is not a file of checks.
     #[error("{path} is no file with checks: {error}")]
     Parse {
         /// The file.
@@ -29,7 +29,7 @@ pub enum SavedError {
         /// What is wrong, with its line where the reader knows it.
         error: serde_yaml::Error,
     },
-    /// Another program wrote it.
+    /// It has another version.
     #[error("{path} is of version {version}, this program reads version {VERSION}")]
     Version {
         /// The file.
@@ -46,10 +46,10 @@ struct File {
     checks: Vec<Check>,
 }
 
-/// The text of a file with these checks, as YAML.
+/// These checks as the YAML text of a file.
 ///
 /// # Errors
-/// If the writer does not take them, which no check is known to bring about.
+/// If they can't be written as YAML; no such check is known.
 pub fn write(checks: &[Check]) -> Result<String, serde_yaml::Error> {
     serde_yaml::to_string(&File { version: VERSION, checks: checks.to_vec() })
 }

@@ -1,4 +1,4 @@
-//! Globs over the ids of checks: `*` is any text, `?` any character.
+//! Globs that match ids of checks: `*` is any text, `?` any character.
 
 use std::collections::BTreeMap;
 use std::ops::Bound;
@@ -9,11 +9,11 @@ use globset::{GlobBuilder, GlobSet, GlobSetBuilder};
 #[derive(Debug, Default)]
 pub struct Patterns {
     texts: Vec<String>,
-    /// Those that are ids, with their places in the list.
+    /// The patterns that are plain ids, with their places in the list.
     ids: BTreeMap<String, Vec<usize>>,
-    /// The others.
+    /// The globs.
     globs: GlobSet,
-    /// The place of each glob in the list, and what the ids that it matches begin with.
+    /// The place of each glob in the list, and the prefix of the ids that it matches.
     starts: Vec<(usize, String)>,
 }
 
@@ -21,7 +21,7 @@ impl Patterns {
     /// Reads globs over ids.
     ///
     /// # Errors
-    /// What is wrong with the first that is none, in a sentence.
+    /// What is wrong with the first invalid glob.
     pub fn new<'a>(patterns: impl IntoIterator<Item = &'a str>) -> Result<Self, String> {
         let mut new = Self::default();
         let mut globs = GlobSetBuilder::new();
@@ -43,25 +43,25 @@ impl Patterns {
         Ok(new)
     }
 
-    /// Whether there are none.
+    /// Whether there are no patterns.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.texts.is_empty()
     }
 
-    /// The patterns as they were given.
+    /// The patterns, in the given order.
     #[must_use]
     pub fn texts(&self) -> &[String] {
         &self.texts
     }
 
-    /// Whether one of them matches this id.
+    /// Whether a pattern matches this id.
     #[must_use]
     pub fn is_match(&self, id: &str) -> bool {
         self.ids.contains_key(id) || self.globs.is_match(id)
     }
 
-    /// The places of those that match this id, in order.
+    /// The places of the patterns that match this id, in order.
     #[must_use]
     pub fn matches(&self, id: &str) -> Vec<usize> {
         let globs = self.globs.matches(id).into_iter();
@@ -72,7 +72,7 @@ impl Patterns {
         places
     }
 
-    /// Whether one of them may match an id that begins so.
+    /// Whether a pattern may match an id with this prefix.
     #[must_use]
     pub fn may_match(&self, beginning: &str) -> bool {
         let from = (Bound::Included(beginning), Bound::Unbounded);

@@ -1,5 +1,5 @@
-//! Checks of the INNFOS Ethernet protocol: the document's frames, everything where everything is
-//! little, and each rule broken alone.
+//! Checks of the INNFOS Ethernet protocol: the test vectors, exhaustive checks of small sets, and
+//! frames that break one rule each.
 
 use actucheck_spec::model::{Citation, Fault, FrameKind, Outcome, Packet, Vector};
 use actucheck_spec::wire::innfos::reference;
@@ -10,12 +10,12 @@ use crate::suite::check::{Check, Demand, Unspecified, Way};
 use crate::suite::plan::{Family, Group};
 use crate::suite::{Author, hex};
 
-/// Bytes that could be taken for the ends of a frame, and two that could not.
+/// Bytes that could be mistaken for the first or last byte of a frame, and two others.
 const ALPHABET: [u8; 4] = [0xEE, 0xED, 0x00, 0x01];
-/// Sizes of data: those of the commands' tables, and where the length needs its other byte.
+/// Sizes of data: those of the commands, and those where the length needs its second byte.
 const SIZES: [usize; 10] = [0, 1, 2, 3, 4, 8, 255, 256, 257, 1000];
 
-/// The most data that a length can tell of, and the bytes around it.
+/// The most data, in bytes, that a length allows, and the bytes of a frame around it.
 const LARGEST: usize = 65_535;
 const AROUND: usize = 8;
 
@@ -135,7 +135,7 @@ fn golden(author: &Author<'_>) -> Vec<Check> {
     checks
 }
 
-/// The other frames that a packet has where readings of the document differ.
+/// The other valid frames of a packet, if the document has several readings.
 fn others(vector: &Vector, packet: &Packet, all: &[(&Citation, &Vector)]) -> Vec<Way> {
     let others = all.iter().map(|(_, other)| *other).filter(|other| {
         other.id != vector.id
@@ -149,8 +149,8 @@ fn frame(vector: &Vector) -> Output {
     Output::Bytes(vector.frame().to_vec().into())
 }
 
-/// The CRC of a packet's data. The document's function returns the two bytes the other way round
-/// than the CRC's name says; either number is right.
+/// The CRC of a packet's data. The document's function returns the two bytes in the reverse order
+/// of the named CRC; either number is right.
 fn crc(author: &Author<'_>, packet: &Packet) -> Option<(Question, Demand)> {
     let (Packet::Request { data, .. } | Packet::Reply { data, .. }) = packet else { return None };
     let crc = reference::crc(data);
@@ -175,7 +175,7 @@ fn decode(author: &Author<'_>, kind: FrameKind, bytes: &[u8]) -> Question {
     Question::Decode { wire: author.wire, bytes, fast: None, kind: Some(kind) }
 }
 
-/// A packet built, read, and found twice in a datagram. Where the CRC is open, nothing.
+/// A packet that is built, read, and found twice in a datagram. None if its CRC is unspecified.
 fn both_ways(
     author: &Author<'_>,
     id: &str,
@@ -209,7 +209,7 @@ fn both_ways(
     ]
 }
 
-/// A frame with a bit flipped, cut short or with a byte too many.
+/// A frame with a flipped bit, a missing byte or an extra byte.
 fn damaged(author: &Author<'_>, kind: FrameKind) -> Vec<Check> {
     let (word, packet) = example(kind);
     let frame = reference::encode(&packet).unwrap_or_default();
@@ -230,7 +230,7 @@ fn damaged(author: &Author<'_>, kind: FrameKind) -> Vec<Check> {
     for (name, bytes) in damaged {
         let id = format!("innfos.negative.{word}.{name}/decode");
         let (requirement, demand) = match reference::decode(kind, &bytes) {
-            // The CRC covers the data alone: another address or command goes unnoticed.
+            // The CRC covers the data alone: a changed address or command is not noticed.
             Ok(packet) => ("innfos.frame.layout", Demand::Yield(Output::Packet(packet))),
             Err(fault) => (requirement_of(fault), Demand::Reject(fault)),
         };
@@ -239,8 +239,8 @@ fn damaged(author: &Author<'_>, kind: FrameKind) -> Vec<Check> {
     checks
 }
 
-/// A frame that goes the other way: with one byte of data it has a CRC too many or lacks one, with
-/// any other number it looks the same.
+/// A frame read in the other direction: with one byte of data it has an extra CRC or lacks one;
+/// with any other number of bytes it is the same in both directions.
 fn other_way(author: &Author<'_>, kind: FrameKind) -> Vec<Check> {
     let (address, command) = (6, 0x0A);
     let check = |size: usize| {
@@ -266,7 +266,7 @@ fn other_way(author: &Author<'_>, kind: FrameKind) -> Vec<Check> {
     (0..=4).map(check).collect()
 }
 
-/// A good frame behind something else in one datagram, which the document does not speak of.
+/// A valid frame after other bytes in one datagram, which the document leaves unspecified.
 fn behind_damage(author: &Author<'_>, kind: FrameKind) -> Vec<Check> {
     let (word, packet) = example(kind);
     let good = reference::encode(&packet).unwrap_or_default();
@@ -307,7 +307,7 @@ fn behind_damage(author: &Author<'_>, kind: FrameKind) -> Vec<Check> {
     scenarios.map(check).into()
 }
 
-/// A packet with data that can be damaged.
+/// A packet with data, to be damaged.
 fn example(kind: FrameKind) -> (&'static str, Packet) {
     let data = vec![0x01, 0x02, 0x03, 0x04].into();
     match kind {

@@ -1,4 +1,4 @@
-//! Checks of a codec, a wire a module.
+//! Checks of a codec, one module per wire.
 
 pub(crate) mod dynamixel2;
 mod innfos;

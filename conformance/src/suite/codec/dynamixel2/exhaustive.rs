@@ -1,5 +1,5 @@
-//! Everything where everything is little: short bodies of the pattern's bytes, every instruction,
-//! every error byte, every ID; and the lengths at which counting goes wrong.
+//! Exhaustive checks: all short bodies of the pattern's bytes, every instruction, every error byte,
+//! every ID, and the lengths at which counting goes wrong.
 
 use actucheck_spec::model::Packet;
 use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, STATUS};
@@ -9,20 +9,20 @@ use crate::suite::check::{Check, Demand};
 use crate::suite::plan::{Family, Group};
 use crate::suite::{Author, Options, hex};
 
-/// The bytes of the pattern, the one that makes it a header, and one that is none of them.
+/// The bytes of the pattern, the byte that makes it a header, and one other byte.
 const ALPHABET: [u8; 4] = [0xFF, 0xFD, 0x00, 0x01];
 
-/// Data lengths around 0, a register, and where the length needs another bit or byte: with 5
-/// bytes of instruction, address and CRC a Write's length passes 128 and 256 here.
+/// Data lengths around 0, around a register's size, and where the length field needs another bit or
+/// byte: the length of a Write is 5 bytes more than its data, and passes 128 and 256 here.
 const LENGTHS: [usize; 17] =
     [0, 1, 2, 3, 4, 122, 123, 124, 127, 128, 129, 250, 251, 252, 255, 256, 257];
 
-/// The largest packet that a length of two bytes can tell of.
+/// Size in bytes of the largest packet that a two-byte length allows.
 const LARGEST: usize = 65_535 + reference::PREFIX;
-/// Bytes of a Write around its data. A status packet has one less.
+/// Bytes of a Write apart from its data. A status packet has one byte less.
 const WRITE_AROUND: usize = 12;
 
-/// The address that is written, 116: some libraries end at 255.
+/// The address of the Write: 116, as some libraries support addresses up to 255 only.
 const REGISTER: [u8; 2] = [0x74, 0x00];
 
 /// What a packet's checks are called.
@@ -42,7 +42,7 @@ pub(super) fn families<'a>(author: Author<'a>, options: &Options) -> Vec<Family<
     families
 }
 
-/// The pattern begins before the parameters: with the instruction, or with the error byte.
+/// Patterns that begin before the parameters: with the instruction or with the error byte.
 fn before_params(author: &Author<'_>) -> Vec<Check> {
     let params = || vec![0xFF, 0xFD].into();
     let instruction = Packet::Instruction { id: 1, instruction: 0xFF, params: params() };
@@ -94,7 +94,7 @@ fn stuffing(author: &Author<'_>, id: &str, body: &[u8]) -> [Check; 2] {
     ]
 }
 
-/// A place in a packet: behind the header, in the middle, before the CRC.
+/// A place in a packet: after the header, in the middle, or before the CRC.
 #[derive(Clone, Copy)]
 struct Place {
     name: &'static str,
@@ -201,7 +201,7 @@ fn instruction(author: &Author<'_>, id: &str, code: u8) -> Vec<Check> {
         Packet::Instruction { id: 1, instruction: code, params }
     };
     let requirement = "dynamixel2.packet.layout";
-    // No parameters of an instruction fit these two, so they go out as they are.
+    // No parameters fit these two instructions, so they are sent as they are.
     let codes = match code {
         0x20 | 0x8A | 0x8B => "ja40.instruction.codes", // in no table of the DYNAMIXEL document
         _ => "dynamixel2.packet.instruction.codes",
@@ -211,7 +211,7 @@ fn instruction(author: &Author<'_>, id: &str, code: u8) -> Vec<Check> {
     without.into_iter().chain(with).map(without_call).collect()
 }
 
-/// The packet alone: what is sent is bytes, not a request that a library may know.
+/// The packet without a call: the parameters are arbitrary bytes.
 fn without_call(mut check: Check) -> Check {
     if let Question::Encode { packet, .. } = &mut check.question {
         packet.call = None;
@@ -247,8 +247,8 @@ fn ids(author: Author<'_>) -> impl Iterator<Item = Group<'_>> {
     pings.chain(statuses)
 }
 
-/// Data lengths, beyond [`LENGTHS`], of the largest packets that an implementation takes: a Write
-/// with a byte less, a Write, a status packet, and a Write that stuffing makes so large.
+/// Data lengths, beyond [`LENGTHS`], around the largest packet that a subject takes: a Write one
+/// byte shorter, a Write, a status packet, and a Write that has this size only with stuffing.
 fn largest(max_packet: Option<usize>) -> Vec<usize> {
     let Some(limit) = max_packet.map(|limit| limit.min(LARGEST)) else { return Vec::new() };
     let Some(write) = limit.checked_sub(WRITE_AROUND) else { return Vec::new() };
@@ -273,7 +273,7 @@ fn lengths(author: Author<'_>, around: Vec<usize>) -> impl Iterator<Item = Group
     })
 }
 
-/// Plain data, and data that is all patterns, of this length.
+/// Data of this length: without any pattern, and with nothing but patterns.
 fn of_length(author: &Author<'_>, id: &str, length: usize) -> Vec<Check> {
     let plain = vec![0x11; length];
     let tricky: Vec<u8> = [0xFF, 0xFF, 0xFD].into_iter().cycle().take(length).collect();

@@ -1,4 +1,4 @@
-//! Packets and streams that grow from a seed. The same seed grows the same checks.
+//! Packets and streams that are generated from a seed. The same seed yields the same checks.
 
 use std::ops::Range;
 
@@ -17,27 +17,27 @@ use crate::suite::check::Check;
 use crate::suite::plan::{Family, Group};
 use crate::suite::{Author, parameters_of};
 
-/// What a case is made of.
+/// The parts of a generated case.
 #[derive(Clone, Debug)]
 struct Case {
     instruction: (&'static str, Packet),
-    /// A Write of a value between the least and the greatest of a register.
+    /// A Write of a value within a register's range.
     register: Packet,
     status: Packet,
-    /// Noise before and behind the status packet in a stream.
+    /// Noise before and after the status packet in a stream.
     noise: [Vec<u8>; 2],
-    /// Where the stream is cut, as parts of 256.
+    /// Where the stream is cut, in units of 1/256 of its length.
     cuts: Vec<u8>,
-    /// What stands before the status packet in a stream, and behind it in another.
+    /// What comes before the status packet in one stream, and after it in another.
     damage: [Damage; 2],
 }
 
-/// What is no packet, but looks like one.
+/// Something that looks like a packet but is not one.
 #[derive(Clone, Debug)]
 enum Damage {
-    /// The status packet, but for its end, as parts of 256.
+    /// The status packet without its end; the place of the cut in units of 1/256.
     Cut(u8),
-    /// A header, ID and length, and something behind.
+    /// A header, ID and length, followed by other bytes.
     FalseHeader { id: u8, length: u16, behind: Vec<u8> },
 }
 
@@ -49,7 +49,7 @@ impl Damage {
         }
     }
 
-    /// Its bytes, beside a packet of these.
+    /// Its bytes, in a stream with the given packet.
     fn bytes(&self, frame: &[u8]) -> Vec<u8> {
         match self {
             Self::Cut(end) => {
@@ -92,7 +92,7 @@ pub(super) fn family(author: Author<'_>, seed: u64, cases: u32) -> Family<'_> {
     .with_names(move || (0..cases).map(move |number| Group::new(id(number), &NAMES, Vec::new)))
 }
 
-/// What draws values; the same seed draws the same ones.
+/// The generator of values; the same seed yields the same values.
 pub(crate) fn runner(seed: u64) -> TestRunner {
     let mut bytes = [0; 32];
     for (slot, byte) in bytes.iter_mut().zip(seed.to_le_bytes()) {
@@ -128,7 +128,7 @@ fn of(author: &Author<'_>, id: &str, case: &Case) -> Vec<Check> {
     checks
 }
 
-/// The stream in chunks. A cut is a part of 256 of its length.
+/// The stream in chunks. A cut is in units of 1/256 of its length.
 fn split(stream: &[u8], cuts: &[u8]) -> Vec<Vec<u8>> {
     let mut places: Vec<_> =
         cuts.iter().map(|cut| stream.len() * usize::from(*cut) / 256).collect();
@@ -155,7 +155,7 @@ fn case(spec: &Spec) -> impl Strategy<Value = Case> + use<> {
 }
 
 fn damage() -> impl Strategy<Value = Damage> {
-    // About as long as what follows, or anything.
+    // About as long as the rest, or any length.
     let length = prop_oneof![2..24_u16, any::<u16>()];
     let header = (id(), length, vec(any::<u8>(), 0..8));
     prop_oneof![
@@ -164,7 +164,7 @@ fn damage() -> impl Strategy<Value = Damage> {
     ]
 }
 
-/// A Write to a register of any device: the ends of its range and something between.
+/// A Write to a register of any device: the ends of its range, or a value between them.
 fn register(spec: &Spec) -> impl Strategy<Value = Packet> + use<> {
     let devices = spec.devices.iter().map(|file| &file.content);
     let registers = devices.flat_map(|device| &device.registers);
@@ -182,8 +182,8 @@ fn register(spec: &Spec) -> impl Strategy<Value = Packet> + use<> {
     })
 }
 
-/// The least and the greatest value that a register may have; where another register limits it,
-/// those of its size. Where the document lists values, not all between them may be had.
+/// The smallest and the largest value of a register. If another register limits it, the limits of
+/// its size are used. If the document lists values, some values between the two are not allowed.
 fn limits(register: &Register) -> (i64, i64) {
     let (least, greatest) = register.kind.limits();
     let Some(range) = &register.range else { return (least, greatest) };
@@ -199,12 +199,12 @@ fn limits(register: &Register) -> (i64, i64) {
 
 /// Bytes among which the pattern of byte stuffing is common.
 pub(crate) fn data(size: Range<usize>) -> impl Strategy<Value = Vec<u8>> {
-    // What stands first is what a failing case is shrunk to.
+    // Shrinking prefers the first alternative.
     let byte = prop_oneof![1 => Just(0), 2 => Just(0xFD), 3 => Just(0xFF_u8), 2 => any::<u8>()];
     vec(byte, size)
 }
 
-/// Half of them below 256, where some libraries end.
+/// Half of the addresses are below 256, as some libraries support no others.
 fn address() -> impl Strategy<Value = [u8; 2]> {
     (any::<u8>(), prop_oneof![Just(0), any::<u8>()]).prop_map(|(low, high)| [low, high])
 }
@@ -214,7 +214,7 @@ fn id() -> impl Strategy<Value = u8> {
 }
 
 pub(crate) fn status() -> impl Strategy<Value = Packet> {
-    // Many libraries give no data where there is an error.
+    // Many libraries return no data if there is an error.
     let error = prop_oneof![3 => Just(0), 1 => any::<u8>()];
     (id(), error, data(0..24)).prop_map(|(id, error, params)| Packet::Status {
         id,
@@ -223,7 +223,7 @@ pub(crate) fn status() -> impl Strategy<Value = Packet> {
     })
 }
 
-/// An instruction of every kind, with its name and parameters that fit it.
+/// Any instruction, with its name and parameters that fit it.
 pub(crate) fn instruction() -> impl Strategy<Value = (&'static str, Packet)> {
     let register = || (address(), data(1..12));
     let write = |(address, data): ([u8; 2], Vec<u8>)| [&address, data.as_slice()].concat();
@@ -297,7 +297,7 @@ fn several(address: [u8; 2], size: usize, ids: &[u8], pool: &[u8], data: bool) -
     params
 }
 
-/// The rows whose ID no earlier row has: no instruction may name a device twice.
+/// Removes the rows whose ID an earlier row has: an instruction must not name a device twice.
 fn first_of_each<T>(rows: &[T], id: impl Fn(&T) -> u8 + Copy) -> impl Iterator<Item = &T> {
     rows.iter().enumerate().filter_map(move |(index, row)| {
         let earlier = rows.iter().take(index).any(|other| id(other) == id(row));

@@ -1,5 +1,5 @@
-//! The packets that the documents print, and those worked out by hand from their rules. Each
-//! yields a check an op.
+//! The test vectors: packets that the documents print, and packets that were worked out by hand
+//! from their rules. Each yields one check per op.
 
 use actucheck_spec::Spec;
 use actucheck_spec::model::{Citation, Fault, HexBytes, Outcome, Packet, Vector, VectorsFile};
@@ -10,7 +10,7 @@ use crate::suite::check::{Check, Demand, Unspecified, Way};
 use crate::suite::plan::{Family, by_stem};
 use crate::suite::{Author, of_reading};
 
-/// Bytes before the body, and behind it.
+/// Bytes before the body, and after it.
 const PREFIX: usize = 7;
 const CRC: usize = 2;
 
@@ -64,7 +64,7 @@ impl Golden<'_> {
         self.vector.source.as_ref().unwrap_or(&self.file.source)
     }
 
-    /// What the vector's result demands where `output` is right.
+    /// What the vector demands, if `output` is the right answer.
     fn demand(&self, output: Output) -> Demand {
         demand(self.author.spec, self.vector, output, Vec::new())
     }
@@ -77,7 +77,8 @@ impl Golden<'_> {
         self.check("crc", "dynamixel2.crc.value", op, demand)
     }
 
-    /// The body alone, both ways. A fast status has no stuffing, nor has INNFOS.
+    /// Stuffing and unstuffing of the body alone. Fast status packets and INNFOS frames have no
+    /// stuffing.
     fn stuffing(&self, packet: &Packet, frame: &[u8]) -> Vec<Check> {
         let plain: HexBytes = match packet {
             Packet::Instruction { instruction, params, .. } => {
@@ -134,8 +135,8 @@ impl Golden<'_> {
         )
     }
 
-    /// The frame as a stream, whole and byte by byte. What a fast status answers can't be told
-    /// from the stream; a packet that may be rejected may be missing from it.
+    /// The frame as a stream, whole and byte by byte. A stream does not say which request a fast
+    /// status packet answers, and a packet that may be rejected may be missing.
     fn streams(&self, packet: &Packet, frame: &[u8]) -> Vec<Check> {
         let open = self.vector.result == Outcome::Acceptable;
         if open || matches!(packet, Packet::FastStatus { .. }) {
@@ -170,7 +171,7 @@ impl Golden<'_> {
     }
 }
 
-/// What a vector's result demands where `output` is right, or beside it one of `others`.
+/// What the vector demands, if `output` is right and each of `others` is right too.
 pub(in crate::suite::codec) fn demand(
     spec: &Spec,
     vector: &Vector,
@@ -185,19 +186,19 @@ pub(in crate::suite::codec) fn demand(
     Demand::Record(Unspecified { question: question(spec, vector), ways })
 }
 
-/// To do as this vector has it.
+/// The behaviour that this vector describes.
 pub(in crate::suite::codec) fn way(vector: &Vector, output: Output) -> Way {
     Way { name: format!("as {}", vector.id), output }
 }
 
-/// What is open about a vector, by the errata that it depends on.
+/// What is unspecified about a vector, from the errata that it depends on.
 fn question(spec: &Spec, vector: &Vector) -> String {
     let rows = spec.errata.content.errata.iter().filter(|row| vector.errata.contains(&row.id));
     let open: Vec<_> = rows.map(|row| format!("{} ({})", row.held_right, row.id)).collect();
     format!("{}: {}", vector.id, open.join("; "))
 }
 
-/// What a fast status packet answers.
+/// The request that a fast status packet answers.
 fn asked_for(packet: &Packet) -> Option<Fast> {
     let Packet::FastStatus { blocks } = packet else {
         return None;

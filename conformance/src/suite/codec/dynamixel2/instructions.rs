@@ -1,5 +1,5 @@
-//! What the documents say of single instructions and their answers, each sentence with packets
-//! that break if it is not obeyed.
+//! Checks of single instructions and their answers: for each sentence of the documents, packets
+//! that come out wrong if the sentence is not followed.
 
 use actucheck_spec::model::{Block, Fault, Packet};
 use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, Fast};
@@ -21,9 +21,10 @@ pub(super) fn checks(author: &Author<'_>) -> Vec<Check> {
     checks
 }
 
-/// The sentence, a name, and a packet that obeys it.
+/// The requirement, a name, and a packet that follows it.
 fn packets() -> Vec<(&'static str, &'static str, Packet)> {
-    // Registers at 580 and 564 are the JA40's; those below 256 are the document's own.
+    // Registers at 580 and 564 are those of the JA40; addresses below 256 are from the DYNAMIXEL
+    // document.
     let to_all = |code, params: &[u8]| instruction(BROADCAST, code, params);
     vec![
         ("dynamixel2.packet.parameters", "read", instruction(1, 0x02, &[0x84, 0, 4, 0])),
@@ -62,7 +63,7 @@ fn packets() -> Vec<(&'static str, &'static str, Packet)> {
     ]
 }
 
-/// The same for fast status packets, each with what it answers.
+/// The same for fast status packets, each with the request that it answers.
 fn fast_packets() -> Vec<(&'static str, &'static str, Packet, Fast)> {
     let read = |size: usize, ids: &[u8]| {
         let block = |id: &u8| Block { error: 0, id: *id, data: vec![*id; size].into() };
@@ -83,8 +84,8 @@ fn fast_packets() -> Vec<(&'static str, &'static str, Packet, Fast)> {
     list
 }
 
-/// A fast status packet built and read, with the ID of one device, and with a device more than
-/// its length covers.
+/// A fast status packet that is built and read; one with another device's ID; and one for more
+/// devices than its length covers.
 fn fast_both_ways(
     author: &Author<'_>,
     requirement: &'static str,

@@ -1,11 +1,11 @@
 //! Checks of DYNAMIXEL Protocol 2.0 and its JA dialect.
 //!
-//! - golden: the packets of the documents;
-//! - exhaustive: everything where everything is little;
-//! - instructions: what is said of single instructions;
-//! - negative: each rule of the receive procedure broken;
-//! - unspecified: what the documents leave open, which is recorded;
-//! - generated: packets and streams from a seed.
+//! - golden: the test vectors;
+//! - exhaustive: every case of small sets, such as short bodies and all IDs;
+//! - instructions: single instructions and their answers;
+//! - negative: packets that break one rule of the receive procedure;
+//! - unspecified: questions that the documents leave unspecified;
+//! - generated: packets and streams that are generated from a seed.
 
 mod exhaustive;
 pub(crate) mod generated;

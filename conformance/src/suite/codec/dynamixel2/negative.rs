@@ -1,6 +1,6 @@
-//! The receive procedure with one rule broken, one rule at a time; and what comes after.
+//! Packets that break one rule of the receive procedure each, and the packets after them.
 //!
-//! What the documents leave open is not here but in `unspecified.rs`.
+//! Behaviour that the documents leave unspecified is in `unspecified.rs`.
 
 use actucheck_spec::model::Packet;
 use actucheck_spec::wire::dynamixel2::reference;
@@ -23,7 +23,7 @@ fn broken(author: &Author<'_>) -> Vec<Check> {
         for (fault, requirement, bytes) in damaged(&frame) {
             let id = format!("dynamixel2.negative.{name}.{fault}");
             checks.push(author.decoded(format!("{id}/decode"), requirement, bytes));
-            // What is left over from a damaged packet must not spoil the next one.
+            // The remains of a damaged packet must not affect the next one.
             let after = format!("{id}/decode-good-after");
             checks.push(author.decoded(after, "dynamixel2.receive.crc", frame.clone()));
         }
@@ -45,7 +45,7 @@ fn packets() -> [(&'static str, Packet); 3] {
     ]
 }
 
-/// A frame damaged in every way, each with its name and the requirement that it breaks.
+/// A frame with each kind of damage, its name, and the requirement that it breaks.
 fn damaged(frame: &[u8]) -> Vec<(String, &'static str, Vec<u8>)> {
     let mut list = Vec::new();
     let mut add = |name: String, requirement, bytes| list.push((name, requirement, bytes));
@@ -95,7 +95,7 @@ fn replaced(frame: &[u8], at: usize, byte: u8) -> Vec<u8> {
     bytes
 }
 
-/// The same bytes with the CRC that they need.
+/// The same bytes with a matching CRC.
 fn with_crc(mut frame: Vec<u8>) -> Vec<u8> {
     frame.truncate(frame.len().saturating_sub(2));
     let crc = reference::crc(&frame);
@@ -103,8 +103,8 @@ fn with_crc(mut frame: Vec<u8>) -> Vec<u8> {
     frame
 }
 
-/// Good status packets with something else around them, where both readings of the documents
-/// find them.
+/// Valid status packets with other bytes around them, where both readings of the documents find the
+/// packets.
 fn streams(author: &Author<'_>) -> Vec<Check> {
     let [good, stuffed, _] =
         packets().map(|(_, packet)| reference::encode(&packet).unwrap_or_default());

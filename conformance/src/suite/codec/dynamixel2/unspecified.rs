@@ -1,5 +1,5 @@
-//! What the DYNAMIXEL and JA40 documents leave open. What an implementation does there is
-//! recorded as its profile, not judged.
+//! Questions that the DYNAMIXEL and JA40 documents leave unspecified. The answers are not judged;
+//! they are the subject's profile.
 
 use actucheck_spec::model::{HexBytes, Packet};
 use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, Call, HEADER, STATUS};
@@ -45,7 +45,7 @@ fn status(id: u8, params: &[u8]) -> Packet {
     Packet::Status { id, error: 0, params: bytes(params) }
 }
 
-/// FF FF FD in a body without the FD that a sender has to add.
+/// FF FF FD in a body without the FD that a sender must add.
 fn bare_patterns(author: &Author<'_>) -> Vec<Check> {
     let question = "What is FF FF FD in a received body, without the FD that stuffing adds?";
     let requirement = "dynamixel2.stuffing.receive";
@@ -110,8 +110,8 @@ fn encode(author: &Author<'_>, packet: Packet) -> Question {
     Question::Encode { wire: author.wire, packet: Called { call: Call::of(&packet), packet } }
 }
 
-/// An instruction that names a device twice. A host must not send it; whether the codec beneath
-/// refuses to build it is its own affair.
+/// An instruction that names a device twice. A host must not send it; whether a codec refuses to
+/// build it is unspecified.
 fn repeated_ids(author: &Author<'_>) -> Vec<Check> {
     let cases: [(&str, u8, &[u8]); 4] = [
         ("sync-read", 0x82, &[0x44, 0x02, 0x04, 0x00, 1, 1]),
@@ -135,7 +135,7 @@ fn repeated_ids(author: &Author<'_>) -> Vec<Check> {
     cases.map(check).into()
 }
 
-/// Good packets behind one whose length can't be believed.
+/// Valid packets after a packet with a wrong length.
 fn resume_points(author: &Author<'_>) -> Vec<Check> {
     let packet = |value| reference::encode(&status(1, &[value, 0, 0, 0])).unwrap_or_default();
     let good = [packet(1), packet(2), packet(3), packet(4)].concat();
@@ -171,7 +171,7 @@ fn resume_points(author: &Author<'_>) -> Vec<Check> {
     scenarios.map(check).into()
 }
 
-/// A stream in which the search has to go on behind `what`.
+/// A stream in which the search has to continue after `what`.
 pub(super) fn resumed(author: &Author<'_>, id: String, what: &str, chunks: &[Vec<u8>]) -> Check {
     let stream = chunks.concat();
     let (anywhere, behind) =
@@ -190,7 +190,7 @@ pub(super) fn resumed(author: &Author<'_>, id: String, what: &str, chunks: &[Vec
     author.check(id, "dynamixel2.receive.resume", op, Demand::Record(ways))
 }
 
-/// A packet that breaks two rules: which is named first is nobody's rule.
+/// A packet that breaks two rules: the documents do not say which one is reported.
 fn two_faults(author: &Author<'_>) -> Vec<Check> {
     let question = |faults: &str| format!("Which fault is named of a packet with {faults}?");
     let accepted = |params: &[u8]| [("accepts it", Output::Packet(status(1, params)))];
