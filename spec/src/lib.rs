@@ -15,6 +15,7 @@ pub mod export;
 pub mod generate;
 pub mod load;
 pub mod model;
+pub mod rests;
 pub mod schema;
 pub mod wire;
 

@@ -7,7 +7,8 @@ use schemars::generate::SchemaSettings;
 use crate::export::json::Export;
 use crate::export::vectors::VectorsExport;
 use crate::model::{
-    Device, DocumentsFile, ErrataFile, Innfos, Protocol, RequirementsFile, VectorsFile,
+    Device, DocumentsFile, ErrataFile, Innfos, Protocol, RequirementsFile, SentencesFile,
+    VectorsFile,
 };
 
 /// A schema as a file.
@@ -30,6 +31,7 @@ pub fn all() -> Vec<SchemaFile> {
         source::<VectorsFile>("vectors"),
         source::<RequirementsFile>("requirements"),
         source::<ErrataFile>("errata"),
+        source::<SentencesFile>("sentences"),
         export::<Export<'_>>("spec"),
         export::<VectorsExport<'_>>("vectors"),
     ]

@@ -15,7 +15,7 @@ mod support;
 use std::collections::{BTreeMap, BTreeSet};
 
 use actucheck_spec::Spec;
-use actucheck_spec::model::{Citation, Device, Erratum, HexBytes, ProofKind, Protocol};
+use actucheck_spec::model::{Device, Erratum, HexBytes, ProofKind, Protocol};
 
 use support::document::{self, Document};
 use support::{Finding, numbers, packets, ranges, references, rows};
@@ -234,41 +234,4 @@ fn unnamed(document: &Document, device: &Device, finding: &Finding, id: &String)
     let register = device.registers.iter().find(|r| r.address == row.address)?;
     (!register.all_errata().any(|named| named == id))
         .then(|| format!("{} does not name {id}", register.name))
-}
-
-#[test]
-fn every_citation_is_a_heading_of_its_document() {
-    let spec = spec();
-    let documents = documents(&spec);
-    let mut faults: Vec<_> = citations(&spec)
-        .into_iter()
-        .filter(|citation| {
-            documents.iter().any(|(document, _)| {
-                document.id == citation.document && !document.has(&citation.section)
-            })
-        })
-        .map(|citation| format!("{citation} is no heading"))
-        .collect();
-    faults.dedup();
-    assert_none(&faults);
-}
-
-fn citations(spec: &Spec) -> Vec<&Citation> {
-    let mut all = Vec::new();
-    for file in &spec.protocols {
-        all.extend(file.content.instructions.iter().flat_map(|row| &row.source));
-    }
-    for file in &spec.devices {
-        all.extend(&file.content.source);
-        all.extend(file.content.registers.iter().flat_map(|row| &row.source));
-    }
-    for (file, vector) in spec.vectors() {
-        all.push(vector.source.as_ref().unwrap_or(&file.source));
-    }
-    for file in &spec.requirements {
-        all.extend(file.content.requirements.iter().map(|row| &row.source));
-    }
-    all.extend(spec.errata.content.errata.iter().map(|row| &row.source));
-    all.sort();
-    all
 }

@@ -1,6 +1,6 @@
 //! Everything cites a document that there is.
 
-use super::innfos;
+use super::{innfos, sentence};
 use crate::model::Citation;
 use crate::{Diagnostic, Spec};
 
@@ -70,6 +70,12 @@ fn wrong(spec: &Spec, sources: &[Citation]) -> impl Iterator<Item = String> {
 
 fn unknown(spec: &Spec, source: &Citation) -> Option<String> {
     let known = spec.document(&source.document).is_some();
+    if known && !sentence::is_section(spec, source) {
+        return Some(format!(
+            "`{}` has no section `{}`; spec/sentences lists them",
+            source.document, source.section
+        ));
+    }
     (!known).then(|| {
         let ids: Vec<_> =
             spec.documents.content.documents.iter().map(|row| row.id.as_str()).collect();

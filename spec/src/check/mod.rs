@@ -5,6 +5,7 @@ mod alarm;
 mod citation;
 mod command;
 mod crc;
+mod erratum;
 mod fixed_point;
 mod full_scale;
 mod innfos;
@@ -12,6 +13,8 @@ mod layout;
 mod overlap;
 mod reference;
 mod requirement;
+mod sentence;
+mod text;
 mod unique;
 mod value;
 mod vector;
@@ -21,7 +24,7 @@ use crate::{Diagnostic, Spec};
 /// Every defect that the rules find, in the order of the rules.
 #[must_use]
 pub fn all(spec: &Spec) -> Vec<Diagnostic> {
-    let rules: [fn(&Spec) -> Vec<Diagnostic>; 13] = [
+    let rules: [fn(&Spec) -> Vec<Diagnostic>; 16] = [
         citation::check,
         unique::check,
         reference::check,
@@ -35,6 +38,9 @@ pub fn all(spec: &Spec) -> Vec<Diagnostic> {
         full_scale::check,
         vector::check,
         requirement::check,
+        erratum::check,
+        sentence::check,
+        text::check,
     ];
     rules.iter().flat_map(|rule| rule(spec)).collect()
 }

@@ -2,7 +2,7 @@
 
 use super::innfos;
 use crate::load::File;
-use crate::model::{Area, Bound, Device};
+use crate::model::{Area, Bound, Condition, Device};
 use crate::{Diagnostic, Spec};
 
 pub(super) fn check(spec: &Spec) -> Vec<Diagnostic> {
@@ -76,8 +76,12 @@ fn devices(spec: &Spec, defects: &mut Vec<Diagnostic>) {
         backup(file, defects);
         for (index, register) in device.registers.iter().enumerate() {
             let node = format!("registers[{index}]");
-            let unknown = unknown_erratum(spec, &register.errata);
+            let unknown = unknown_erratum(spec, register.all_errata());
             defects.extend(unknown.map(|text| file.diagnostic(&format!("{node}.errata"), text)));
+            for (place, meaning) in register.meanings.iter().enumerate() {
+                let node = format!("{node}.meanings[{place}].when");
+                defects.extend(condition(file, &node, &meaning.when));
+            }
             let Some(range) = &register.range else {
                 continue;
             };
@@ -105,6 +109,9 @@ fn alarms(file: &File<Device>, defects: &mut Vec<Diagnostic>) {
             let message = "an alarm has `below`, `above` or both".to_owned();
             defects.push(file.diagnostic(&format!("alarms[{index}]"), message));
         }
+        if let Some(when) = &alarm.when {
+            defects.extend(condition(file, &format!("alarms[{index}].when"), when));
+        }
         let names = [
             ("register", Some(&alarm.register)),
             ("below", alarm.below.as_ref()),
@@ -117,6 +124,18 @@ fn alarms(file: &File<Device>, defects: &mut Vec<Diagnostic>) {
             }
         }
     }
+}
+
+/// What a condition is on exists.
+fn condition(file: &File<Device>, node: &str, condition: &Condition) -> Option<Diagnostic> {
+    let device = &file.content;
+    let Some(register) = device.register(&condition.register) else {
+        let message = no_register(device, &condition.register);
+        return Some(file.diagnostic(&format!("{node}.register"), message));
+    };
+    let name = condition.bits.as_ref().filter(|name| register.bit_field(name).is_none())?;
+    let message = format!("{} has no bits `{name}`", register.name);
+    Some(file.diagnostic(&format!("{node}.bits"), message))
 }
 
 fn backup(file: &File<Device>, defects: &mut Vec<Diagnostic>) {
@@ -153,8 +172,11 @@ fn vectors(spec: &Spec, defects: &mut Vec<Diagnostic>) {
     }
 }
 
-fn unknown_erratum(spec: &Spec, ids: &[String]) -> impl Iterator<Item = String> {
-    ids.iter()
+fn unknown_erratum<'a>(
+    spec: &Spec,
+    ids: impl IntoIterator<Item = &'a String>,
+) -> impl Iterator<Item = String> {
+    ids.into_iter()
         .filter(|id| spec.erratum(id).is_none())
         .map(|id| format!("unknown erratum `{id}`; errata.yaml has no such row"))
 }

@@ -12,7 +12,7 @@ use crate::Diagnostic;
 use crate::check;
 use crate::model::{
     Citation, Device, Document, DocumentsFile, ErrataFile, Erratum, Innfos, Protocol, Range,
-    Requirement, RequirementsFile, Status, Vector, VectorsFile,
+    Requirement, RequirementsFile, SentencesFile, Status, Vector, VectorsFile,
 };
 
 /// The text of one YAML file.
@@ -26,8 +26,8 @@ pub struct Source {
 
 impl Source {
     /// A source from its parts. `path` is relative to the spec folder and tells what the file
-    /// is: `documents.yaml`, `errata.yaml`, or a file in `protocols`, `devices`, `vectors` or
-    /// `requirements`.
+    /// is: `documents.yaml`, `errata.yaml`, or a file in `protocols`, `devices`, `vectors`,
+    /// `requirements` or `sentences`.
     #[must_use]
     pub fn new(path: &str, text: &str) -> Self {
         Self { path: format!("spec/{path}"), text: text.to_owned() }
@@ -111,6 +111,8 @@ pub struct Spec {
     pub requirements: Vec<File<RequirementsFile>>,
     /// The documents' defects.
     pub errata: File<ErrataFile>,
+    /// What became of each sentence, a file a document.
+    pub sentences: Vec<File<SentencesFile>>,
 }
 
 impl Spec {
@@ -168,9 +170,19 @@ impl Spec {
         let vectors = reader.folder("vectors/");
         let requirements = reader.folder("requirements/");
         let errata = reader.one("errata.yaml");
+        let sentences = reader.folder("sentences/");
         match (documents, innfos, errata) {
             (Some(documents), Some(innfos), Some(errata)) if reader.defects.is_empty() => {
-                Ok(Self { documents, protocols, innfos, devices, vectors, requirements, errata })
+                Ok(Self {
+                    documents,
+                    protocols,
+                    innfos,
+                    devices,
+                    vectors,
+                    requirements,
+                    errata,
+                    sentences,
+                })
             }
             _ => Err(reader.defects),
         }
@@ -220,6 +232,12 @@ impl Spec {
     pub fn settles(&self, range: &Range) -> bool {
         let open = |id: &String| self.erratum(id).is_some_and(|row| row.status == Status::Open);
         !range.errata.iter().any(open)
+    }
+
+    /// What became of each sentence of a document, if that was written down.
+    #[must_use]
+    pub fn sentences_of(&self, document: &str) -> Option<&SentencesFile> {
+        self.sentences.iter().map(|file| &file.content).find(|file| file.document == document)
     }
 
     /// Every vector with the file it stands in, in the order of files and of rows.

@@ -10,6 +10,7 @@ mod innfos;
 mod packet;
 mod protocol;
 mod requirement;
+mod sentence;
 mod vector;
 
 pub use bytes::HexBytes;
@@ -30,4 +31,5 @@ pub use protocol::{
     StatusFormat, Stuffing,
 };
 pub use requirement::{CheckedBy, Level, Requirement, RequirementsFile, Role};
+pub use sentence::{NO_DEMAND, Section, Sentence, SentencesFile};
 pub use vector::{Fault, Outcome, Vector, VectorsFile};

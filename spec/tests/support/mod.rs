@@ -1,6 +1,7 @@
 //! Reads the documents themselves, to compare them with what the YAML says of them.
 
 pub(crate) mod document;
+mod folder;
 pub(crate) mod numbers;
 pub(crate) mod packets;
 pub(crate) mod ranges;

@@ -1,0 +1,104 @@
+//! The numbers that a requirement's text names are those of the data: what a register `accepts`,
+//! the codes of instructions, and the commands of INNFOS.
+
+use crate::model::{Bound, Citation, Device, Range, Requirement};
+use crate::{Diagnostic, Spec};
+
+pub(super) fn check(spec: &Spec) -> Vec<Diagnostic> {
+    let mut defects = Vec::new();
+    for file in &spec.requirements {
+        for (index, row) in file.content.requirements.iter().enumerate() {
+            let about = |device: &&Device| cites(&device.source, row);
+            let devices = spec.devices.iter().map(|file| &file.content).filter(about);
+            let messages = devices.filter_map(|device| accepts(device, row));
+            let messages = messages.chain(codes(spec, row)).chain(commands(spec, row));
+            let node = format!("requirements[{index}].text");
+            defects.extend(
+                messages.map(|message| file.diagnostic(&node, format!("{}: {message}", row.id))),
+            );
+        }
+    }
+    defects
+}
+
+/// Whether this stands in the requirement's document.
+fn cites(source: &[Citation], row: &Requirement) -> bool {
+    source.iter().any(|citation| citation.document == row.source.document)
+}
+
+/// `Temperature Limit accepts 0 to 100`: of the register whose name stands right before.
+fn accepts(device: &Device, row: &Requirement) -> Option<String> {
+    let (before, behind) = row.text.split_once(" accepts ")?;
+    let register = device
+        .registers
+        .iter()
+        .filter(|register| before.ends_with(&register.name))
+        .max_by_key(|register| register.name.len())?;
+    let said = numbers(behind);
+    let right = |range: &Range| limits(range) == said;
+    let meanings = register.meanings.iter().filter_map(|meaning| meaning.range.as_ref());
+    let mut ranges = register.range.iter().chain(meanings);
+    // Bounds that are other registers are named, not numbered.
+    if said.is_empty() || ranges.any(right) {
+        return None;
+    }
+    let held = register.range.as_ref().map_or_else(|| "any value".to_owned(), Range::to_string);
+    Some(format!("{} is {held} in {}", register.name, device.device))
+}
+
+/// The numbers that a text begins with, `0 to 1,000` or `4 and 17`.
+fn numbers(text: &str) -> Vec<i64> {
+    let mut numbers = Vec::new();
+    for word in text.split_whitespace().filter(|word| !["to", "and"].contains(word)) {
+        let bare = word.trim_end_matches(['.', ':', ',', ';']);
+        let Ok(number) = bare.replace(',', "").parse() else { break };
+        numbers.push(number);
+        if bare.len() < word.len() {
+            break;
+        }
+    }
+    numbers
+}
+
+fn limits(range: &Range) -> Vec<i64> {
+    let number = |bound: &Option<Bound>| match bound {
+        Some(Bound::Value(value)) => Some(*value),
+        _ => None,
+    };
+    let ends = [number(&range.min), number(&range.max)].into_iter().flatten();
+    ends.chain(range.one_of.iter().flatten().copied()).collect()
+}
+
+/// `Fast Sync Read 0x8A`: an instruction's name with a code behind it.
+fn codes(spec: &Spec, row: &Requirement) -> Vec<String> {
+    let mut wrong = Vec::new();
+    for (at, _) in row.text.match_indices(" 0x") {
+        let (before, behind) = row.text.split_at(at);
+        let digits = behind.get(3..5).unwrap_or_default();
+        let Ok(code) = u8::from_str_radix(digits, 16) else { continue };
+        let instructions = spec.protocols.iter().flat_map(|file| &file.content.instructions);
+        let named = instructions
+            .filter(|instruction| before.ends_with(&instruction.name))
+            .max_by_key(|instruction| instruction.name.len());
+        if let Some(named) = named.filter(|named| named.code != code) {
+            wrong.push(format!("{} has the code {:#04X}", named.name, named.code));
+        }
+    }
+    wrong
+}
+
+/// `0x0D` in a requirement of INNFOS.
+fn commands(spec: &Spec, row: &Requirement) -> Vec<String> {
+    let innfos = &spec.innfos.content;
+    if !cites(&innfos.framing.source, row) {
+        return Vec::new();
+    }
+    let codes = row
+        .text
+        .match_indices("0x")
+        .filter_map(|(at, _)| u8::from_str_radix(row.text.get(at + 2..at + 4)?, 16).ok());
+    codes
+        .filter(|code| innfos.command(*code).is_none())
+        .map(|code| format!("there is no command {code:#04X}"))
+        .collect()
+}
