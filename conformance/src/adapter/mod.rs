@@ -1,6 +1,7 @@
 //! The adapter protocol: its requests and replies, the adapter's process, and the check of an
 //! adapter.
 
+pub(crate) mod conversation;
 pub mod lint;
 mod process;
 mod requests;
@@ -8,10 +9,8 @@ mod trace;
 
 use std::time::Duration;
 
-pub(crate) use process::{Line, Running};
 pub use requests::{
-    Called, Hello, Implementation, Limits, Output, Question, Rejection, Reply, Request, Skip,
-    VERSION, Wire,
+    Called, Hello, Implementation, Limits, Output, Question, Rejection, Request, VERSION, Wire,
 };
 pub use trace::Trace;
 

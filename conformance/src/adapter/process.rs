@@ -141,9 +141,8 @@ impl Running {
         })
     }
 
-    /// Sends a last line and gives the adapter a moment to end by itself.
-    pub(crate) fn farewell(&mut self, line: &[u8]) {
-        self.send(line);
+    /// Writes what is still to be written, and gives the adapter a moment to end itself.
+    pub(super) fn farewell(&mut self) {
         let (child, pipes) = (&mut self.child, &mut self.pipes);
         // An adapter that does not end is killed.
         let _ = self.runtime.block_on(async {

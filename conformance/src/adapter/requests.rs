@@ -223,19 +223,6 @@ pub struct Limits {
     pub max_packet: Option<usize>,
 }
 
-/// A reply as it is received over the pipe. Unknown fields are ignored.
-#[derive(Clone, Debug, Deserialize)]
-pub struct Reply {
-    /// The id of the request.
-    pub id: Option<u64>,
-    /// The result.
-    pub ok: Option<Value>,
-    /// Why the bytes or the packet are rejected.
-    pub err: Option<Rejection>,
-    /// Why the request was skipped.
-    pub skip: Option<Skip>,
-}
-
 /// Why bytes or a packet are rejected.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Rejection {
@@ -244,14 +231,6 @@ pub struct Rejection {
     /// An explanation in words.
     #[serde(default)]
     pub detail: String,
-}
-
-/// Why a request was skipped.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
-pub struct Skip {
-    /// An explanation in words.
-    #[serde(default)]
-    pub reason: String,
 }
 
 /// The result of a successful op.

@@ -58,7 +58,9 @@ fn garbage_is_an_adapter_fault() {
 fn a_reply_to_another_request_is_an_adapter_fault() {
     let run = answering(r#"printf '{"id":999999,"ok":{"crc":1}}\n'"#);
     assert_eq!(run.exit(), 3);
-    assert!(run.detail("adapter-fault").starts_with("a reply to request 999999, not "));
+    assert!(
+        run.detail("adapter-fault").starts_with("a reply to request 999999, which was not sent")
+    );
 }
 
 #[test]
@@ -66,6 +68,22 @@ fn a_reply_with_ok_and_err_is_an_adapter_fault() {
     let answer = r#"printf '{"id":%s,"ok":{"crc":1},"err":{"class":"crc"}}\n' "$id""#;
     assert_eq!(answering(answer).total("pass"), 0);
     assert_eq!(answering(answer).exit(), 3);
+}
+
+#[test]
+fn a_wrong_reply_to_the_right_request_costs_that_one_alone() {
+    for reply in [r#""err":{"class":"no-such-class"}"#, r#""ok":{"crc":"much"}"#, r#""none":1"#] {
+        let run = answering(&format!(r#"printf '{{"id":%s,{reply}}}\n' "$id""#));
+        let faults = run.total("adapter-fault");
+        assert_eq!((run.exit(), faults), (3, run.sum()), "{}", run.report["totals"]);
+    }
+}
+
+#[test]
+fn an_empty_line_is_called_one() {
+    let run = answering("echo");
+    assert_eq!(run.exit(), 3);
+    assert!(run.detail("adapter-fault").starts_with("an empty line"), "{}", run.report);
 }
 
 #[test]

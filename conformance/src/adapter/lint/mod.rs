@@ -10,6 +10,7 @@ mod talk;
 
 use std::fmt;
 
+pub use super::conversation::Said;
 use crate::adapter::Hello;
 use crate::adapter::Settings;
 use crate::suite::plan::Plan;
@@ -46,15 +47,6 @@ impl Problem {
     fn ending(what: impl fmt::Display, mend: impl Into<String>) -> Self {
         Self { ends: true, ..Self::new(what, mend) }
     }
-}
-
-/// An exchanged line.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Said {
-    /// Whether the adapter sent it; otherwise the suite did.
-    pub by_adapter: bool,
-    /// The line, without its end.
-    pub line: String,
 }
 
 /// The results of all points.

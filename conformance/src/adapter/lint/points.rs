@@ -5,10 +5,11 @@ use std::ops::ControlFlow;
 use std::time::Duration;
 
 use super::example::Example;
-use super::talk::{Answer, Heard, Talk, ended};
+use super::talk::{Answer, ONLY_REPLIES, TOO_LONG, Talk};
 use super::{Point, Problem, Report, shape};
-use crate::adapter::Settings;
-use crate::adapter::{Hello, Request, VERSION};
+use crate::adapter::conversation::ended;
+use crate::adapter::process::Line;
+use crate::adapter::{Hello, Request, Settings, VERSION};
 
 /// Size of a line, in bytes, that overflows any usual fixed buffer.
 const LONG: usize = 70_000;
@@ -236,14 +237,15 @@ fn another(command: &[String], settings: &Settings, hello: &Hello) -> Found {
 }
 
 fn silence(talk: &mut Talk) -> Found {
-    match talk.hear(QUIET)? {
-        Heard::Nothing => Ok(String::new()),
-        Heard::Line(_) => Err(Problem::ending(
+    match talk.hear(QUIET) {
+        None => Ok(String::new()),
+        Some(Line::Text(_)) => Err(Problem::ending(
             "it wrote a line that nobody asked for",
             "write nothing but replies to standard output; messages go to standard error",
         )),
-        Heard::End(status) => {
-            Err(Problem::ending(format!("it {}", ended(status)), "end at `bye` only"))
+        Some(Line::TooLong) => Err(Problem::ending(TOO_LONG, ONLY_REPLIES)),
+        Some(Line::End) => {
+            Err(Problem::ending(format!("it {}", ended(talk.end())), "end at `bye` only"))
         }
     }
 }
@@ -251,11 +253,13 @@ fn silence(talk: &mut Talk) -> Found {
 fn bye(talk: &mut Talk) -> Found {
     talk.send(r#"{"op":"bye"}"#);
     let mend = "end the program at `bye`, without a reply";
-    match talk.hear(talk.limit)? {
-        Heard::End(Some(status)) if status.success() => Ok(String::new()),
-        Heard::End(Some(status)) => Ok(format!("with {status}")),
-        Heard::End(None) => Err(Problem::new("it closed its output, but runs on", mend)),
-        Heard::Line(_) => Err(Problem::new("it replied", mend)),
-        Heard::Nothing => Err(Problem::new("it runs on", mend)),
+    match talk.hear(talk.limit) {
+        Some(Line::End) => match talk.end() {
+            Some(status) if status.success() => Ok(String::new()),
+            Some(status) => Ok(format!("with {status}")),
+            None => Err(Problem::new("it closed its output, but runs on", mend)),
+        },
+        Some(Line::Text(_) | Line::TooLong) => Err(Problem::new("it replied", mend)),
+        None => Err(Problem::new("it runs on", mend)),
     }
 }

@@ -1,0 +1,221 @@
+//! A conversation with an adapter: numbered requests, and the replies to them in any order.
+
+use std::collections::BTreeSet;
+use std::io;
+use std::process::ExitStatus;
+use std::time::Duration;
+
+use serde::Deserialize;
+use serde_json::Value;
+use thiserror::Error;
+
+use super::process::{Line, Running};
+use super::{Rejection, Request, Settings};
+
+/// A conversation with a running adapter. Dropping it kills the process.
+#[derive(Debug)]
+pub(crate) struct Conversation {
+    running: Running,
+    next_id: u64,
+    /// Requests without a reply so far.
+    outstanding: BTreeSet<u64>,
+    /// The lines exchanged since they were last taken, if they are kept.
+    said: Option<Vec<Said>>,
+}
+
+/// A line that was exchanged.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Said {
+    /// Whether the adapter wrote the line, not the suite.
+    pub by_adapter: bool,
+    /// The line, without its end.
+    pub line: String,
+}
+
+/// The content of a reply.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Reply {
+    /// The result.
+    Ok(Value),
+    /// The bytes or the packet are rejected.
+    Err(Rejection),
+    /// The request was skipped, with the reason if there is one.
+    Skip(Option<String>),
+}
+
+/// What is wrong with the content of a reply whose request is known.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub(crate) enum Malformed {
+    /// `err` is not an object with a known class.
+    #[error("`err` is wrong: {0}")]
+    Err(String),
+    /// It has no content.
+    #[error("the reply has none of `ok`, `err` and `skip`")]
+    Nothing,
+    /// It has several contents.
+    #[error("the reply has more than one of `ok`, `err` and `skip`")]
+    Several,
+}
+
+/// Why no later reply can be trusted.
+#[derive(Debug, Error)]
+pub(crate) enum Lost {
+    /// Nothing came in time.
+    #[error("no answer within {} s", .0.as_secs_f32())]
+    Silent(Duration),
+    /// The adapter ended, or closed its output.
+    #[error("the adapter {}", ended(*.0))]
+    Ended(Option<ExitStatus>),
+    /// A line is longer than allowed.
+    #[error("a line longer than 16 MiB")]
+    TooLong,
+    /// A line is not a JSON object.
+    #[error("{error}: {line}")]
+    NoObject {
+        /// What is wrong with it.
+        error: String,
+        /// Its beginning.
+        line: String,
+    },
+    /// A reply has no id.
+    #[error("a reply without an id: {0}")]
+    NoId(String),
+    /// A request is replied to a second time.
+    #[error("a reply to request {0}, not the first one")]
+    Again(u64),
+    /// The id is of no request.
+    #[error("a reply to request {0}, which was not sent")]
+    NotSent(u64),
+}
+
+impl Conversation {
+    /// Starts `command`, a program and its arguments.
+    pub(crate) fn start(command: &[String], settings: &Settings) -> io::Result<Self> {
+        let running = Running::start(command, settings)?;
+        Ok(Self { running, next_id: 0, outstanding: BTreeSet::new(), said: None })
+    }
+
+    /// Keeps the lines that are exchanged from now on.
+    pub(crate) fn keep_lines(&mut self) {
+        self.said.get_or_insert_default();
+    }
+
+    /// Takes the lines that were exchanged and kept.
+    pub(crate) fn take_lines(&mut self) -> Vec<Said> {
+        self.said.as_mut().map(std::mem::take).unwrap_or_default()
+    }
+
+    /// Sends a request. Returns its id.
+    pub(crate) fn send(&mut self, request: &Request<'_>) -> u64 {
+        // Every request has string keys only, so it can be written as JSON.
+        self.send_text(&serde_json::to_string(request).unwrap_or_default())
+    }
+
+    /// Adds an id to a request, which is a JSON object, and sends it. Returns the id.
+    pub(crate) fn send_text(&mut self, request: &str) -> u64 {
+        let id = self.next_id;
+        self.next_id += 1;
+        self.outstanding.insert(id);
+        let fields = request.strip_prefix('{').unwrap_or(request);
+        let line = format!("{{\"id\":{id},{fields}");
+        self.running.send(line.as_bytes());
+        if let Some(said) = &mut self.said {
+            said.push(Said { by_adapter: false, line });
+        }
+        id
+    }
+
+    /// Waits for a reply to any outstanding request. Returns the request's id and the reply.
+    pub(crate) fn receive(
+        &mut self,
+        limit: Duration,
+    ) -> Result<(u64, Result<Reply, Malformed>), Lost> {
+        match self.hear(limit) {
+            Some(Line::Text(line)) => self.read(&line),
+            Some(Line::TooLong) => Err(Lost::TooLong),
+            Some(Line::End) => Err(Lost::Ended(self.running.exit_status())),
+            None => Err(Lost::Silent(limit)),
+        }
+    }
+
+    /// Waits for a line, whatever is in it; `None` if none came in time.
+    pub(crate) fn hear(&mut self, limit: Duration) -> Option<Line> {
+        let heard = self.running.receive(limit);
+        if let (Some(Line::Text(line)), Some(said)) = (&heard, &mut self.said) {
+            let line = String::from_utf8_lossy(line).into_owned();
+            said.push(Said { by_adapter: true, line });
+        }
+        heard
+    }
+
+    /// How the adapter ended, if it ends within a moment.
+    pub(crate) fn exit_status(&mut self) -> Option<ExitStatus> {
+        self.running.exit_status()
+    }
+
+    /// The last lines that the adapter logged.
+    pub(crate) fn log(&self) -> String {
+        self.running.log()
+    }
+
+    /// Sends `bye` and gives the adapter a moment to end itself.
+    pub(crate) fn farewell(&mut self) {
+        self.send(&Request::Bye);
+        self.running.farewell();
+    }
+
+    /// Reads a reply, and strikes its request from the outstanding ones.
+    fn read(&mut self, line: &[u8]) -> Result<(u64, Result<Reply, Malformed>), Lost> {
+        /// Fields that the adapter protocol does not have are ignored.
+        #[derive(Deserialize)]
+        struct Fields {
+            id: Option<Value>,
+            ok: Option<Value>,
+            err: Option<Value>,
+            skip: Option<Value>,
+        }
+        let no_object = |error| Lost::NoObject { error, line: shown(line) };
+        match line.trim_ascii_start().first() {
+            None => return Err(no_object("an empty line".to_owned())),
+            // Serde would read the fields out of a list, too.
+            Some(b'[') => return Err(no_object("a list".to_owned())),
+            Some(_) => {}
+        }
+        let fields: Fields =
+            serde_json::from_slice(line).map_err(|error| no_object(error.to_string()))?;
+        let id = fields.id.as_ref().and_then(Value::as_u64);
+        let id = id.ok_or_else(|| Lost::NoId(shown(line)))?;
+        if !self.outstanding.remove(&id) {
+            return Err(if id < self.next_id { Lost::Again(id) } else { Lost::NotSent(id) });
+        }
+        let reply = match (fields.ok, fields.err, fields.skip) {
+            (Some(ok), None, None) => Ok(Reply::Ok(ok)),
+            (None, Some(err), None) => serde_json::from_value(err)
+                .map(Reply::Err)
+                .map_err(|error| Malformed::Err(error.to_string())),
+            (None, None, Some(skip)) => {
+                let reason = skip.get("reason").and_then(Value::as_str);
+                Ok(Reply::Skip(reason.map(str::to_owned)))
+            }
+            (None, None, None) => Err(Malformed::Nothing),
+            _ => Err(Malformed::Several),
+        };
+        Ok((id, reply))
+    }
+}
+
+/// How an adapter ended.
+pub(crate) fn ended(status: Option<ExitStatus>) -> String {
+    status.map_or_else(
+        || "closed its standard output".to_owned(),
+        |status| format!("ended with {status}"),
+    )
+}
+
+/// The beginning of a line, for a message.
+fn shown(line: &[u8]) -> String {
+    const SHOWN: usize = 60;
+    let text: String = String::from_utf8_lossy(line).chars().take(SHOWN).collect();
+    let dots = if line.len() > SHOWN { "…" } else { "" };
+    format!("`{text}{dots}`")
+}

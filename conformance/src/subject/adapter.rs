@@ -1,0 +1,264 @@
+//! A library behind an adapter, which is a child process. Every question ends within its time
+//! limit, and an adapter that fails is restarted.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::io;
+use std::time::Duration;
+
+use serde_json::Value;
+use thiserror::Error;
+
+use super::{Answer, Questions, Subject};
+use crate::adapter::conversation::{Conversation, Lost, Malformed, Reply};
+use crate::adapter::{Hello, Output, Question, Request, Settings, VERSION};
+
+/// The maximum number of outstanding questions, even if the adapter offers more.
+const MAX_IN_FLIGHT: usize = 256;
+
+/// Why an adapter could not be started.
+#[derive(Debug, Error)]
+pub enum StartError {
+    /// There is no such program, or it may not be run.
+    #[error("cannot run `{command}`: {error}; give the adapter's command after `--`")]
+    Spawn {
+        /// The program.
+        command: String,
+        /// What the system says.
+        error: io::Error,
+    },
+    /// It does not answer `hello` correctly.
+    #[error("the adapter `{command}` {problem}{log}")]
+    Hello {
+        /// The program.
+        command: String,
+        /// What it did.
+        problem: String,
+        /// The lines that it logged.
+        log: String,
+    },
+}
+
+/// A library behind an adapter.
+#[derive(Debug)]
+pub struct Process {
+    command: Vec<String>,
+    settings: Settings,
+    hello: Hello,
+    /// How many questions may be outstanding.
+    at_once: usize,
+    conversation: Option<Conversation>,
+    restarts: u32,
+    /// The last lines of the previous process' log.
+    last_log: String,
+}
+
+impl Process {
+    /// Starts `command`, a program and its arguments, and waits for its `hello`.
+    ///
+    /// # Errors
+    /// If it can't be run, or does not answer `hello` correctly and in time.
+    pub fn start(command: &[String], settings: Settings) -> Result<Self, StartError> {
+        let (conversation, hello) = start(command, &settings)?;
+        Ok(Self {
+            command: command.to_vec(),
+            settings,
+            at_once: hello.max_in_flight.clamp(1, MAX_IN_FLIGHT),
+            hello,
+            conversation: Some(conversation),
+            restarts: 0,
+            last_log: String::new(),
+        })
+    }
+
+    /// The conversation with the adapter, which is restarted if necessary and allowed.
+    fn conversation(&mut self) -> Result<&mut Conversation, String> {
+        if self.conversation.is_none() {
+            let most = self.settings.restarts;
+            if self.restarts >= most {
+                return Err(format!("the adapter failed {} times", most.saturating_add(1)));
+            }
+            self.restarts += 1;
+            match start(&self.command, &self.settings) {
+                Ok((conversation, _)) => self.conversation = Some(conversation),
+                Err(error) => {
+                    self.restarts = most;
+                    return Err(format!("the adapter could not be restarted: {error}"));
+                }
+            }
+        }
+        self.conversation.as_mut().ok_or_else(|| "the adapter is not running".to_owned())
+    }
+
+    /// Sends a request and waits for the answer, whose `ok` is read with `read`.
+    fn say(
+        &mut self,
+        request: &Request<'_>,
+        read: impl FnOnce(Value) -> Result<Output, serde_json::Error>,
+    ) -> Answer {
+        let limit = self.settings.timeouts.request;
+        let conversation = match self.conversation() {
+            Ok(conversation) => conversation,
+            Err(reason) => return Answer::NotAsked(reason),
+        };
+        conversation.send(request);
+        match conversation.receive(limit) {
+            Ok((_, reply)) => answer(reply, read),
+            Err(lost) => {
+                self.end();
+                lost.into()
+            }
+        }
+    }
+
+    /// Keeps as many questions outstanding as the adapter takes, until none is left or the adapter
+    /// fails. If it fails among several, it is unknown which one is to blame: they are asked again
+    /// one by one, and the caller goes on in the same way.
+    fn ask_together(&mut self, questions: &mut dyn Questions) {
+        let limit = self.settings.timeouts.request;
+        // The number of each outstanding question by the id of its request.
+        let mut outstanding = BTreeMap::new();
+        loop {
+            while outstanding.len() < self.at_once
+                && let Some(number) = questions.next()
+            {
+                let Some(question) = questions.question(number) else { continue };
+                match self.conversation() {
+                    Ok(conversation) => {
+                        let id = conversation.send(&Request::Ask(question));
+                        outstanding.insert(id, number);
+                    }
+                    Err(reason) => questions.answered(number, Answer::NotAsked(reason)),
+                }
+            }
+            if outstanding.is_empty() {
+                return;
+            }
+            // The time limit starts again with each reply: it is for the question that the adapter
+            // works on.
+            let Some(conversation) = &mut self.conversation else { break };
+            let Ok((id, reply)) = conversation.receive(limit) else { break };
+            let Some(number) = outstanding.remove(&id) else { continue };
+            let Some(question) = questions.question(number) else { continue };
+            let answer = answer(reply, |ok| Output::read(question, ok));
+            questions.answered(number, answer);
+        }
+        self.end();
+        self.at_once = 1;
+        for number in outstanding.into_values() {
+            let Some(question) = questions.question(number) else { continue };
+            let answer = self.ask(question);
+            questions.answered(number, answer);
+        }
+    }
+
+    fn end(&mut self) {
+        if let Some(conversation) = self.conversation.take() {
+            self.last_log = conversation.log();
+        }
+    }
+}
+
+impl Subject for Process {
+    fn hello(&self) -> &Hello {
+        &self.hello
+    }
+
+    fn ask(&mut self, question: &Question) -> Answer {
+        self.say(&Request::Ask(question), |ok| Output::read(question, ok))
+    }
+
+    fn ask_invented(&mut self) -> Answer {
+        self.say(&Request::Invented, |_| Ok(Output::Packets(Vec::new())))
+    }
+
+    fn ask_all(&mut self, questions: &mut dyn Questions) {
+        if self.at_once > 1 {
+            self.ask_together(questions);
+        }
+        while let Some(number) = questions.next() {
+            let Some(question) = questions.question(number) else { continue };
+            let answer = self.ask(question);
+            questions.answered(number, answer);
+        }
+    }
+
+    fn log(&self) -> String {
+        self.conversation.as_ref().map_or_else(|| self.last_log.clone(), Conversation::log)
+    }
+}
+
+impl Drop for Process {
+    fn drop(&mut self) {
+        if let Some(conversation) = &mut self.conversation {
+            conversation.farewell();
+        }
+    }
+}
+
+fn start(command: &[String], settings: &Settings) -> Result<(Conversation, Hello), StartError> {
+    let name = command.join(" ");
+    let mut conversation = Conversation::start(command, settings)
+        .map_err(|error| StartError::Spawn { command: name.clone(), error })?;
+    match greet(&mut conversation, settings.timeouts.start) {
+        Ok(hello) => Ok((conversation, hello)),
+        Err(problem) => {
+            let mut log = String::new();
+            for line in conversation.log().lines() {
+                // Writing to a string can't fail.
+                let _ = write!(log, "\n  {line}");
+            }
+            Err(StartError::Hello { command: name, problem, log })
+        }
+    }
+}
+
+/// Sends `hello`. The error says what the adapter did wrong.
+fn greet(conversation: &mut Conversation, limit: Duration) -> Result<Hello, String> {
+    conversation.send(&Request::Hello { protocol: &[VERSION] });
+    let (_, reply) = conversation.receive(limit).map_err(|lost| match lost {
+        Lost::Silent(_) => format!(
+            "did not say hello within {} s; --start-timeout gives it more time",
+            limit.as_secs_f32()
+        ),
+        Lost::Ended(_) => format!("ended before it said hello: {lost}"),
+        lost => format!("answered hello wrongly: {lost}"),
+    })?;
+    let Ok(Reply::Ok(object)) = reply else {
+        return Err("did not answer hello with `ok`".to_owned());
+    };
+    let hello: Hello = serde_json::from_value(object)
+        .map_err(|error| format!("answered hello wrongly: {error}"))?;
+    if hello.protocol != VERSION {
+        return Err(format!(
+            "speaks version {} of the adapter protocol, not {VERSION}",
+            hello.protocol
+        ));
+    }
+    Ok(hello)
+}
+
+impl From<Lost> for Answer {
+    fn from(lost: Lost) -> Self {
+        let detail = lost.to_string();
+        match lost {
+            Lost::Silent(_) => Self::TimedOut(detail),
+            Lost::Ended(_) => Self::Crashed(detail),
+            _ => Self::Faulty(detail),
+        }
+    }
+}
+
+/// The answer that a reply is, whose `ok` is read with `read`.
+fn answer(
+    reply: Result<Reply, Malformed>,
+    read: impl FnOnce(Value) -> Result<Output, serde_json::Error>,
+) -> Answer {
+    match reply {
+        Ok(Reply::Ok(ok)) => read(ok)
+            .map_or_else(|error| Answer::Faulty(format!("a wrong `ok`: {error}")), Answer::Ok),
+        Ok(Reply::Err(rejection)) => Answer::Rejected(rejection),
+        Ok(Reply::Skip(reason)) => Answer::Skipped(reason.unwrap_or_default()),
+        Err(malformed) => Answer::Faulty(malformed.to_string()),
+    }
+}
