@@ -74,7 +74,13 @@ impl Verdict {
     /// Whether it is a failure, or the answer could not be judged.
     #[must_use]
     pub const fn is_wrong(self) -> bool {
-        !matches!(self, Self::Pass | Self::Warn | Self::Recorded | Self::Skip)
+        !self.is_fine() && !matches!(self, Self::Warn)
+    }
+
+    /// Whether there is nothing to look into: it is as demanded, or there was nothing to judge.
+    #[must_use]
+    pub const fn is_fine(self) -> bool {
+        matches!(self, Self::Pass | Self::Recorded | Self::Skip)
     }
 
     /// Whether an expected-failures file may excuse it.
@@ -183,19 +189,37 @@ fn parameters(packet: &Packet) -> Vec<&HexBytes> {
     }
 }
 
-/// The count of each verdict.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+/// The count of each verdict. Every verdict has an entry, even if its count is 0.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(transparent)]
 pub struct Totals(BTreeMap<Verdict, usize>);
 
+impl Default for Totals {
+    fn default() -> Self {
+        Self(Verdict::ALL.map(|verdict| (verdict, 0)).into())
+    }
+}
+
 impl Totals {
-    /// Counts the verdicts of some outcomes. Every verdict has an entry, even if its count is 0.
+    /// Counts the verdicts of some outcomes.
     pub fn of<'a>(outcomes: impl IntoIterator<Item = &'a Outcome>) -> Self {
-        let mut counts: BTreeMap<_, _> = Verdict::ALL.map(|verdict| (verdict, 0)).into();
+        let mut totals = Self::default();
         for outcome in outcomes {
-            *counts.entry(outcome.verdict).or_default() += 1;
+            totals.add(outcome.verdict, 1);
         }
-        Self(counts)
+        totals
+    }
+
+    /// Counts a verdict that came out so often.
+    pub fn add(&mut self, verdict: Verdict, count: usize) {
+        *self.0.entry(verdict).or_default() += count;
+    }
+
+    /// Counts as `to` what was counted as `from`, so often.
+    pub fn turn(&mut self, from: Verdict, to: Verdict, count: usize) {
+        let there = self.0.entry(from).or_default();
+        *there = there.saturating_sub(count);
+        self.add(to, count);
     }
 
     /// The count of this verdict.

@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-use actucheck::report::{Report, Run, Stopped, text};
+use actucheck::report::{Collector, End, Run, Stopped, text};
 use actucheck::run;
 use actucheck::suite::check::Check;
 use actucheck::suite::expect::Expectations;
@@ -16,7 +16,7 @@ use actucheck::suite::saved;
 use actucheck::verdict::Outcome;
 use clap::Args;
 
-use super::shared::{self, Adapter, Failure, Outputs, Reports, Selection, Subjects};
+use super::shared::{self, Adapter, Failure, Outputs, Reports, Selection, Streams, Subjects};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -29,7 +29,9 @@ Examples:
   actucheck codec --report html=report.html --report junit=report.xml -- ./my-adapter
       with a page to read and a file for what collects the results of tests
   actucheck codec --report json=- -- ./my-adapter | jq .totals
-      everything, for a program
+      for a program: totals, requirements, and the smallest checks of each that did not pass
+  actucheck codec --report jsonl=- -- ./my-adapter | jq -r 'select(.verdict == \"fail\").id'
+      every outcome as it comes, one JSON object a line
   actucheck codec --cases 20000 --body-length 7 --jobs 4 -- ./my-adapter
       more than half a million checks
   actucheck codec --jobs 4 --max-fail 10 -- ./my-adapter
@@ -68,7 +70,7 @@ pub(crate) struct Codec {
 pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     let spec = shared::spec()?;
     let selection = &options.selection;
-    let outputs = Outputs::open(&options.reports)?;
+    let mut outputs = Outputs::open(&options.reports)?;
     let mut subjects = Subjects::start(&options.adapter, options.jobs)?;
     let hello = subjects.hello.clone();
     let mut plan = selection.growth.plan(&spec, selection.wire, Some(&hello));
@@ -80,7 +82,7 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
         records.extend(more.iter().map(|check| (check.id.clone(), path.clone())));
         plan.add(more);
     }
-    let expectations = match &options.expect {
+    let mut expectations = match &options.expect {
         Some(path) => Expectations::read(path, &plan).map_err(Failure::usage)?,
         None => Expectations::default(),
     };
@@ -91,34 +93,39 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     let progress = shared::progress(Some(size as u64), template);
     let started = Instant::now();
     let interrupted = shared::interrupted()?;
-    let mut limit = Limit::new(options.max_fail);
-    let mut outcomes = Vec::new();
-    let asked = run::run(&mut subjects.all, &plan, &interrupted, &mut |outcome| {
-        progress.inc(1);
-        let goes_on = limit.after(&outcome, &expectations);
-        outcomes.push(outcome);
-        goes_on
-    });
-    let seconds = started.elapsed().as_secs_f64();
-    progress.finish_and_clear();
-    expectations.apply(&mut outcomes);
-
-    let report = Report::from(Run {
+    let run = Run {
         spec: &spec,
         implementation: &hello.implementation,
         options: selection.growth.options(selection.wire, Some(&hello)),
         command: &options.adapter.command,
         records,
-        left: size.saturating_sub(asked),
-        outcomes,
+    };
+    let mut streams = Streams::begin(&mut outputs, &run.header());
+    let mut collector = Collector::new(&run);
+    let mut limit = Limit::new(options.max_fail);
+    let asked = run::run(&mut subjects.all, &plan, &interrupted, &mut |mut outcome| {
+        progress.inc(1);
+        expectations.apply(&mut outcome);
+        streams.check(&run, &outcome);
+        let goes_on = limit.after(&outcome);
+        collector.add(outcome);
+        goes_on
+    });
+    let seconds = started.elapsed().as_secs_f64();
+    progress.finish_and_clear();
+
+    expectations.unexpected().into_iter().for_each(|passes| collector.revise(passes));
+    let report = collector.finish(End {
+        seconds,
         stopped: if limit.is_reached() {
             Some(Stopped::MaxFail)
         } else {
             interrupted.load(Ordering::Relaxed).then_some(Stopped::Interrupted)
         },
-        seconds,
+        left: size.saturating_sub(asked),
         log: subjects.end()?,
     });
+    streams.end(&report.summary)?;
     outputs.write(|format, out| format.write(&report, out), |out| text::write(&report, out))?;
     Ok(ExitCode::from(report.exit_status()))
 }
@@ -139,8 +146,8 @@ impl Limit {
     }
 
     /// Whether the run continues after this outcome.
-    fn after(&mut self, outcome: &Outcome, expectations: &Expectations) -> ControlFlow<()> {
-        if outcome.verdict.is_failure() && !expectations.expect(&outcome.id) {
+    fn after(&mut self, outcome: &Outcome) -> ControlFlow<()> {
+        if outcome.verdict.is_failure() {
             self.failed += 1;
         }
         if self.is_reached() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use actucheck::adapter::Wire;
 use actucheck::blackbox::{Finding, Fuzzed, fuzz};
-use actucheck::report::{Report, Run, text};
+use actucheck::report::{Collector, End, Report, Run, text};
 use actucheck::suite::Options;
 use actucheck::suite::saved;
 use clap::Args;
@@ -86,24 +86,18 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
     let log = subjects.end()?;
 
     keep(options, &fuzzed.findings)?;
-    let outcomes: Vec<_> = fuzzed.findings.iter().map(|finding| finding.outcome.clone()).collect();
     let took = started.elapsed();
-    let report = Report::from(Run {
+    let found = fuzzed.findings.iter();
+    let run = Run {
         spec: &spec,
         implementation: &hello.implementation,
         options: Options { seed, ..Options::new(options.wire) },
         command: &options.adapter.command,
-        records: fuzzed
-            .findings
-            .iter()
-            .map(|finding| (finding.check.id.clone(), options.out.clone()))
-            .collect(),
-        outcomes,
-        stopped: None,
-        left: 0,
-        seconds: took.as_secs_f64(),
-        log: String::new(),
-    });
+        records: found.clone().map(|it| (it.check.id.clone(), options.out.clone())).collect(),
+    };
+    let mut collector = Collector::new(&run);
+    collector.extend(found.map(|finding| finding.outcome.clone()));
+    let report = collector.finish(End { seconds: took.as_secs_f64(), ..End::default() });
     let mut out = anstream::stdout();
     show(&report, &fuzzed.findings, &mut out)
         .and_then(|()| summary(options, seed, &fuzzed, took, &mut out))

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use actucheck::adapter::{Hello, Wire};
-use actucheck::report::{Report, Run, text};
+use actucheck::report::{Collector, End, Run, text};
 use actucheck::run;
 use actucheck::suite::check::Check;
 use actucheck::suite::plan::Plan;
@@ -46,19 +46,16 @@ pub(crate) fn run(options: &Replay) -> Result<ExitCode, Failure> {
     let path = Path::new(&options.what);
     let ids = checks.iter().filter(|_| path.is_file()).map(|check| check.id.clone());
     let records = ids.map(|id| (id, path.to_owned())).collect();
-    let outcomes = run::outcomes(&mut subjects.all, &Plan::of(checks.clone()));
-    let report = Report::from(Run {
+    let run = Run {
         spec: &spec,
         implementation: &hello.implementation,
         options: options.growth.options(wire, Some(&hello)),
         command: &options.adapter.command,
         records,
-        outcomes,
-        stopped: None,
-        left: 0,
-        seconds: 0.0,
-        log: subjects.end()?,
-    });
+    };
+    let mut collector = Collector::new(&run);
+    collector.extend(run::outcomes(&mut subjects.all, &Plan::of(checks.clone())));
+    let report = collector.finish(End { log: subjects.end()?, ..End::default() });
     let mut out = anstream::stdout();
     checks
         .iter()

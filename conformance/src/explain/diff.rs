@@ -30,11 +30,15 @@ pub enum Segment {
     Same(HexBytes),
     /// Bytes that only this row has.
     Differs(HexBytes),
-    /// A number of omitted bytes that both rows have.
+    /// A number of omitted bytes: in the middle of a long part that both rows have, or at the end of a
+    /// long part that differs.
     LeftOut(usize),
 }
 
-/// Compares two byte sequences. Long equal parts are left out.
+/// Longest part that differs: one that is longer is cut, and not searched for bytes that both rows have.
+const LONGEST: usize = 512;
+
+/// Compares two byte sequences. Long parts are cut, so that a row is short and quick to make.
 ///
 /// ```
 /// let diff = actucheck::explain::diff::bytes(&[1, 0xFD, 0xFD], &[1, 0xFD]);
@@ -44,20 +48,35 @@ pub enum Segment {
 /// ```
 #[must_use]
 pub fn bytes(expected: &[u8], actual: &[u8]) -> Diff {
-    let (mut left, mut right) = (Vec::new(), Vec::new());
-    for op in capture_diff_slices(Algorithm::Myers, expected, actual) {
-        let old = expected.get(op.old_range()).unwrap_or_default();
-        let new = actual.get(op.new_range()).unwrap_or_default();
-        if matches!(op, DiffOp::Equal { .. }) {
-            left.extend(same(old));
-            right.extend(same(new));
-        } else {
-            left.extend(differs(old));
-            right.extend(differs(new));
+    let agree =
+        |pairs: &mut dyn Iterator<Item = (&u8, &u8)>| pairs.take_while(|(a, b)| a == b).count();
+    let head = agree(&mut expected.iter().zip(actual));
+    let (same_head, old) = expected.split_at_checked(head).unwrap_or_default();
+    let (_, new) = actual.split_at_checked(head).unwrap_or_default();
+    let tail = agree(&mut old.iter().rev().zip(new.iter().rev()));
+    let (old, same_tail) = old.split_at_checked(old.len() - tail).unwrap_or_default();
+    let (new, _) = new.split_at_checked(new.len() - tail).unwrap_or_default();
+
+    let (mut left, mut right) = (same(same_head), same(same_head));
+    if old.len().max(new.len()) > LONGEST {
+        left.extend(differs(old));
+        right.extend(differs(new));
+    } else {
+        for op in capture_diff_slices(Algorithm::Myers, old, new) {
+            let old = old.get(op.old_range()).unwrap_or_default();
+            let new = new.get(op.new_range()).unwrap_or_default();
+            if matches!(op, DiffOp::Equal { .. }) {
+                left.extend(same(old));
+                right.extend(same(new));
+            } else {
+                left.extend(differs(old));
+                right.extend(differs(new));
+            }
         }
     }
-    let agree = expected.iter().zip(actual).take_while(|(a, b)| a == b).count();
-    let first = (expected != actual).then_some(agree);
+    left.extend(same(same_tail));
+    right.extend(same(same_tail));
+    let first = (expected != actual).then_some(head);
     Diff { expected: Row(left), actual: Row(right), first }
 }
 
@@ -99,8 +118,16 @@ pub fn part_of_frame(frame: &[u8], offset: usize) -> &'static str {
     }
 }
 
-fn differs(bytes: &[u8]) -> Option<Segment> {
-    (!bytes.is_empty()).then(|| Segment::Differs(bytes.to_vec().into()))
+fn differs(bytes: &[u8]) -> Vec<Segment> {
+    let (shown, rest) = bytes.split_at_checked(LONGEST).unwrap_or((bytes, &[]));
+    let mut segments = Vec::new();
+    if !shown.is_empty() {
+        segments.push(Segment::Differs(shown.to_vec().into()));
+    }
+    if !rest.is_empty() {
+        segments.push(Segment::LeftOut(rest.len()));
+    }
+    segments
 }
 
 /// Only the ends of a long part matter.
@@ -111,6 +138,7 @@ fn same(bytes: &[u8]) -> Vec<Segment> {
         (Some(head), Some(tail)) if bytes.len() > 3 * ENDS => {
             vec![whole(head), Segment::LeftOut(bytes.len() - 2 * ENDS), whole(tail)]
         }
+        _ if bytes.is_empty() => Vec::new(),
         _ => vec![whole(bytes)],
     }
 }
@@ -133,6 +161,20 @@ mod tests {
         let zeros = ["00"; 12].join(" ");
         assert_eq!(diff.expected.to_string(), format!("{zeros} (… 76 bytes …) {zeros}"));
         assert_eq!(diff.first, None);
+    }
+
+    #[test]
+    fn what_differs_for_long_is_cut() {
+        let diff = bytes(&[1, 2, 3], &[vec![1], vec![9; 7_000_000], vec![3]].concat());
+        let Row(row) = &diff.actual;
+        let [Segment::Same(_), Segment::Differs(shown), Segment::LeftOut(rest), Segment::Same(_)] =
+            row.as_slice()
+        else {
+            panic!("{row:?}");
+        };
+        assert_eq!((shown.len(), *rest), (LONGEST, 7_000_000 - LONGEST));
+        assert_eq!(diff.expected.to_string(), "01 [02] 03");
+        assert_eq!(diff.first, Some(1));
     }
 
     #[test]

@@ -1,162 +1,192 @@
-//! A finished run as a report.
+//! Makes a report of outcomes, one at a time. What is remembered does not grow with their number:
+//! counts of everything, and the smallest few of what did not pass.
 
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
-use std::path::PathBuf;
 
-use actucheck_spec::Spec;
+use actucheck_spec::model::Level;
 use indexmap::{IndexMap, IndexSet};
 
 use super::model::{
-    CheckResult, Question, Report, RequirementResult, Statement, Stopped, Tally, VERSION,
+    NotPassed, ProfileEntry, Report, RequirementResult, Statement, Stopped, Summary, Tally, VERSION,
 };
-use crate::adapter::{self, Implementation, Wire};
-use crate::explain::diff;
-use crate::suite::Options;
+use super::result::{LONGEST_TEXT, Run, legible};
+use super::smallest::Smallest;
+use crate::suite::expect::Unexpected;
 use crate::verdict::{Outcome, Totals, Verdict};
 
-/// A finished run.
-#[derive(Clone, Debug)]
-pub struct Run<'a> {
-    /// The spec that the checks come from.
-    pub spec: &'a Spec,
-    /// What was checked.
-    pub implementation: &'a Implementation,
-    /// What decided which checks there were.
-    pub options: Options,
-    /// The adapter's command; empty for the built-in codec.
-    pub command: &'a [String],
-    /// The files that keep checks which `actucheck list` does not have, by the checks' ids.
-    pub records: BTreeMap<String, PathBuf>,
-    /// What came out of each check.
-    pub outcomes: Vec<Outcome>,
+/// How many different texts are counted apart; the suite's own are far fewer.
+const MOST_TEXTS: usize = 200;
+const OTHER_TEXTS: &str = "and other reasons";
+
+/// How a run ended.
+#[derive(Clone, Debug, Default)]
+pub struct End {
+    /// How long it took.
+    pub seconds: f64,
     /// Why it ended early, if it did.
     pub stopped: Option<Stopped>,
     /// How many checks were not asked for that.
     pub left: usize,
-    /// How long it took.
-    pub seconds: f64,
     /// The last lines that the adapter logged.
     pub log: String,
 }
 
-impl From<Run<'_>> for Report {
-    fn from(run: Run<'_>) -> Self {
-        Self {
-            version: VERSION,
-            actucheck: env!("CARGO_PKG_VERSION").to_owned(),
-            implementation: run.implementation.clone(),
-            wire: run.options.wire,
-            command: run.command.to_vec(),
-            seed: run.options.seed,
-            cases: run.options.cases,
-            body_length: run.options.body_length,
-            seconds: run.seconds,
-            stopped: run.stopped,
-            left: run.left,
-            totals: Totals::of(&run.outcomes),
-            requirements: requirements(run.spec, &run.outcomes),
-            profile: profile(&run.outcomes),
-            skips: skips(&run.outcomes),
-            results: run.outcomes.iter().map(|outcome| result(&run, outcome)).collect(),
-            log: run.log,
+/// Takes the outcomes of a run and becomes its report.
+#[derive(Debug)]
+pub struct Collector<'a> {
+    run: &'a Run<'a>,
+    requirements: IndexMap<String, Collected>,
+    questions: IndexMap<(String, String), Counts>,
+    skips: Counts,
+}
+
+/// What came out of the checks of a requirement.
+#[derive(Debug)]
+struct Collected {
+    level: Level,
+    totals: Totals,
+    not_passed: BTreeMap<Verdict, Smallest>,
+}
+
+impl<'a> Collector<'a> {
+    /// A collector without outcomes.
+    #[must_use]
+    pub fn new(run: &'a Run<'a>) -> Self {
+        let (requirements, questions) = (IndexMap::new(), IndexMap::new());
+        Self { run, requirements, questions, skips: Counts::default() }
+    }
+
+    /// Takes an outcome; they come in the order of the plan.
+    pub fn add(&mut self, outcome: Outcome) {
+        if outcome.verdict == Verdict::Skip {
+            self.skips.add(&outcome.detail, &outcome.id);
         }
-    }
-}
-
-/// In the order of the documents; what no document demands comes first, for it is about the
-/// adapter.
-fn requirements(spec: &Spec, outcomes: &[Outcome]) -> Vec<RequirementResult> {
-    let mut groups: IndexMap<&str, Vec<&Outcome>> = IndexMap::new();
-    for outcome in outcomes {
-        groups.entry(&outcome.requirement).or_default().push(outcome);
-    }
-    let rows = spec.requirements.iter().flat_map(|file| &file.content.requirements);
-    let places: IndexSet<&str> = rows.map(|row| row.id.as_str()).collect();
-    groups.sort_by_cached_key(|id, _| places.get_index_of(id));
-    let requirement = |(id, outcomes): (&str, Vec<&Outcome>)| {
-        let totals = Totals::of(outcomes.iter().copied());
-        Some(RequirementResult {
-            id: id.to_owned(),
-            level: outcomes.first()?.level,
-            statement: Statement::of(spec, id),
-            verdict: totals.worst()?,
-            totals,
-        })
-    };
-    groups.into_iter().filter_map(requirement).collect()
-}
-
-/// A question after the other, in the order in which they were asked.
-fn profile(outcomes: &[Outcome]) -> Vec<Question> {
-    let mut questions: IndexMap<(&str, &str), Vec<(&str, &str)>> = IndexMap::new();
-    for outcome in outcomes {
         if let Some(behaviour) = &outcome.behaviour {
-            let question = (outcome.requirement.as_str(), behaviour.question.as_str());
-            let answer = (behaviour.answer.as_str(), outcome.id.as_str());
-            questions.entry(question).or_default().push(answer);
+            let question = (outcome.requirement.clone(), behaviour.question.clone());
+            let answers = self.questions.entry(question).or_default();
+            answers.add(&behaviour.answer, &outcome.id);
+        }
+        let collected = match self.requirements.get_mut(&outcome.requirement) {
+            Some(collected) => collected,
+            None => self.requirements.entry(outcome.requirement.clone()).or_insert(Collected {
+                level: outcome.level,
+                totals: Totals::default(),
+                not_passed: BTreeMap::new(),
+            }),
+        };
+        collected.totals.add(outcome.verdict, 1);
+        if !outcome.verdict.is_fine() {
+            collected.keep(self.run, outcome);
         }
     }
-    let question = |((requirement, question), answers): ((&str, &str), Vec<_>)| Question {
-        requirement: requirement.to_owned(),
-        question: question.to_owned(),
-        behaviours: tally(answers),
-    };
-    questions.into_iter().map(question).collect()
-}
 
-fn skips(outcomes: &[Outcome]) -> Vec<Tally> {
-    let skipped = outcomes.iter().filter(|outcome| outcome.verdict == Verdict::Skip);
-    tally(skipped.map(|outcome| (outcome.detail.as_str(), outcome.id.as_str())))
-}
-
-/// Counts equal texts, each of which comes with the id of a check; the most frequent first.
-fn tally<'a>(texts: impl IntoIterator<Item = (&'a str, &'a str)>) -> Vec<Tally> {
-    let mut tallies: IndexMap<&str, Tally> = IndexMap::new();
-    for (text, id) in texts {
-        let tally = tallies.entry(text).or_insert_with(|| Tally {
-            text: text.to_owned(),
-            count: 0,
-            example: id.to_owned(),
-        });
-        tally.count += 1;
-    }
-    tallies.sort_by_cached_key(|_, tally| Reverse(tally.count));
-    tallies.into_values().collect()
-}
-
-fn result(run: &Run<'_>, outcome: &Outcome) -> CheckResult {
-    let bytes = outcome.bytes();
-    let diff = bytes.map(|(expected, actual)| diff::bytes(expected, actual));
-    let first = diff.as_ref().and_then(|diff| diff.first);
-    let differs_in = match (&outcome.request, bytes, first) {
-        (
-            Some(adapter::Question::Encode { wire: Wire::Dynamixel2, .. }),
-            Some((expected, _)),
-            Some(at),
-        ) => Some(diff::part_of_frame(expected, at).to_owned()),
-        _ => None,
-    };
-    let replay = outcome.request.is_some().then(|| replay(run, &outcome.id));
-    CheckResult { outcome: outcome.clone(), diff, differs_in, replay }
-}
-
-/// The command that asks the same again, as a shell takes it.
-fn replay(run: &Run<'_>, id: &str) -> String {
-    let Options { wire, seed, cases, .. } = run.options;
-    let record = run.records.get(id);
-    let what = record.map_or_else(|| id.to_owned(), |path| path.display().to_string());
-    let mut words = vec!["actucheck".to_owned(), "replay".to_owned(), what];
-    if record.is_none() && id.contains(".seed-") {
-        words.extend(["--seed".to_owned(), seed.to_string()]);
-        if cases > Options::new(wire).cases {
-            words.extend(["--cases".to_owned(), cases.to_string()]);
+    /// Takes back that some checks passed as expected, which only the end of a run can tell.
+    pub fn revise(&mut self, unexpected: Unexpected) {
+        let Unexpected { requirement, count, first } = unexpected;
+        let Some(collected) = self.requirements.get_mut(&requirement) else { return };
+        collected.totals.turn(Verdict::Pass, Verdict::UnexpectedPass, count);
+        let more = count.saturating_sub(first.len());
+        for outcome in first {
+            collected.keep(self.run, outcome);
+        }
+        if let Some(kept) = collected.not_passed.get_mut(&Verdict::UnexpectedPass) {
+            kept.add_more(more);
         }
     }
-    if !run.command.is_empty() {
-        words.push("--".to_owned());
-        words.extend_from_slice(run.command);
+
+    fn totals(&self) -> Totals {
+        let mut totals = Totals::default();
+        for (verdict, count) in self.requirements.values().flat_map(|it| it.totals.counts()) {
+            totals.add(verdict, count);
+        }
+        totals
     }
-    // Only a NUL can't be quoted, and no command that was started has one.
-    shlex::try_join(words.iter().map(String::as_str)).unwrap_or_default()
+
+    /// The report of a run that ended so.
+    #[must_use]
+    pub fn finish(mut self, end: End) -> Report {
+        let End { seconds, stopped, left, log } = end;
+        let totals = self.totals();
+        let lines: Vec<_> = log.lines().map(|line| legible(line, LONGEST_TEXT)).collect();
+        let (requirements, not_passed) = self.requirements();
+        Report {
+            version: VERSION,
+            header: self.run.header(),
+            summary: Summary { seconds, stopped, left, totals },
+            requirements,
+            profile: self.profile(),
+            skips: self.skips.tallies(),
+            not_passed,
+            log: lines.join("\n"),
+        }
+    }
+
+    /// In the order of the documents; what no document demands comes first, for it is about the
+    /// adapter.
+    fn requirements(&mut self) -> (Vec<RequirementResult>, Vec<NotPassed>) {
+        let spec = self.run.spec;
+        let rows = spec.requirements.iter().flat_map(|file| &file.content.requirements);
+        let places: IndexSet<&str> = rows.map(|row| row.id.as_str()).collect();
+        let mut all = std::mem::take(&mut self.requirements);
+        all.sort_by_cached_key(|id, _| places.get_index_of(id.as_str()));
+        let (mut results, mut not_passed) = (Vec::new(), Vec::new());
+        for (id, Collected { level, totals, not_passed: kept }) in all {
+            let rows = kept.into_iter();
+            not_passed.extend(rows.map(|(verdict, kept)| kept.finish(id.clone(), verdict)));
+            results.extend(totals.worst().map(|verdict| RequirementResult {
+                statement: Statement::of(spec, &id),
+                id,
+                level,
+                verdict,
+                totals,
+            }));
+        }
+        (results, not_passed)
+    }
+
+    /// A question after the other, in the order in which they were asked.
+    fn profile(&mut self) -> Vec<ProfileEntry> {
+        let question = |((requirement, question), answers): (_, Counts)| ProfileEntry {
+            requirement,
+            question,
+            behaviours: answers.tallies(),
+        };
+        std::mem::take(&mut self.questions).into_iter().map(question).collect()
+    }
+}
+
+impl Extend<Outcome> for Collector<'_> {
+    fn extend<I: IntoIterator<Item = Outcome>>(&mut self, outcomes: I) {
+        outcomes.into_iter().for_each(|outcome| self.add(outcome));
+    }
+}
+
+impl Collected {
+    fn keep(&mut self, run: &Run<'_>, outcome: Outcome) {
+        let smallest = self.not_passed.entry(outcome.verdict).or_default();
+        smallest.add(outcome, |outcome| run.result(outcome));
+    }
+}
+
+/// How often each of some texts was said, and of which check first.
+#[derive(Debug, Default)]
+struct Counts(IndexMap<String, (usize, String)>);
+
+impl Counts {
+    fn add(&mut self, text: &str, id: &str) {
+        let mut text = legible(text, LONGEST_TEXT);
+        if self.0.len() >= MOST_TEXTS && !self.0.contains_key(&text) {
+            OTHER_TEXTS.clone_into(&mut text);
+        }
+        let (count, _) = self.0.entry(text).or_insert_with(|| (0, id.to_owned()));
+        *count += 1;
+    }
+
+    /// The most frequent text first.
+    fn tallies(mut self) -> Vec<Tally> {
+        self.0.sort_by_cached_key(|_, (count, _)| Reverse(*count));
+        let tally = |(text, (count, example))| Tally { text, count, example };
+        self.0.into_iter().map(tally).collect()
+    }
 }

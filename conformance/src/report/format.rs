@@ -7,13 +7,19 @@ use anstream::adapter::strip_bytes;
 use super::model::Report;
 use super::{html, json, junit, markdown, text};
 
+/// Why a report that is kept can't be written as `jsonl`, in a sentence.
+pub const NO_JSONL: &str =
+    "jsonl has every check of a run, and a report keeps only some; write it with `actucheck codec`";
+
 /// What a report can be written as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// As on the terminal.
     Text,
-    /// Everything, for programs.
+    /// The whole report, for programs.
     Json,
+    /// Every outcome as it comes, for programs; see [`super::jsonl`].
+    Jsonl,
     /// For what collects the results of tests.
     Junit,
     /// A summary for a CI job's page.
@@ -24,7 +30,8 @@ pub enum Format {
 
 impl Format {
     /// Every format.
-    pub const ALL: [Self; 5] = [Self::Text, Self::Json, Self::Junit, Self::Markdown, Self::Html];
+    pub const ALL: [Self; 6] =
+        [Self::Text, Self::Json, Self::Jsonl, Self::Junit, Self::Markdown, Self::Html];
 
     /// Its name on the command line.
     #[must_use]
@@ -32,6 +39,7 @@ impl Format {
         match self {
             Self::Text => "text",
             Self::Json => "json",
+            Self::Jsonl => "jsonl",
             Self::Junit => "junit",
             Self::Markdown => "markdown",
             Self::Html => "html",
@@ -41,7 +49,7 @@ impl Format {
     /// Writes a report in this format, without colours.
     ///
     /// # Errors
-    /// If it can't be written.
+    /// If it can't be written, or not in this format.
     pub fn write(self, report: &Report, out: &mut dyn Write) -> io::Result<()> {
         match self {
             Self::Text => {
@@ -50,6 +58,7 @@ impl Format {
                 out.write_all(&strip_bytes(&text).into_vec())
             }
             Self::Json => json::write(report, out),
+            Self::Jsonl => Err(io::Error::new(io::ErrorKind::Unsupported, NO_JSONL)),
             Self::Junit => junit::write(report, out),
             Self::Markdown => markdown::write(report, out),
             Self::Html => html::write(report, out),

@@ -10,10 +10,6 @@ use super::words;
 use crate::explain::diff::Segment;
 use crate::verdict::Verdict;
 
-/// How many checks of a group are shown with their evidence, and how many more by their ids.
-const WHOLE: usize = 5;
-const NAMED: usize = 50;
-
 /// Writes the page.
 ///
 /// # Errors

@@ -6,67 +6,81 @@ use std::time::Duration;
 use quick_junit::{NonSuccessKind, TestCase, TestCaseStatus, TestSuite};
 
 use super::model::{CheckResult, Report, RequirementResult};
+use super::view::Section;
+use super::words;
 use crate::verdict::Verdict;
 
-/// Writes a test suite a requirement and a test case a check.
+/// Writes a test suite a section of a document: a test case a requirement, and behind it one for each
+/// check that is kept of those that are wrong.
 ///
 /// # Errors
 /// If it can't be written.
 pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
-    let who = &report.implementation;
+    let who = &report.header.implementation;
     let mut junit = quick_junit::Report::new(format!("{} {}", who.name, who.version));
-    if let Ok(time) = Duration::try_from_secs_f64(report.seconds) {
+    if let Ok(time) = Duration::try_from_secs_f64(report.summary.seconds) {
         junit.set_time(time);
     }
-    let suites = report.requirements.iter().map(|requirement| suite(report, requirement));
-    junit.add_test_suites(suites);
+    junit.add_test_suites(report.sections().iter().map(|section| suite(report, section)));
     junit.add_test_suites(report.cut_short().map(cut_short));
     junit.serialize(out).map_err(io::Error::other)
 }
 
-fn suite(report: &Report, requirement: &RequirementResult) -> TestSuite {
-    let mut suite = TestSuite::new(&requirement.id);
-    suite.add_property(("level", requirement.level.to_string().as_str()));
-    if let Some(statement) = &requirement.statement {
-        suite.add_property(("statement", statement.text.as_str()));
-        suite.add_property(("source", statement.place().as_str()));
+fn suite(report: &Report, section: &Section<'_>) -> TestSuite {
+    let mut suite = TestSuite::new(section.title());
+    for requirement in &section.requirements {
+        suite.add_test_case(self::requirement(report, requirement));
+        let own = report.not_passed.iter().filter(|row| row.requirement == requirement.id);
+        let wrong = own.filter(|row| row.verdict.is_wrong()).flat_map(|row| &row.smallest);
+        suite.add_test_cases(wrong.map(check));
     }
-    let own = report.results.iter().filter(|result| result.outcome.requirement == requirement.id);
-    suite.add_test_cases(own.map(case));
     suite
 }
 
-fn case(result: &CheckResult) -> TestCase {
-    let outcome = &result.outcome;
-    let evidence = result.evidence();
-    let lines: Vec<_> =
-        evidence.iter().map(|(label, value)| format!("{label:9} {value}")).collect();
-    let (status, output) = match outcome.verdict {
-        Verdict::Pass => (TestCaseStatus::success(), None),
-        Verdict::Recorded => {
-            let behaviour = outcome.behaviour.as_ref();
-            let said = behaviour.map(|said| format!("{} {}", said.question, said.answer));
-            (TestCaseStatus::success(), said)
-        }
-        // JUnit has no warnings; what it has is output that people look at.
-        Verdict::Warn => (TestCaseStatus::success(), Some(lines.join("\n"))),
-        Verdict::Skip | Verdict::ExpectedFailure => {
-            let mut status = TestCaseStatus::skipped();
-            status.set_message(&outcome.detail);
-            (status, None)
-        }
-        verdict => {
-            let mut status = TestCaseStatus::non_success(kind(verdict));
-            status.set_type(verdict.to_string()).set_message(&outcome.detail);
-            status.set_description(lines.join("\n"));
-            (status, None)
-        }
-    };
-    let mut case = TestCase::new(&outcome.id, status);
-    case.set_classname(&outcome.requirement);
-    if let Some(output) = output {
-        case.set_system_out(output);
+/// What a requirement demands, and how its checks came out.
+fn requirement(report: &Report, requirement: &RequirementResult) -> TestCase {
+    let RequirementResult { id, level, verdict, totals, .. } = requirement;
+    let share = words::count(requirement.checks(), "check");
+    let share = format!("{} of {share}", words::thousands(totals.count(*verdict)));
+    let mut case = case(id, id, *verdict, &share, "");
+    let mut lines = Vec::new();
+    lines.extend(requirement.statement.as_ref().map(|statement| {
+        format!("{:9} {} ({})", level.to_string(), statement.text, statement.place())
+    }));
+    // JUnit has no warnings; what it has is output that people look at.
+    let warnings = report.groups(Verdict::Warn);
+    let own = warnings.iter().find(|group| group.requirement.id == *id);
+    if let Some(smallest) = own.and_then(|group| group.checks.smallest.first()) {
+        lines.push(format!("{:9} {}", Verdict::Warn, smallest.outcome.id));
+        lines.extend(evidence(smallest));
     }
+    case.set_system_out(lines.join("\n"));
+    case
+}
+
+/// A check that is wrong, with its evidence.
+fn check(result: &CheckResult) -> TestCase {
+    let outcome = &result.outcome;
+    let lines: Vec<_> = evidence(result).collect();
+    let lines = lines.join("\n");
+    case(&outcome.id, &outcome.requirement, outcome.verdict, &outcome.detail, &lines)
+}
+
+fn evidence(result: &CheckResult) -> impl Iterator<Item = String> {
+    result.evidence().into_iter().map(|(label, value)| format!("{label:9} {value}"))
+}
+
+fn case(name: &str, class: &str, verdict: Verdict, message: &str, evidence: &str) -> TestCase {
+    let mut status = match verdict {
+        Verdict::Pass | Verdict::Recorded | Verdict::Warn => TestCaseStatus::success(),
+        Verdict::Skip | Verdict::ExpectedFailure => TestCaseStatus::skipped(),
+        verdict => TestCaseStatus::non_success(kind(verdict)),
+    };
+    if !matches!(status, TestCaseStatus::Success { .. }) {
+        status.set_type(verdict.to_string()).set_message(message).set_description(evidence);
+    }
+    let mut case = TestCase::new(name, status);
+    case.set_classname(class);
     case
 }
 

@@ -20,17 +20,22 @@ pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
 }
 
 fn summary(report: &Report, out: &mut dyn Write) -> io::Result<()> {
-    let who = &report.implementation;
+    let who = &report.header.implementation;
     let [name, version, language] = [&who.name, &who.version, &who.language].map(|it| prose(it));
     writeln!(out, "## {}: {name} {version} ({language})\n", report.word())?;
-    let checks = count(report.totals.sum(), "check");
+    let checks = count(report.summary.totals.sum(), "check");
     let requirements = count(report.requirements.len(), "requirement");
-    writeln!(out, "{checks} of {requirements}, wire {}, seed {}\n", report.wire.id(), report.seed)?;
+    writeln!(
+        out,
+        "{checks} of {requirements}, wire {}, seed {}\n",
+        report.header.wire.id(),
+        report.header.seed
+    )?;
     if let Some(sentence) = report.cut_short() {
         writeln!(out, "**{}**\n", prose(&sentence))?;
     }
     writeln!(out, "| verdict | checks |\n|---|---:|")?;
-    for (verdict, count) in report.totals.counts() {
+    for (verdict, count) in report.summary.totals.counts() {
         writeln!(out, "| {} {verdict} | {} |", mark(verdict), thousands(count))?;
     }
     Ok(())
@@ -48,8 +53,7 @@ fn findings(verdict: Verdict, groups: &[Group<'_>], out: &mut dyn Write) -> io::
     }
     for group in groups {
         let requirement = group.requirement;
-        let share = thousands(group.results.len());
-        let share = format!("{share} of {}", count(requirement.checks(), "check"));
+        let share = group.share();
         if brief {
             writeln!(out, "- `{}`: {share}", requirement.id)?;
             continue;
@@ -59,7 +63,7 @@ fn findings(verdict: Verdict, groups: &[Group<'_>], out: &mut dyn Write) -> io::
             let (text, place) = (prose(&statement.text), prose(&statement.place()));
             writeln!(out, "\n> **{}** {text} ({place})", requirement.level)?;
         }
-        if let Some(smallest) = group.results.first() {
+        if let Some(smallest) = group.checks.smallest.first() {
             writeln!(out, "\n{}", block(&format!("{:9} {}", "check", smallest.outcome.id)))?;
             for (label, evidence) in smallest.evidence() {
                 writeln!(out, "{}", block(&format!("{label:9} {evidence}")))?;
@@ -73,7 +77,7 @@ fn profile(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     if report.profile.is_empty() {
         return Ok(());
     }
-    writeln!(out, "\n### Left open by the documents\n")?;
+    writeln!(out, "\n### Unspecified by the documents\n")?;
     writeln!(out, "| question | what it does |\n|---|---|")?;
     for question in &report.profile {
         let answer = prose(&tallies(&question.behaviours));

@@ -10,13 +10,34 @@ use crate::explain::diff::Diff;
 use crate::verdict::{Outcome, Totals, Verdict};
 
 /// Version of the report's form. It changes when a field goes or takes another meaning.
-pub const VERSION: u32 = 3;
+pub const VERSION: u32 = 4;
 
 /// What came out of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Report {
     /// Version of the report's form.
     pub version: u32,
+    /// What was checked, and with which checks.
+    #[serde(flatten)]
+    pub header: Header,
+    /// How the run went as a whole.
+    #[serde(flatten)]
+    pub summary: Summary,
+    /// Each requirement that checks were about, in the order of the documents.
+    pub requirements: Vec<RequirementResult>,
+    /// What the implementation does where the documents leave it unspecified.
+    pub profile: Vec<ProfileEntry>,
+    /// Why checks were skipped.
+    pub skips: Vec<Tally>,
+    /// What did not pass, by requirement and verdict.
+    pub not_passed: Vec<NotPassed>,
+    /// The last lines that the adapter logged.
+    pub log: String,
+}
+
+/// What is known of a run before its first check.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Header {
     /// Version of the program that wrote it.
     pub actucheck: String,
     /// What was checked.
@@ -25,12 +46,17 @@ pub struct Report {
     pub wire: Wire,
     /// The adapter's command with its arguments; empty for the built-in codec.
     pub command: Vec<String>,
-    /// What the generated checks grew from.
+    /// The seed of the generated checks.
     pub seed: u64,
     /// How many packets were generated.
     pub cases: u32,
     /// Bytes of the longest bodies that were all tried inside every kind of packet.
     pub body_length: u32,
+}
+
+/// What is known of a run after its last check.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Summary {
     /// How long the run took.
     pub seconds: f64,
     /// Why the run ended early, if it did.
@@ -39,16 +65,6 @@ pub struct Report {
     pub left: usize,
     /// How often each verdict came out.
     pub totals: Totals,
-    /// Each requirement that checks were about, in the order of the documents.
-    pub requirements: Vec<RequirementResult>,
-    /// What the implementation does where the documents leave it open.
-    pub profile: Vec<Question>,
-    /// Why checks were skipped.
-    pub skips: Vec<Tally>,
-    /// What came out of each check, in the order in which they were asked.
-    pub results: Vec<CheckResult>,
-    /// The last lines that the adapter logged.
-    pub log: String,
 }
 
 /// Why a run ended early.
@@ -87,9 +103,9 @@ pub struct Statement {
     pub section: String,
 }
 
-/// A question that the documents leave open, and what the implementation does.
+/// A question that the documents leave unspecified, and what the implementation does.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct Question {
+pub struct ProfileEntry {
     /// The id of the requirement that the question is about.
     pub requirement: String,
     /// The question, in words.
@@ -109,6 +125,20 @@ pub struct Tally {
     pub example: String,
 }
 
+/// The checks of a requirement that did not pass and came out alike. What is recorded stands in
+/// [`Report::profile`], what is skipped in [`Report::skips`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct NotPassed {
+    /// The requirement's id.
+    pub requirement: String,
+    /// What came out.
+    pub verdict: Verdict,
+    /// How many checks came out so.
+    pub count: usize,
+    /// Those with the shortest requests, at most 5.
+    pub smallest: Vec<CheckResult>,
+}
+
 /// What came out of a check.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CheckResult {
@@ -122,6 +152,9 @@ pub struct CheckResult {
     /// The part of the frame in which the first byte that differs stands.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub differs_in: Option<String>,
+    /// Bytes of the request and the outputs that are too long to stand here.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub left_out: Option<usize>,
     /// The command that asks it again; only where it did not pass.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub replay: Option<String>,
@@ -132,8 +165,8 @@ impl Report {
     /// failure.
     #[must_use]
     pub fn exit_status(&self) -> u8 {
-        match self.totals.exit_status() {
-            0 if self.stopped.is_some() => 3,
+        match self.summary.totals.exit_status() {
+            0 if self.summary.stopped.is_some() => 3,
             status => status,
         }
     }
@@ -152,7 +185,7 @@ impl Report {
     #[must_use]
     pub fn adapter_broke(&self) -> bool {
         let broke = [Verdict::Timeout, Verdict::Crash, Verdict::AdapterFault, Verdict::NotRun];
-        broke.into_iter().any(|verdict| self.totals.count(verdict) > 0)
+        broke.into_iter().any(|verdict| self.summary.totals.count(verdict) > 0)
     }
 }
 

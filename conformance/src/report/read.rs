@@ -1,11 +1,18 @@
 //! Reports that were written before.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
+use indexmap::IndexSet;
 use serde::Deserialize;
 use thiserror::Error;
 
-use super::model::{Report, VERSION};
+use super::model::{
+    CheckResult, Header, NotPassed, ProfileEntry, Report, RequirementResult, Summary, Tally,
+    VERSION,
+};
+use super::smallest::Smallest;
+use crate::verdict::{Totals, Verdict};
 
 /// Why a file can't be taken for a report.
 #[derive(Debug, Error)]
@@ -26,9 +33,9 @@ pub enum ReadError {
         /// What is wrong, with line and column.
         error: serde_json::Error,
     },
-    /// It is a report of another form than this program's.
+    /// It is a report of a version that this program does not know.
     #[error(
-        "{path} is a report of version {found}, this program reads {VERSION}; run the checks again, or use the actucheck that wrote it"
+        "{path} is a report of version {found}, this program reads {OLDEST} to {VERSION}; run the checks again, or use the actucheck that wrote it"
     )]
     Version {
         /// The file.
@@ -36,7 +43,18 @@ pub enum ReadError {
         /// Its version.
         found: u32,
     },
+    /// Its numbers can't all be true.
+    #[error("{path} contradicts itself: {what}; run the checks again")]
+    Contradiction {
+        /// The file.
+        path: String,
+        /// What does not agree.
+        what: String,
+    },
 }
+
+/// The oldest version that is read.
+const OLDEST: u32 = 3;
 
 /// What every version has.
 #[derive(Deserialize)]
@@ -44,18 +62,90 @@ struct Versioned {
     version: u32,
 }
 
+/// Version 3, which kept the result of every check.
+#[derive(Deserialize)]
+struct Version3 {
+    #[serde(flatten)]
+    header: Header,
+    #[serde(flatten)]
+    summary: Summary,
+    requirements: Vec<RequirementResult>,
+    profile: Vec<ProfileEntry>,
+    skips: Vec<Tally>,
+    results: Vec<CheckResult>,
+    log: String,
+}
+
 /// Reads a report in JSON.
 ///
 /// # Errors
-/// If it can't be read, is no report, or is one of another version.
+/// If it can't be read, is no report, is of a version that is not known, or contradicts itself.
 pub fn read(path: &Path) -> Result<Report, ReadError> {
     let name = || path.display().to_string();
     let text =
         std::fs::read_to_string(path).map_err(|error| ReadError::Read { path: name(), error })?;
     let parse = |error| ReadError::Parse { path: name(), error };
     let Versioned { version: found } = serde_json::from_str(&text).map_err(parse)?;
-    if found != VERSION {
-        return Err(ReadError::Version { path: name(), found });
+    let report: Report = match found {
+        VERSION => serde_json::from_str(&text).map_err(parse)?,
+        OLDEST => serde_json::from_str::<Version3>(&text).map_err(parse)?.into(),
+        _ => return Err(ReadError::Version { path: name(), found }),
+    };
+    match contradiction(&report) {
+        Some(what) => Err(ReadError::Contradiction { path: name(), what }),
+        None => Ok(report),
     }
-    serde_json::from_str(&text).map_err(parse)
+}
+
+impl From<Version3> for Report {
+    fn from(old: Version3) -> Self {
+        let Version3 { header, summary, requirements, profile, skips, results, log } = old;
+        let places: IndexSet<&str> = requirements.iter().map(|row| row.id.as_str()).collect();
+        let mut not_passed: BTreeMap<_, (String, Smallest)> = BTreeMap::new();
+        for result in results {
+            let (verdict, requirement) = (result.outcome.verdict, &result.outcome.requirement);
+            if verdict.is_fine() {
+                continue;
+            }
+            let key = (places.get_index_of(requirement.as_str()), verdict);
+            let new = || (requirement.clone(), Smallest::default());
+            let (_, smallest) = not_passed.entry(key).or_insert_with(new);
+            let CheckResult { outcome, diff, differs_in, left_out, replay } = result;
+            smallest.add(outcome, |outcome| CheckResult {
+                outcome,
+                diff,
+                differs_in,
+                left_out,
+                replay,
+            });
+        }
+        let row = |((_, verdict), (requirement, smallest)): ((_, Verdict), (String, Smallest))| {
+            smallest.finish(requirement, verdict)
+        };
+        let not_passed = not_passed.into_iter().map(row).collect();
+        Self { version: VERSION, header, summary, requirements, profile, skips, not_passed, log }
+    }
+}
+
+/// What of a report can't be true, for what else it says.
+fn contradiction(report: &Report) -> Option<String> {
+    let mut totals = Totals::default();
+    for row in &report.requirements {
+        if row.totals.worst() != Some(row.verdict) {
+            return Some(format!("the totals of {} do not come to {}", row.id, row.verdict));
+        }
+        row.totals.counts().for_each(|(verdict, count)| totals.add(verdict, count));
+    }
+    if totals != report.summary.totals {
+        return Some("its totals are not those of its requirements".to_owned());
+    }
+    let wrong = |NotPassed { requirement, verdict, count, smallest }: &&NotPassed| {
+        let row = report.requirements.iter().find(|row| row.id == *requirement);
+        row.is_none_or(|row| row.totals.count(*verdict) != *count || smallest.len() > *count)
+            || smallest.iter().any(|kept| {
+                kept.outcome.requirement != *requirement || kept.outcome.verdict != *verdict
+            })
+    };
+    let NotPassed { requirement, verdict, .. } = report.not_passed.iter().find(wrong)?;
+    Some(format!("its checks of {requirement} with verdict {verdict} are not what its totals say"))
 }

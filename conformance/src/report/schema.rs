@@ -4,10 +4,15 @@
 use actucheck_spec::schema::of_written;
 
 use super::compare::Comparison;
+use super::jsonl::Line;
 use super::model::Report;
 
 /// Each schema's name and text.
 #[must_use]
-pub fn all() -> [(&'static str, String); 2] {
-    [("report", of_written::<Report>()), ("comparison", of_written::<Comparison>())]
+pub fn all() -> [(&'static str, String); 3] {
+    [
+        ("report", of_written::<Report>()),
+        ("line", of_written::<Line>()),
+        ("comparison", of_written::<Comparison>()),
+    ]
 }

@@ -12,10 +12,6 @@ use super::words;
 use crate::suite::check::{Check, Demand, Unspecified};
 use crate::verdict::{Totals, Verdict};
 
-/// How many checks of a group are shown with their evidence, and how many more by their ids.
-const WHOLE: usize = 5;
-const NAMED: usize = 20;
-
 pub(super) const BOLD: Style = Style::new().bold();
 pub(super) const DIM: Style = Style::new().dimmed();
 
@@ -24,15 +20,15 @@ pub(super) const DIM: Style = Style::new().dimmed();
 /// # Errors
 /// If it can't be written.
 pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
-    let who = &report.implementation;
+    let who = &report.header.implementation;
     writeln!(
         out,
         "{BOLD}{} {}{BOLD:#} ({})  wire {}  {} checks",
         who.name,
         who.version,
         who.language,
-        report.wire.id(),
-        report.totals.sum()
+        report.header.wire.id(),
+        report.summary.totals.sum()
     )?;
     requirements(report, out)?;
     // What is most urgent stands last, where the terminal ends.
@@ -72,7 +68,7 @@ pub fn check(spec: &Spec, check: &Check, out: &mut dyn Write) -> io::Result<()> 
     reject.map_or(Ok(()), |reject| writeln!(out, "  {:9} {reject}", "demanded"))
 }
 
-/// A question that the documents leave open, and the ways that are foreseen.
+/// A question that the documents leave unspecified, and the ways that are foreseen.
 fn question(open: &Unspecified, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "  {:9} {}", "recorded", open.question)?;
     for way in &open.ways {
@@ -97,33 +93,24 @@ fn requirements(report: &Report, out: &mut dyn Write) -> io::Result<()> {
 }
 
 fn group(group: &Group<'_>, out: &mut dyn Write) -> io::Result<()> {
-    let Group { verdict, requirement, results } = group;
-    let style = style(*verdict);
-    let word = verdict.to_string().to_uppercase().replace('-', " ");
-    writeln!(out)?;
-    write!(out, "{style}{word}{style:#} {BOLD}{}{BOLD:#}", requirement.id)?;
-    match results.len() {
+    let Group { requirement, checks } = group;
+    let style = style(checks.verdict);
+    let word = checks.verdict.to_string().to_uppercase().replace('-', " ");
+    write!(out, "\n{style}{word}{style:#} {BOLD}{}{BOLD:#}", requirement.id)?;
+    match checks.count {
         1 => writeln!(out)?,
-        many => writeln!(out, "  {many} of {} checks, the smallest first", requirement.checks())?,
+        _ => writeln!(out, "  {}, the smallest first", group.share())?,
     }
     if let Some(words) = &requirement.statement {
         statement(requirement.level, words, out)?;
     }
-    let shown = group.shown(WHOLE, NAMED);
-    for result in shown.whole {
+    for result in &checks.smallest {
         self::result(result, out)?;
     }
-    if !shown.named.is_empty() {
-        let more = shown.named.len() + shown.beyond;
-        writeln!(out, "  … and {more} more; --report json=FILE has them all:")?;
+    match group.more() {
+        0 => Ok(()),
+        more => writeln!(out, "  … and {} more like it", words::thousands(more)),
     }
-    for result in shown.named {
-        writeln!(out, "            {}", result.outcome.id)?;
-    }
-    if shown.beyond > 0 {
-        writeln!(out, "            … and {} more", shown.beyond)?;
-    }
-    Ok(())
 }
 
 fn result(result: &CheckResult, out: &mut dyn Write) -> io::Result<()> {
@@ -140,7 +127,7 @@ fn profile(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         return Ok(());
     }
     let many = words::count(report.profile.len(), "question");
-    let rest = "that the documents leave open: --report html=FILE shows what it does there";
+    let rest = "that the documents leave unspecified: --report html=FILE shows what it does there";
     writeln!(out, "\n{DIM}{many} {rest}{DIM:#}")
 }
 
@@ -163,7 +150,7 @@ fn summary(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         _ => AnsiColor::Yellow,
     };
     let style = color.on_default().bold();
-    writeln!(out, "\n{style}{}{style:#}  {}", report.word(), counts(&report.totals))
+    writeln!(out, "\n{style}{}{style:#}  {}", report.word(), counts(&report.summary.totals))
 }
 
 /// `12 pass  3 fail`, without the verdicts that did not come out.

@@ -4,7 +4,7 @@ use std::fmt;
 
 use indexmap::IndexMap;
 
-use super::model::{CheckResult, Report, RequirementResult, Stopped};
+use super::model::{CheckResult, NotPassed, Report, RequirementResult, Stopped};
 use super::words;
 use crate::adapter::Output;
 use crate::explain::diff::Row;
@@ -26,27 +26,22 @@ impl Report {
     /// Why the run ended early and what that cost, in a sentence; `None` if it did not.
     #[must_use]
     pub fn cut_short(&self) -> Option<String> {
-        let why = match self.stopped? {
+        let why = match self.summary.stopped? {
             Stopped::Interrupted => "interrupted",
             Stopped::MaxFail => "as much failed as --max-fail allows",
         };
-        let left = words::count(self.left, "check");
+        let left = words::count(self.summary.left, "check");
         Some(format!("{why}: {left} not asked"))
     }
 
-    /// The results with this verdict by requirement, in the order of the documents.
+    /// The checks with this verdict by requirement, in the order of the documents.
     #[must_use]
     pub fn groups(&self, verdict: Verdict) -> Vec<Group<'_>> {
-        let mut by_requirement: IndexMap<&str, Vec<&CheckResult>> = IndexMap::new();
-        for result in self.results.iter().filter(|result| result.outcome.verdict == verdict) {
-            by_requirement.entry(&result.outcome.requirement).or_default().push(result);
-        }
         let mut groups = Vec::new();
-        for requirement in &self.requirements {
-            if let Some(mut results) = by_requirement.swap_remove(requirement.id.as_str()) {
-                results.sort_by_cached_key(|result| result.size());
-                groups.push(Group { verdict, requirement, results });
-            }
+        for checks in self.not_passed.iter().filter(|row| row.verdict == verdict) {
+            let mut all = self.requirements.iter();
+            let own = all.find(|requirement| requirement.id == checks.requirement);
+            groups.extend(own.map(|requirement| Group { requirement, checks }));
         }
         groups
     }
@@ -77,35 +72,38 @@ pub struct Section<'a> {
     pub requirements: Vec<&'a RequirementResult>,
 }
 
-/// The checks of a requirement that came out alike.
-#[derive(Clone, Debug)]
-pub struct Group<'a> {
-    /// What came out.
-    pub verdict: Verdict,
-    /// The requirement.
-    pub requirement: &'a RequirementResult,
-    /// The checks, the shortest request first.
-    pub results: Vec<&'a CheckResult>,
+impl Section<'_> {
+    /// The document and the section.
+    #[must_use]
+    pub fn title(&self) -> String {
+        match self.document {
+            "" => "The adapter protocol".to_owned(),
+            document => format!("{document}, {}", self.section),
+        }
+    }
 }
 
-/// A group's checks as far as a reader wants to see them.
-#[derive(Clone, Debug)]
-pub struct Shown<'a> {
-    /// With their evidence.
-    pub whole: &'a [&'a CheckResult],
-    /// By their ids.
-    pub named: &'a [&'a CheckResult],
-    /// How many there are beyond.
-    pub beyond: usize,
+/// The checks of a requirement that came out alike.
+#[derive(Clone, Copy, Debug)]
+pub struct Group<'a> {
+    /// The requirement.
+    pub requirement: &'a RequirementResult,
+    /// How many checks there are, and the smallest of them.
+    pub checks: &'a NotPassed,
 }
 
 impl Group<'_> {
-    /// The checks, the first few of them with their evidence.
+    /// `65 of 23,963 checks`.
     #[must_use]
-    pub fn shown(&self, whole: usize, named: usize) -> Shown<'_> {
-        let (whole, rest) = self.results.split_at(self.results.len().min(whole));
-        let (named, beyond) = rest.split_at(rest.len().min(named));
-        Shown { whole, named, beyond: beyond.len() }
+    pub fn share(&self) -> String {
+        let all = words::count(self.requirement.checks(), "check");
+        format!("{} of {all}", words::thousands(self.checks.count))
+    }
+
+    /// How many checks there are of which no evidence is kept.
+    #[must_use]
+    pub fn more(&self) -> usize {
+        self.checks.count.saturating_sub(self.checks.smallest.len())
     }
 }
 
@@ -134,6 +132,7 @@ impl CheckResult {
             ("instead", instead),
             ("differs", self.differs().map(Evidence::Words)),
             ("because", Some(Evidence::Words(detail.clone()))),
+            ("left out", self.left_out().map(Evidence::Words)),
             ("replay", self.replay.clone().map(Evidence::Code)),
         ];
         lines.into_iter().filter_map(|(label, evidence)| Some((label, evidence?))).collect()
@@ -145,9 +144,10 @@ impl CheckResult {
         Some(format!("byte {at}, in the {part}"))
     }
 
-    /// How long its request is: the measure by which a case is small.
-    fn size(&self) -> usize {
-        self.outcome.request.as_ref().map_or(0, |request| request.to_string().len())
+    /// What the reader does not see here, and where it can be seen.
+    fn left_out(&self) -> Option<String> {
+        let bytes = words::count(self.left_out?, "byte");
+        Some(format!("{bytes} that are too long for a report; `actucheck show` has the request"))
     }
 }
 

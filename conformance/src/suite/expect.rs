@@ -1,11 +1,11 @@
 //! Expected failures: the checks that a subject is known to fail, each with a reason. The file is
 //! audited: an expected failure that passes is reported.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
-use globset::{Glob, GlobMatcher};
 use serde::Deserialize;
 use thiserror::Error;
 
@@ -61,20 +61,49 @@ struct Row {
     upstream: Option<String>,
 }
 
-/// The expected failures of a subject.
+/// The expected failures of a subject, and what came out of them so far.
 #[derive(Debug, Default)]
 pub struct Expectations {
-    globs: Vec<Expectation>,
+    patterns: Patterns,
+    /// Of each pattern, in the same order.
+    expected: Vec<Expected>,
+    /// The passes of checks that are expected to fail, by requirement and by the patterns that match.
+    /// Whether a pattern is outdated is known only when all its checks were asked.
+    passes: BTreeMap<(String, Vec<usize>), Passes>,
 }
 
-/// A glob of a row.
+/// An id or a glob of a row.
 #[derive(Debug)]
-struct Expectation {
-    glob: GlobMatcher,
-    /// The row of the glob.
+struct Expected {
+    /// The row of the id or glob.
     row: Arc<Row>,
     /// How many checks it matches.
     checks: usize,
+    /// How many of them were asked.
+    asked: usize,
+    /// Whether one of them failed.
+    failed: bool,
+}
+
+/// How many checks passed, and the first of them.
+#[derive(Debug, Default)]
+struct Passes {
+    count: usize,
+    first: Vec<Outcome>,
+}
+
+/// How many passes of a requirement's checks are kept.
+const KEPT: usize = 5;
+
+/// Passes of a requirement's checks that an expected-failures file says are failures.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unexpected {
+    /// The requirement's id.
+    pub requirement: String,
+    /// How many there are.
+    pub count: usize,
+    /// The first few of them.
+    pub first: Vec<Outcome>,
 }
 
 impl Expectations {
@@ -86,60 +115,74 @@ impl Expectations {
         let name = path.display().to_string();
         let text = std::fs::read_to_string(path)
             .map_err(|error| ExpectError::Read { path: name.clone(), error })?;
-        let file: ExpectationsFile = serde_yaml::from_str(&text).map_err(|error| {
-            ExpectError::Parse { path: name.clone(), message: error.to_string() }
-        })?;
+        let parse = |message| ExpectError::Parse { path: name.clone(), message };
+        let file: ExpectationsFile =
+            serde_yaml::from_str(&text).map_err(|error| parse(error.to_string()))?;
         let texts = file.expected_failures.iter().flat_map(|row| &row.ids).map(String::as_str);
-        let patterns = Patterns::new(texts)
-            .map_err(|message| ExpectError::Parse { path: name.clone(), message })?;
+        let patterns = Patterns::new(texts).map_err(parse)?;
         let mut counts = plan.count_matches(&patterns).into_iter();
-        let mut globs = Vec::new();
+        let mut expected = Vec::new();
         for (index, row) in file.expected_failures.into_iter().enumerate() {
-            let fault = |message| ExpectError::Row { path: name.clone(), row: index + 1, message };
             let row = Arc::new(row);
             for id in &row.ids {
-                let glob =
-                    Glob::new(id).map_err(|error| fault(error.to_string()))?.compile_matcher();
                 let checks = counts.next().unwrap_or_default();
                 if checks == 0 {
-                    return Err(fault(format!("`{id}` is the id of no check")));
+                    let message = format!("`{id}` is the id of no check");
+                    return Err(ExpectError::Row { path: name, row: index + 1, message });
                 }
-                globs.push(Expectation { glob, row: Arc::clone(&row), checks });
+                let row = Arc::clone(&row);
+                expected.push(Expected { row, checks, asked: 0, failed: false });
             }
         }
-        Ok(Self { globs })
+        Ok(Self { patterns, expected, passes: BTreeMap::new() })
     }
 
-    /// Whether the check with this id is expected to fail.
+    /// Turns an expected failure into [`Verdict::ExpectedFailure`], and notes a pass that is not
+    /// expected.
+    pub fn apply(&mut self, outcome: &mut Outcome) {
+        let matches = self.patterns.matches(&outcome.id);
+        let failed = outcome.verdict.is_failure();
+        for place in &matches {
+            let Some(expected) = self.expected.get_mut(*place) else { continue };
+            expected.asked += 1;
+            expected.failed |= failed;
+            if outcome.verdict.is_failure() {
+                outcome.verdict = Verdict::ExpectedFailure;
+                outcome.detail = format!("{}; expected: {}", outcome.detail, expected.row);
+            }
+        }
+        if outcome.verdict == Verdict::Pass && !matches.is_empty() {
+            let passes = self.passes.entry((outcome.requirement.clone(), matches)).or_default();
+            passes.count += 1;
+            if passes.first.len() < KEPT {
+                passes.first.push(outcome.clone());
+            }
+        }
+    }
+
+    /// At the end of a run: the passes of checks that an outdated id or glob matches, as
+    /// [`Verdict::UnexpectedPass`]. It is outdated if all checks that it matches were asked and none of
+    /// them failed.
     #[must_use]
-    pub fn expect(&self, id: &str) -> bool {
-        self.globs.iter().any(|expected| expected.glob.is_match(id))
-    }
-
-    /// Turns expected failures into [`Verdict::ExpectedFailure`]. If all checks that an id or glob
-    /// matches were asked and none of them failed, their passes become [`Verdict::UnexpectedPass`].
-    pub fn apply(&self, outcomes: &mut [Outcome]) {
-        for Expectation { glob, row, checks } in &self.globs {
-            let mut matched: Vec<_> =
-                outcomes.iter_mut().filter(|outcome| glob.is_match(&outcome.id)).collect();
-            // Another row may have changed it already.
-            let failed = matched.iter().any(|outcome| {
-                outcome.verdict.is_failure() || outcome.verdict == Verdict::ExpectedFailure
-            });
-            let stale = !failed && matched.len() == *checks;
-            for outcome in &mut matched {
-                if outcome.verdict.is_failure() {
-                    outcome.verdict = Verdict::ExpectedFailure;
-                    outcome.detail = format!("{}; expected: {row}", outcome.detail);
-                } else if outcome.verdict == Verdict::Pass && stale {
-                    outcome.verdict = Verdict::UnexpectedPass;
-                    outcome.detail = format!(
-                        "passes, though `{}` is an expected failure; take it out of the file",
-                        glob.glob()
-                    );
-                }
+    pub fn unexpected(self) -> Vec<Unexpected> {
+        let Self { patterns, expected, passes } = self;
+        let stale = |place: &usize| {
+            let expected = expected.get(*place)?;
+            let stale = !expected.failed && expected.asked == expected.checks;
+            if stale { patterns.texts().get(*place) } else { None }
+        };
+        let mut all = Vec::new();
+        for ((requirement, places), Passes { count, mut first }) in passes {
+            let Some(text) = places.iter().find_map(stale) else { continue };
+            for outcome in &mut first {
+                outcome.verdict = Verdict::UnexpectedPass;
+                outcome.detail = format!(
+                    "passes, though `{text}` is an expected failure; take it out of the file"
+                );
             }
+            all.push(Unexpected { requirement, count, first });
         }
+        all
     }
 }
 

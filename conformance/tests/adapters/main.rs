@@ -32,6 +32,8 @@ done
 struct Run {
     output: Output,
     report: Value,
+    /// Every outcome.
+    outcomes: Vec<Value>,
     took: Duration,
 }
 
@@ -54,9 +56,8 @@ impl Run {
     }
 
     fn detail(&self, verdict: &str) -> String {
-        let results = self.report["results"].as_array().unwrap();
-        let result = results.iter().find(|result| result["verdict"] == verdict).unwrap();
-        result["detail"].as_str().unwrap().to_owned()
+        let outcome = self.outcomes.iter().find(|outcome| outcome["verdict"] == verdict).unwrap();
+        outcome["detail"].as_str().unwrap().to_owned()
     }
 }
 
@@ -68,19 +69,23 @@ fn check(script: &str) -> Run {
 /// The same with more options.
 fn check_with(options: &[&str], script: &str) -> Run {
     let folder = tempfile::tempdir().unwrap();
-    let report = folder.path().join("report.json");
+    let (report, outcomes) = (folder.path().join("json"), folder.path().join("jsonl"));
     let started = Instant::now();
     let output = Command::new(env!("CARGO_BIN_EXE_actucheck"))
         .args(["codec", "--select", "ja40.*/crc", "--timeout", "0.3", "--start-timeout", "5"])
         .args(options)
-        .arg("--report")
-        .arg(format!("json={}", report.display()))
+        .arg(format!("--report=json={}", report.display()))
+        .arg(format!("--report=jsonl={}", outcomes.display()))
         .args(["--", "sh", "-c", script])
         .output()
         .unwrap();
     let took = started.elapsed();
     let report = std::fs::read_to_string(report).unwrap_or_default();
-    Run { output, report: serde_json::from_str(&report).unwrap_or(Value::Null), took }
+    let report = serde_json::from_str(&report).unwrap_or(Value::Null);
+    let lines = std::fs::read_to_string(outcomes).unwrap_or_default();
+    let lines = lines.lines().map(|line| serde_json::from_str(line).unwrap());
+    let outcomes = lines.filter(|line: &Value| line["line"] == "check").collect();
+    Run { output, report, outcomes, took }
 }
 
 fn answering(answer: &str) -> Run {

@@ -1,6 +1,7 @@
 use actucheck::adapter::Wire;
 use actucheck::report::Report;
 use actucheck::report::compare::{Cell, Comparison, Standing};
+use actucheck::report::model::Header;
 use actucheck::verdict::Verdict;
 
 use super::sample;
@@ -46,15 +47,11 @@ fn a_cell_has_the_smallest_check_that_is_wrong() {
     let Cell { verdict: Verdict::Fail, smallest: Some(smallest), .. } = odd else {
         panic!("{odd:?}");
     };
-    let size = |report: &Report| {
-        let failed = report.results.iter().filter(|result| {
-            result.outcome.requirement == "dynamixel2.stuffing.transmit"
-                && result.outcome.verdict == Verdict::Fail
-        });
-        failed.map(|result| result.outcome.request.as_ref().unwrap().to_string().len()).min()
-    };
-    let request = smallest.outcome.request.as_ref().unwrap().to_string();
-    assert_eq!(Some(request.len()), size(&sample::every_verdict()));
+    let report = sample::every_verdict();
+    let own = report.not_passed.iter().find(|row| {
+        row.requirement == "dynamixel2.stuffing.transmit" && row.verdict == Verdict::Fail
+    });
+    assert_eq!(smallest, &own.unwrap().smallest[0]);
 }
 
 #[test]
@@ -85,7 +82,8 @@ fn a_comparison_says_whether_it_is_fair() {
     assert!(compared().asked_alike());
     let less = Comparison::of(sample::right(), vec![sample::small()]).unwrap();
     assert!(!less.asked_alike());
-    let seed = Report { seed: 2, ..sample::small() };
+    let small = sample::small();
+    let seed = Report { header: Header { seed: 2, ..small.header.clone() }, ..small };
     assert!(!Comparison::of(sample::small(), vec![seed]).unwrap().asked_alike());
     assert!(!Comparison::of(sample::small(), vec![sample::interrupted()]).unwrap().asked_alike());
 }
@@ -104,7 +102,8 @@ fn what_only_one_was_asked_stands_there_for_both() {
 
 #[test]
 fn reports_of_two_wires_are_refused() {
-    let innfos = Report { wire: Wire::Innfos, ..sample::right() };
+    let right = sample::right();
+    let innfos = Report { header: Header { wire: Wire::Innfos, ..right.header.clone() }, ..right };
     let error = Comparison::of(sample::small(), vec![innfos]).unwrap_err();
     assert_eq!(
         error.to_string(),

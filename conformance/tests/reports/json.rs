@@ -1,9 +1,14 @@
 use std::fs;
 use std::path::Path;
 
+use actucheck::adapter::{Output, Question, Wire};
 use actucheck::report::compare::Comparison;
+use actucheck::report::jsonl::Stream;
 use actucheck::report::read::{self, ReadError};
-use actucheck::report::{Format, Report, schema};
+use actucheck::report::{Collector, End, Format, Report, schema};
+use actucheck::subject::{Builtin, Subject as _};
+use actucheck::verdict::{Outcome, Verdict};
+use actucheck_spec::model::Level;
 use jsonschema::Validator;
 use serde_json::{Value, json};
 
@@ -61,17 +66,17 @@ fn what_is_broken_does_not_fit_the_schema() {
         broken.as_object_mut().unwrap().remove(key);
         assert!(!validator.is_valid(&broken), "without {key}");
     }
-    let results = small["results"].as_array().unwrap();
-    let failed = results.iter().position(|result| result["verdict"] == "fail").unwrap();
+    let failed = "/not_passed/0/smallest/0";
+    assert_eq!(small.pointer(failed).unwrap()["verdict"], "fail");
     for (place, wrong) in [
         ("/wire".to_owned(), json!("modbus")),
         ("/stopped".to_owned(), json!("bored")),
         ("/totals/fail".to_owned(), json!(-1)),
         ("/requirements/0/level".to_owned(), json!("shall")),
-        (format!("/results/{failed}/verdict"), json!("failed")),
-        (format!("/results/{failed}/request/op"), json!("guess")),
-        (format!("/results/{failed}/diff/expected/0"), json!({"equal": "ff"})),
-        (format!("/results/{failed}/expected/bytes"), json!("0g")),
+        (format!("{failed}/verdict"), json!("failed")),
+        (format!("{failed}/request/op"), json!("guess")),
+        (format!("{failed}/diff/expected/0"), json!({"equal": "ff"})),
+        (format!("{failed}/expected/bytes"), json!("0g")),
     ] {
         let mut broken = small.clone();
         *broken.pointer_mut(&place).unwrap() = wrong;
@@ -92,14 +97,99 @@ fn comparisons_fit_their_schema() {
 }
 
 #[test]
-fn totals_count_the_results() {
-    let value = value(&sample::every_verdict());
-    let results = value["results"].as_array().unwrap();
-    for (verdict, count) in value["totals"].as_object().unwrap() {
-        let found = results.iter().filter(|result| result["verdict"] == verdict.as_str()).count();
-        assert!(found > 0, "the sample lacks {verdict}");
-        assert_eq!(json!(found), *count, "{verdict}");
+fn what_did_not_pass_is_counted_and_the_smallest_few_are_kept() {
+    let report = sample::every_verdict();
+    let fine = [Verdict::Pass, Verdict::Recorded, Verdict::Skip];
+    for verdict in Verdict::ALL {
+        let count = report.summary.totals.count(verdict);
+        assert!(count > 0, "the sample lacks {verdict}");
+        let rows = || report.not_passed.iter().filter(|row| row.verdict == verdict);
+        let counted: usize = rows().map(|row| row.count).sum();
+        assert_eq!(counted, if fine.contains(&verdict) { 0 } else { count }, "{verdict}");
+        for row in rows() {
+            assert_eq!(row.smallest.len(), row.count.min(5), "{verdict}");
+        }
     }
+    assert!(report.not_passed.iter().any(|row| row.count > 5));
+}
+
+/// An outcome whose request has `size` bytes.
+fn failure(place: usize, size: usize, detail: &str) -> Outcome {
+    Outcome {
+        id: format!("dynamixel2.some.{place}/crc"),
+        requirement: "dynamixel2.crc.value".to_owned(),
+        level: Level::Must,
+        verdict: Verdict::Fail,
+        detail: detail.to_owned(),
+        request: Some(Question::Crc { wire: Wire::Dynamixel2, bytes: vec![0; size].into() }),
+        expected: Some(Output::Crc(0)),
+        actual: Some(Output::Bytes(vec![1; size].into())),
+        behaviour: None,
+    }
+}
+
+#[test]
+fn of_equal_failures_those_with_the_shortest_requests_are_kept_and_then_the_first() {
+    let sizes = [9, 7, 8, 7, 9, 7, 1, 7];
+    let outcomes = sizes.iter().enumerate().map(|(place, size)| failure(place, *size, ""));
+    let report = collected(outcomes);
+    let [row] = report.not_passed.as_slice() else { panic!("{:?}", report.not_passed) };
+    let ids: Vec<_> = row.smallest.iter().map(|kept| kept.outcome.id.as_str()).collect();
+    assert_eq!(ids, [6, 1, 3, 5, 7].map(|place| format!("dynamixel2.some.{place}/crc")));
+    assert_eq!(row.count, sizes.len());
+}
+
+#[test]
+fn a_report_is_small_whatever_an_implementation_says() {
+    let long = "\u{7}".repeat(1_000_000);
+    let failures = (0..20).map(|place| failure(place, 100_000, &long));
+    let skips = (0..1000).map(|place| {
+        let detail = format!("{place} {long}");
+        Outcome { verdict: Verdict::Skip, request: None, ..failure(place, 0, &detail) }
+    });
+    let report = collected(failures.chain(skips));
+    let kept = &report.not_passed[0].smallest[0];
+    assert_eq!((&kept.outcome.request, &kept.outcome.actual), (&None, &None));
+    assert!(kept.left_out.unwrap() > 400_000);
+    assert!(kept.outcome.detail.ends_with("… (999000 bytes more)"));
+    assert!(report.skips.len() <= 201);
+    assert_eq!(report.skips.iter().map(|skip| skip.count).sum::<usize>(), 1000);
+    let size = written(&report).len();
+    assert!(size < 2_000_000, "{size}");
+}
+
+fn collected(outcomes: impl Iterator<Item = Outcome>) -> Report {
+    let builtin = Builtin::default();
+    let run = sample::run(&builtin.hello().implementation);
+    let mut collector = Collector::new(&run);
+    collector.extend(outcomes);
+    collector.finish(End::default())
+}
+
+#[test]
+fn lines_fit_their_schema_and_tell_of_every_check() {
+    let builtin = Builtin::default();
+    let run = sample::run(&builtin.hello().implementation);
+    let mut text = Vec::new();
+    let mut stream = Stream::begin(&mut text, run.header()).unwrap();
+    let outcomes = [failure(0, 1, "no"), Outcome { verdict: Verdict::Pass, ..failure(1, 1, "") }];
+    for outcome in outcomes.clone() {
+        stream.check(run.result(outcome)).unwrap();
+    }
+    stream.end(collected(outcomes.into_iter()).summary).unwrap();
+    let lines = String::from_utf8(text).unwrap();
+    let lines: Vec<Value> = lines.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let validator = validator("line");
+    for line in &lines {
+        assert_eq!(faults(&validator, line), Vec::<String>::new());
+        let mut broken = line.clone();
+        broken.as_object_mut().unwrap().remove("line");
+        assert!(!validator.is_valid(&broken), "{broken}");
+    }
+    let kinds: Vec<_> = lines.iter().map(|line| line["line"].as_str().unwrap()).collect();
+    assert_eq!(kinds, ["header", "check", "check", "summary"]);
+    assert_eq!((&lines[0]["version"], &lines[1]["verdict"]), (&json!(1), &json!("fail")));
+    assert_eq!(lines[3]["totals"]["pass"], 1);
 }
 
 fn read(text: &str) -> Result<Report, ReadError> {
@@ -116,13 +206,58 @@ fn a_report_can_be_read_back() {
     }
 }
 
+/// As version 3 was written, of an implementation that does not stuff.
+const VERSION_3: &str = include_str!("version-3.json");
+
+#[test]
+fn a_report_of_version_3_can_be_read() {
+    let report = read(VERSION_3).unwrap();
+    assert_eq!(report.version, 4);
+    let [row] = report.not_passed.as_slice() else { panic!("{:?}", report.not_passed) };
+    assert_eq!((row.count, row.smallest.len()), (1, 1));
+    assert_eq!(row.smallest[0].outcome.id, "dynamixel2.stuffing.goal-position/encode");
+    assert!(row.smallest[0].diff.is_some() && row.smallest[0].replay.is_some());
+    assert_eq!(report.skips.iter().map(|skip| skip.count).sum::<usize>(), 5);
+    assert!(read(&written(&report)).unwrap() == report);
+}
+
+#[test]
+fn a_report_of_version_3_keeps_the_smallest_of_what_it_had() {
+    let mut old: Value = serde_json::from_str(VERSION_3).unwrap();
+    let results = old["results"].as_array_mut().unwrap();
+    let failed = results.iter().find(|result| result["verdict"] == "fail").unwrap().clone();
+    results.extend(vec![failed; 7]);
+    old["totals"]["fail"] = json!(8);
+    let mut rows = old["requirements"].as_array_mut().unwrap().iter_mut();
+    rows.find(|row| row["verdict"] == "fail").unwrap()["totals"]["fail"] = json!(8);
+    let report = read(&old.to_string()).unwrap();
+    assert_eq!((report.not_passed[0].count, report.not_passed[0].smallest.len()), (8, 5));
+}
+
+#[test]
+fn what_contradicts_itself_is_refused() {
+    let small = value(&sample::small());
+    for (place, wrong) in [
+        ("/totals/fail", json!(2)),
+        ("/requirements/0/verdict", json!("pass")),
+        ("/not_passed/0/count", json!(2)),
+        ("/not_passed/0/requirement", json!("dynamixel2.stuffing.receive")),
+        ("/not_passed/0/smallest/0/verdict", json!("crash")),
+    ] {
+        let mut broken = small.clone();
+        *broken.pointer_mut(place).unwrap() = wrong;
+        let error = read(&broken.to_string()).unwrap_err();
+        assert!(matches!(error, ReadError::Contradiction { .. }), "{place}: {error}");
+    }
+}
+
 #[test]
 fn what_is_no_report_or_one_of_another_version_is_refused() {
     let text = written(&sample::small());
-    let other = text.replacen("\"version\": 3", "\"version\": 2", 1);
+    let other = text.replacen("\"version\": 4", "\"version\": 2", 1);
     let error = read(&other).unwrap_err().to_string();
     assert!(error.ends_with(
-        "report.json is a report of version 2, this program reads 3; \
+        "report.json is a report of version 2, this program reads 3 to 4; \
          run the checks again, or use the actucheck that wrote it"
     ));
     assert!(matches!(

@@ -53,6 +53,33 @@ fn several_reports_are_written_at_once_and_again_from_json() {
 }
 
 #[test]
+fn a_whole_run_that_passes_makes_a_small_report() {
+    let folder = tempfile::tempdir().unwrap();
+    // The built-in codec at its default settings is asked 66,000 checks.
+    let run = ["codec", "--report=json=report.json", "--report=junit=report.xml"];
+    assert_eq!(actucheck(folder.path(), &run).0, 0);
+    for (name, most) in [("report.json", 200_000), ("report.xml", 100_000)] {
+        let size = fs::metadata(folder.path().join(name)).unwrap().len();
+        assert!(size < most, "{name} has {size} bytes");
+    }
+}
+
+#[test]
+fn every_outcome_is_written_as_it_comes() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = ["codec", "--select", "*goal-position/*", "--report", "jsonl=-"];
+    let (status, stdout, stderr) = actucheck(folder.path(), &run);
+    let lines: Vec<Value> =
+        stdout.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!((status, lines.first().unwrap()["line"].as_str()), (0, Some("header")));
+    let checks = lines.iter().filter(|line| line["line"] == "check" && line["verdict"] == "pass");
+    let last = lines.last().unwrap();
+    assert_eq!(last["totals"]["pass"], checks.count());
+    assert_eq!(last["line"], "summary");
+    assert!(stderr.contains("\npassed  "), "{stderr}");
+}
+
+#[test]
 fn a_report_on_standard_output_stands_there_alone() {
     let folder = folder();
     let (status, stdout, stderr) =
@@ -86,7 +113,7 @@ fn what_can_not_be_is_refused_in_a_sentence() {
     for (arguments, sentence) in [
         (
             &["codec", "--report", "pdf=x"][..],
-            "a report is written as FORMAT=PATH; formats are text, json, junit, markdown, html",
+            "a report is written as FORMAT=PATH; formats are text, json, jsonl, junit, markdown, html",
         ),
         (&["codec", "--report", "html="], "a report is written as FORMAT=PATH"),
         (
@@ -99,8 +126,9 @@ fn what_can_not_be_is_refused_in_a_sentence() {
         (&["report", "compare", "report.json", "old.json"], "old.json is a report of version 1"),
         (
             &["report", "compare", "report.json", "report.json", "--report", "junit=x"],
-            "junit tells of one run",
+            "junit and jsonl tell of one run",
         ),
+        (&["report", "render", "report.json", "--report", "jsonl=x"], "jsonl has every check"),
     ] {
         let (status, stdout, stderr) = actucheck(folder.path(), arguments);
         assert_eq!((status, stdout.as_str()), (2, ""), "{arguments:?}: {stderr}");

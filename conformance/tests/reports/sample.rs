@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 use actucheck::adapter::{Hello, Implementation, Output, Question, Rejection, Wire};
-use actucheck::report::{Report, Run, Stopped};
+use actucheck::report::model::Summary;
+use actucheck::report::{Collector, End, Report, Run, Stopped};
 use actucheck::run::outcomes;
 use actucheck::subject::{Answer, Builtin, Subject};
 use actucheck::suite::expect::Expectations;
@@ -68,6 +69,8 @@ fn odd(op: &Question, answer: Answer) -> Answer {
 
 /// What every sample is taken from; it takes a while to make.
 static SPEC: LazyLock<Spec> = LazyLock::new(|| Spec::embedded().unwrap());
+static COMMAND: LazyLock<[String; 2]> =
+    LazyLock::new(|| ["./adapter", "two words"].map(str::to_owned));
 const OPTIONS: Options = Options { cases: 10, ..Options::new(Wire::Dynamixel2) };
 
 /// Reads without taking the byte stuffing out.
@@ -98,23 +101,29 @@ fn report(name: &str, only: &str, bend: fn(&Question, Answer) -> Answer, expect:
     };
     let implementation = hello.implementation.clone();
     let subject = Odd { codec, hello, bend };
-    let mut outcomes = outcomes(&mut [Box::new(subject)], &plan);
+    let outcomes = outcomes(&mut [Box::new(subject)], &plan);
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("expected-failures.yaml");
     std::fs::write(&file, format!("expected_failures: {expect}\n")).unwrap();
-    Expectations::read(&file, &plan).unwrap().apply(&mut outcomes);
-    Report::from(Run {
+    let mut expectations = Expectations::read(&file, &plan).unwrap();
+    let run = run(&implementation);
+    let mut collector = Collector::new(&run);
+    for mut outcome in outcomes {
+        expectations.apply(&mut outcome);
+        collector.add(outcome);
+    }
+    expectations.unexpected().into_iter().for_each(|passes| collector.revise(passes));
+    collector.finish(End { seconds: 1.5, ..End::default() })
+}
+
+pub(crate) fn run(implementation: &Implementation) -> Run<'_> {
+    Run {
         spec: &SPEC,
-        implementation: &implementation,
+        implementation,
         options: OPTIONS,
-        command: &["./adapter".to_owned(), "two words".to_owned()],
+        command: COMMAND.as_slice(),
         records: BTreeMap::new(),
-        outcomes,
-        stopped: None,
-        left: 0,
-        seconds: 1.5,
-        log: String::new(),
-    })
+    }
 }
 
 /// Of an implementation with a hostile name that meets every verdict.
@@ -136,7 +145,9 @@ pub(crate) fn right() -> Report {
 
 /// Of one that was interrupted.
 pub(crate) fn interrupted() -> Report {
-    Report { stopped: Some(Stopped::Interrupted), left: 7, ..small() }
+    let small = small();
+    let summary = Summary { stopped: Some(Stopped::Interrupted), left: 7, ..small.summary };
+    Report { summary, ..small }
 }
 
 /// Of one that was asked little and does nothing wrong.

@@ -17,6 +17,9 @@ Examples:
   actucheck report compare ours.json theirs.json
   actucheck report compare *.json --report html=matrix.html
 
+Compared are the totals and the verdict of each requirement, and what is done where the documents
+leave a question unspecified. Of what an implementation gets wrong, the smallest check is shown.
+
 Exit status: 0 compared, 2 wrong usage.";
 
 /// Shows which implementation breaks which requirement
@@ -35,8 +38,8 @@ pub(crate) struct Compare {
 
 /// Reads the reports and writes what differs between them.
 pub(crate) fn run(options: &Compare) -> Result<ExitCode, Failure> {
-    if options.reports.any(Format::Junit) {
-        return Err(Failure::usage(compare::NO_JUNIT));
+    if options.reports.any(Format::Junit) || options.reports.any(Format::Jsonl) {
+        return Err(Failure::usage(compare::ONE_RUN));
     }
     let others = options.others.iter().map(|file| read(file)).collect::<Result<_, _>>()?;
     let comparison = Comparison::of(read(&options.first)?, others).map_err(Failure::usage)?;

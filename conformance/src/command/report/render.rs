@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use actucheck::report::text;
+use actucheck::report::format::NO_JSONL;
+use actucheck::report::{Format, text};
 use clap::Args;
 
 use super::read;
@@ -30,6 +31,9 @@ pub(crate) struct Render {
 
 /// Reads the report and writes it.
 pub(crate) fn run(options: &Render) -> Result<ExitCode, Failure> {
+    if options.reports.any(Format::Jsonl) {
+        return Err(Failure::usage(NO_JSONL));
+    }
     let report = read(&options.file)?;
     Outputs::open(&options.reports)?
         .write(|format, out| format.write(&report, out), |out| text::write(&report, out))?;

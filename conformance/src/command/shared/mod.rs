@@ -4,6 +4,7 @@ mod failure;
 mod outputs;
 mod progress;
 mod selection;
+mod streams;
 mod subjects;
 pub(crate) mod table;
 mod value;
@@ -17,6 +18,7 @@ pub(crate) use failure::Failure;
 pub(crate) use outputs::{Outputs, Reports};
 pub(crate) use progress::progress;
 pub(crate) use selection::{Growth, Selection};
+pub(crate) use streams::Streams;
 pub(crate) use subjects::{Adapter, Exchange, Subjects, finish};
 pub(crate) use value::{duration, one_of, wire};
 

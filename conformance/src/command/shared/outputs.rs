@@ -12,8 +12,8 @@ use super::Failure;
 /// The reports to write.
 #[derive(Debug, Args)]
 pub(crate) struct Reports {
-    /// Write a report: text, json, junit, markdown or html; `-` is standard output; may be given
-    /// more than once
+    /// Write a report: text, json, junit, markdown or html, or jsonl for every outcome as it comes;
+    /// `-` is standard output; may be given more than once
     #[arg(long = "report", value_name = "FORMAT=PATH", value_parser = target)]
     targets: Vec<Target>,
 }
@@ -52,8 +52,15 @@ fn target(text: &str) -> Result<Target, String> {
 
 /// Reports that are open for writing, and the text on the terminal.
 pub(crate) struct Outputs {
-    files: Vec<(Format, String, Box<dyn Write>)>,
+    files: Vec<Output>,
     terminal: Terminal,
+}
+
+/// A report that is open for writing.
+pub(crate) struct Output {
+    format: Format,
+    pub(crate) name: String,
+    pub(crate) file: Box<dyn Write + Send>,
 }
 
 /// Where the text report goes.
@@ -81,17 +88,22 @@ impl Outputs {
             let file = outputs
                 .file(target)
                 .map_err(|error| Failure::usage(format!("cannot write {name}: {error}")))?;
-            outputs.files.push((target.format, name, file));
+            outputs.files.push(Output { format: target.format, name, file });
         }
         Ok(outputs)
     }
 
-    fn file(&mut self, target: &Target) -> io::Result<Box<dyn Write>> {
+    fn file(&mut self, target: &Target) -> io::Result<Box<dyn Write + Send>> {
         if target.is_stdout() {
             self.terminal = Terminal::Stderr;
             return Ok(Box::new(io::BufWriter::new(io::stdout())));
         }
         Ok(Box::new(io::BufWriter::new(File::create(&target.path)?)))
+    }
+
+    /// Takes out the reports of one format.
+    pub(crate) fn take(&mut self, format: Format) -> Vec<Output> {
+        self.files.extract_if(.., |file| file.format == format).collect()
     }
 
     /// Writes every report with `report`, and the text on the terminal, which may have colours,
@@ -101,7 +113,7 @@ impl Outputs {
         report: impl Fn(Format, &mut dyn Write) -> io::Result<()>,
         text: impl Fn(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), Failure> {
-        for (format, name, mut file) in self.files {
+        for Output { format, name, mut file } in self.files {
             let written = report(format, &mut file).and_then(|()| file.flush());
             seen(&name, written)?;
         }
@@ -114,7 +126,7 @@ impl Outputs {
 }
 
 /// A closed pipe, as of `| head`, is not an error.
-fn seen(name: &str, written: io::Result<()>) -> Result<(), Failure> {
+pub(super) fn seen(name: &str, written: io::Result<()>) -> Result<(), Failure> {
     match written {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
             let message = format!("cannot write {name}: {error}");

@@ -58,7 +58,7 @@ fn profile(comparison: &Comparison, out: &mut dyn Write) -> io::Result<()> {
     if different.peek().is_none() {
         return Ok(());
     }
-    writeln!(out, "\n### Left open by the documents, and answered differently\n")?;
+    writeln!(out, "\n### Unspecified by the documents, and answered differently\n")?;
     head("question", comparison, out)?;
     for answers in different {
         write!(out, "| {} `{}` |", prose(&answers.question), answers.requirement)?;

@@ -1,5 +1,5 @@
 //! Several implementations beside each other: who gets what wrong, and who does what where the
-//! documents leave it open.
+//! documents leave it unspecified.
 
 mod html;
 mod markdown;
@@ -18,8 +18,8 @@ use super::format::Format;
 use super::json;
 
 /// What a comparison can't be written as, in a sentence.
-pub const NO_JUNIT: &str =
-    "junit tells of one run; a comparison is written as text, json, markdown or html";
+pub const ONE_RUN: &str =
+    "junit and jsonl tell of one run; a comparison is written as text, json, markdown or html";
 
 impl Format {
     /// Writes a comparison in this format, without colours.
@@ -34,7 +34,7 @@ impl Format {
                 out.write_all(&strip_bytes(&text).into_vec())
             }
             Self::Json => json::write(comparison, out),
-            Self::Junit => Err(io::Error::new(io::ErrorKind::Unsupported, NO_JUNIT)),
+            Self::Junit | Self::Jsonl => Err(io::Error::new(io::ErrorKind::Unsupported, ONE_RUN)),
             Self::Markdown => markdown::write(comparison, out),
             Self::Html => html::write(comparison, out),
         }

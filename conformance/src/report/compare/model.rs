@@ -10,7 +10,7 @@ use thiserror::Error;
 
 use crate::adapter::{self, Wire};
 use crate::report::model::{
-    CheckResult, Question, Report, RequirementResult, Statement, Stopped, Tally,
+    CheckResult, ProfileEntry, Report, RequirementResult, Statement, Stopped, Tally,
 };
 use crate::verdict::{Totals, Verdict};
 
@@ -30,7 +30,7 @@ pub struct Comparison {
     pub implementations: Vec<Implementation>,
     /// The rows, in the order of the documents.
     pub requirements: Vec<Row>,
-    /// The questions that the documents leave open.
+    /// The questions that the documents leave unspecified.
     pub profile: Vec<Answers>,
 }
 
@@ -40,7 +40,7 @@ pub struct Implementation {
     /// What was checked.
     #[serde(flatten)]
     pub who: adapter::Implementation,
-    /// What the generated checks grew from.
+    /// The seed of the generated checks.
     pub seed: u64,
     /// How many packets were generated.
     pub cases: u32,
@@ -76,7 +76,7 @@ pub struct Cell {
     pub smallest: Option<CheckResult>,
 }
 
-/// What each implementation does where the documents leave a question open.
+/// What each implementation does where the documents leave a question unspecified.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Answers {
     /// The id of the requirement that the question is about.
@@ -115,9 +115,10 @@ impl Comparison {
     /// # Errors
     /// If they are of different wires.
     pub fn of(first: Report, others: Vec<Report>) -> Result<Self, MixedWires> {
-        let wire = first.wire;
-        if let Some(other) = others.iter().find(|other| other.wire != wire) {
-            let name = |report: &Report| (report.implementation.name.clone(), report.wire);
+        let wire = first.header.wire;
+        if let Some(other) = others.iter().find(|other| other.header.wire != wire) {
+            let name =
+                |report: &Report| (report.header.implementation.name.clone(), report.header.wire);
             return Err(MixedWires { first: name(&first), other: name(other) });
         }
         let reports: Vec<_> = [first].into_iter().chain(others).collect();
@@ -193,13 +194,14 @@ impl Answers {
 }
 
 fn implementation(report: &Report) -> Implementation {
+    let (header, summary) = (&report.header, &report.summary);
     Implementation {
-        who: report.implementation.clone(),
-        seed: report.seed,
-        cases: report.cases,
-        body_length: report.body_length,
-        stopped: report.stopped,
-        totals: report.totals.clone(),
+        who: header.implementation.clone(),
+        seed: header.seed,
+        cases: header.cases,
+        body_length: header.body_length,
+        stopped: summary.stopped,
+        totals: summary.totals.clone(),
     }
 }
 
@@ -216,16 +218,16 @@ fn requirements(reports: &[Report]) -> Vec<Row> {
 }
 
 fn cell(report: &Report, result: &RequirementResult) -> Cell {
-    let groups = result.verdict.is_wrong().then(|| report.groups(result.verdict));
-    let own = groups.into_iter().flatten().find(|group| group.requirement.id == result.id);
-    let smallest = own.and_then(|group| group.results.first().copied().cloned());
+    let mut wrong = report.not_passed.iter().filter(|row| row.verdict.is_wrong());
+    let own = wrong.find(|row| row.requirement == result.id && row.verdict == result.verdict);
+    let smallest = own.and_then(|row| row.smallest.first().cloned());
     Cell { verdict: result.verdict, totals: result.totals.clone(), smallest }
 }
 
 fn profile(reports: &[Report]) -> Vec<Answers> {
     let lists = reports.iter().map(|report| report.profile.as_slice());
-    let answers = |columns: Vec<Option<&Question>>| {
-        let Question { requirement, question, .. } = columns.iter().flatten().next()?;
+    let answers = |columns: Vec<Option<&ProfileEntry>>| {
+        let ProfileEntry { requirement, question, .. } = columns.iter().flatten().next()?;
         let behaviours = columns.iter().map(|asked| asked.map(|asked| asked.behaviours.clone()));
         Some(Answers {
             requirement: requirement.clone(),
@@ -233,7 +235,7 @@ fn profile(reports: &[Report]) -> Vec<Answers> {
             behaviours: behaviours.map(Option::unwrap_or_default).collect(),
         })
     };
-    let key = |question: &Question| (question.requirement.clone(), question.question.clone());
+    let key = |question: &ProfileEntry| (question.requirement.clone(), question.question.clone());
     united(lists, key).into_iter().filter_map(answers).collect()
 }
 

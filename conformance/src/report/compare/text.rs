@@ -100,10 +100,10 @@ fn profile(comparison: &Comparison, out: &mut dyn Write) -> io::Result<()> {
     if different.is_empty() && alike.is_empty() {
         return Ok(());
     }
-    let open = "which the documents leave open";
+    let unspecified = "which the documents leave unspecified";
     writeln!(
         out,
-        "\n{BOLD}Different answers{BOLD:#} to {}, {open}",
+        "\n{BOLD}Different answers{BOLD:#} to {}, {unspecified}",
         words::count(different.len(), "question")
     )?;
     for Answers { requirement, question, behaviours } in different {

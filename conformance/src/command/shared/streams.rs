@@ -1,0 +1,44 @@
+//! Reports that are written while a run goes on.
+
+use std::io::{self, Write};
+
+use actucheck::report::jsonl::Stream;
+use actucheck::report::model::{Header, Summary};
+use actucheck::report::{Format, Run};
+use actucheck::verdict::Outcome;
+
+use super::Failure;
+use super::outputs::{Output, Outputs, seen};
+
+/// The `jsonl` reports of a run. One that can't be written on does not end the run.
+pub(crate) struct Streams(Vec<Open>);
+
+/// A report's name, and where it is written to or why it can't be.
+type Open = (String, io::Result<Stream<Box<dyn Write + Send>>>);
+
+impl Streams {
+    /// Begins those that the user wants.
+    pub(crate) fn begin(outputs: &mut Outputs, header: &Header) -> Self {
+        let begin = |Output { name, file, .. }| (name, Stream::begin(file, header.clone()));
+        Self(outputs.take(Format::Jsonl).into_iter().map(begin).collect())
+    }
+
+    /// Writes an outcome.
+    pub(crate) fn check(&mut self, run: &Run<'_>, outcome: &Outcome) {
+        for (_, stream) in &mut self.0 {
+            if let Ok(open) = stream
+                && let Err(error) = open.check(run.result(outcome.clone()))
+            {
+                *stream = Err(error);
+            }
+        }
+    }
+
+    /// Writes the last lines.
+    pub(crate) fn end(self, summary: &Summary) -> Result<(), Failure> {
+        for (name, stream) in self.0 {
+            seen(&name, stream.and_then(|stream| stream.end(summary.clone())))?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,148 @@
+//! One outcome as a report has it: with the bytes that differ, and the command that asks it again.
+//! Nothing in it is longer than a reader needs, however much an implementation says.
+
+use std::collections::BTreeMap;
+use std::fmt::{self, Write as _};
+use std::path::PathBuf;
+
+use actucheck_spec::Spec;
+
+use super::model::{CheckResult, Header};
+use crate::adapter::{Implementation, Question, Wire};
+use crate::explain::diff;
+use crate::suite::Options;
+use crate::verdict::Outcome;
+
+/// Characters of the longest sentence that is kept, and of the longest name.
+pub(super) const LONGEST_TEXT: usize = 1000;
+const LONGEST_NAME: usize = 100;
+
+/// Bytes of the longest request or output that is kept, as JSON.
+const LONGEST_PART: usize = 4000;
+
+/// A run before its first check.
+#[derive(Clone, Debug)]
+pub struct Run<'a> {
+    /// The spec that the checks come from.
+    pub spec: &'a Spec,
+    /// What is checked.
+    pub implementation: &'a Implementation,
+    /// What decides which checks there are.
+    pub options: Options,
+    /// The adapter's command; empty for the built-in codec.
+    pub command: &'a [String],
+    /// The files that keep checks which `actucheck list` does not have, by the checks' ids.
+    pub records: BTreeMap<String, PathBuf>,
+}
+
+impl Run<'_> {
+    /// What a report says of it.
+    #[must_use]
+    pub fn header(&self) -> Header {
+        let name = |text: &String| legible(text, LONGEST_NAME);
+        let Implementation { name: own, version, language, url } = self.implementation;
+        Header {
+            actucheck: env!("CARGO_PKG_VERSION").to_owned(),
+            implementation: Implementation {
+                name: name(own),
+                version: name(version),
+                language: name(language),
+                url: url.as_ref().map(name),
+            },
+            wire: self.options.wire,
+            command: self.command.to_vec(),
+            seed: self.options.seed,
+            cases: self.options.cases,
+            body_length: self.options.body_length,
+        }
+    }
+
+    /// What a report says of an outcome.
+    #[must_use]
+    pub fn result(&self, mut outcome: Outcome) -> CheckResult {
+        let bytes = outcome.bytes();
+        let diff = bytes.map(|(expected, actual)| diff::bytes(expected, actual));
+        let first = diff.as_ref().and_then(|diff| diff.first);
+        let differs_in = match (&outcome.request, bytes, first) {
+            (
+                Some(Question::Encode { wire: Wire::Dynamixel2, .. }),
+                Some((expected, _)),
+                Some(at),
+            ) => Some(diff::part_of_frame(expected, at).to_owned()),
+            _ => None,
+        };
+        let replay = outcome.request.is_some().then(|| self.replay(&outcome.id));
+        outcome.detail = legible(&outcome.detail, LONGEST_TEXT);
+        let left_out = leave_out(&mut outcome.request)
+            + leave_out(&mut outcome.expected)
+            + leave_out(&mut outcome.actual);
+        let left_out = (left_out > 0).then_some(left_out);
+        CheckResult { outcome, diff, differs_in, left_out, replay }
+    }
+
+    /// The command that asks the same again, as a shell takes it.
+    fn replay(&self, id: &str) -> String {
+        let Options { wire, seed, cases, .. } = self.options;
+        let record = self.records.get(id);
+        let what = record.map_or_else(|| id.to_owned(), |path| path.display().to_string());
+        let mut words = vec!["actucheck".to_owned(), "replay".to_owned(), what];
+        if record.is_none() && id.contains(".seed-") {
+            words.extend(["--seed".to_owned(), seed.to_string()]);
+            if cases > Options::new(wire).cases {
+                words.extend(["--cases".to_owned(), cases.to_string()]);
+            }
+        }
+        if !self.command.is_empty() {
+            words.push("--".to_owned());
+            words.extend_from_slice(self.command);
+        }
+        // Only a NUL can't be quoted, and no command that was started has one.
+        shlex::try_join(words.iter().map(String::as_str)).unwrap_or_default()
+    }
+}
+
+/// Takes away what is too long; how many bytes that were.
+fn leave_out<T: fmt::Display>(part: &mut Option<T>) -> usize {
+    let bytes = part.as_ref().map_or(0, |part| part.to_string().len());
+    if bytes <= LONGEST_PART {
+        return 0;
+    }
+    *part = None;
+    bytes
+}
+
+/// A text from outside on one line: what would move a terminal's cursor or turn the direction of
+/// the script is escaped, and only the first characters are left of a long one.
+pub(super) fn legible(text: &str, longest: usize) -> String {
+    let mut clean = String::with_capacity(text.len().min(longest));
+    for (count, (at, character)) in text.char_indices().enumerate() {
+        if count == longest {
+            // Writing to a string can't fail.
+            let _ = write!(clean, "… ({} bytes more)", text.len() - at);
+            break;
+        }
+        let turns = matches!(
+            character,
+            '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}'
+        );
+        if character.is_control() || turns {
+            clean.extend(character.escape_default());
+        } else {
+            clean.push(character);
+        }
+    }
+    clean
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_from_outside_is_one_short_line() {
+        assert_eq!(legible("모두 \u{1b}[31mred\r\n\0", 99), "모두 \\u{1b}[31mred\\r\\n\\u{0}");
+        assert_eq!(legible("a\u{202e}b", 99), "a\\u{202e}b");
+        assert_eq!(legible("abcdé", 4), "abcd… (2 bytes more)");
+        assert_eq!(legible("abcd", 4), "abcd");
+    }
+}
