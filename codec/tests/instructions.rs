@@ -11,7 +11,7 @@ use actucheck_codec::dynamixel2::instruction::{
 };
 use actucheck_codec::dynamixel2::{
     ClearOption, ControlTableBackupOption, FactoryResetOption, Frame, Instruction, Request,
-    RequestError,
+    RequestError, frame,
 };
 use actucheck_codec::layout::{self, LayoutError};
 use actucheck_spec::Spec;
@@ -164,12 +164,7 @@ fn what_no_device_could_obey_is_refused() {
     assert_eq!(read.encode(1, &mut buffer), Err(EncodeError::Id { found: 1 }));
 
     let params = [0x44, 0x02, 0x04, 0x00, 0x01];
-    let packet = actucheck_codec::dynamixel2::frame::encode(
-        1,
-        Instruction::SyncRead,
-        &[&params],
-        &mut buffer,
-    );
+    let packet = frame::encode(1, Instruction::SyncRead, &[&params], &mut buffer);
     let frame = Frame::parse(packet.unwrap()).unwrap();
     let not_broadcast = RequestError::NotBroadcast { found: 1 };
     assert_eq!(Request::parse(&frame, &mut [0; 8]), Err(not_broadcast));
@@ -215,6 +210,8 @@ fn round_trip(
     let request = Request::parse(&frame, &mut scratch).unwrap();
     prop_assert_eq!(&request, expected);
 
+    prop_assert_eq!(request.encoded_len(), Ok(packet.len()));
+    prop_assert!(packet.len() <= frame::max_encoded_len(frame.params_len()));
     let (needed, available) = (packet.len(), packet.len() - 1);
     let too_small = EncodeError::Buffer(actucheck_codec::BufferTooSmall { needed, available });
     let mut small = vec![0; available];

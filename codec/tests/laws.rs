@@ -104,6 +104,8 @@ proptest! {
         let mut buffer = [0; 128];
         let instruction = Instruction::from_code(code);
         let packet = frame::encode(id, instruction, &[head, tail], &mut buffer).unwrap();
+        prop_assert_eq!(frame::encoded_len(instruction, &[head, tail]), Ok(packet.len()));
+        prop_assert!(packet.len() <= frame::max_encoded_len(params.len()));
         prop_assert_eq!(packet, reference::frame(id, &reference::stuff(&[&[code], params.as_slice()].concat())));
         prop_assume!(code != 0x55 || !params.is_empty());
         let frame = Frame::parse(packet).unwrap();

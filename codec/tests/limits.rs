@@ -132,6 +132,11 @@ fn judge(device: &model::Device, said: &model::Register, row: &Row, held: &Held,
     }
     let unchecked = row.encode_unchecked(value);
     assert_eq!(unchecked.is_ok(), smallest <= value && value <= largest, "{name} {value}");
+    // A device judges what it receives as a host judges what it sends.
+    if let Ok(data) = unchecked {
+        let accepted = row.accept(data.as_bytes(), |address| held.get(&address).copied());
+        assert_eq!(accepted, written.map(|_| value), "{name} {value}");
+    }
     match written {
         Ok(data) => {
             assert_eq!(unchecked, Ok(data), "{name}");
@@ -142,7 +147,7 @@ fn judge(device: &model::Device, said: &model::Register, row: &Row, held: &Held,
             assert_eq!(data.as_bytes(), expected, "{name}");
             assert_eq!(row.decode(data.as_bytes()), Some(value), "{name}");
         }
-        Err(RegisterError::OutOfRange { register, value: told, min: low, max: high }) => {
+        Err(RegisterError::OutOfRange { register, value: told, min: low, max: high, .. }) => {
             assert!(!good, "{name} refuses {value}, though it is {min} to {max}");
             assert_eq!((register, told, low, high), (name, value, min, max));
         }

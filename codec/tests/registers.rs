@@ -1,8 +1,10 @@
 //! The generated control table against facts of the document.
 
-use actucheck_codec::dynamixel2::Instruction;
+use actucheck_codec::dynamixel2::{ErrorNumber, Instruction};
 use actucheck_codec::ja40;
-use actucheck_codec::register::{Access, Area, Bound, Kind, Range, RegisterError};
+use actucheck_codec::register::{
+    Access, Area, Bound, Kind, Range, RegisterBlock, RegisterError, Row,
+};
 
 #[test]
 fn the_ja40_has_the_forty_registers_of_the_document() {
@@ -46,4 +48,33 @@ fn bytes_are_read_low_byte_first_and_with_their_sign() {
     assert_eq!(ja40::GOAL_CURRENT.decode(&[0xFE, 0xFF]), Ok(-2));
     let size = RegisterError::Size { register: "Goal Current", found: 1, expected: 2 };
     assert_eq!(ja40::GOAL_CURRENT.decode(&[0xFE]), Err(size));
+}
+
+/// JA40 document, §1.5: what a device answers to a Write that it refuses.
+#[test]
+fn a_refused_write_has_its_error_number() {
+    let limits = |address| (address == ja40::CURRENT_LIMIT.row.address).then_some(500);
+    let number =
+        |row: &Row, bytes: &[u8]| row.accept(bytes, limits).map_err(|error| error.number());
+    let current = ja40::GOAL_CURRENT.row;
+    assert_eq!(number(current, &500_i16.to_le_bytes()), Ok(500));
+    assert_eq!(number(current, &501_i16.to_le_bytes()), Err(ErrorNumber::DataLimitError));
+    assert_eq!(number(current, &(-501_i16).to_le_bytes()), Err(ErrorNumber::DataLimitError));
+    assert_eq!(number(current, &[0]), Err(ErrorNumber::DataLengthError));
+    assert_eq!(number(ja40::TEMPERATURE_LIMIT.row, &[101]), Err(ErrorNumber::DataRangeError));
+    assert_eq!(number(ja40::TORQUE_ENABLE.row, &[2]), Err(ErrorNumber::DataRangeError));
+    assert_eq!(number(ja40::PRESENT_POSITION.row, &[0; 4]), Err(ErrorNumber::AccessError));
+}
+
+#[test]
+fn a_block_has_the_registers_that_are_wholly_in_it() {
+    let data = [0x94, 0x6C, 0x00, 0x00];
+    let position = ja40::PRESENT_POSITION;
+    let address = position.row.address;
+    assert_eq!(RegisterBlock::new(address, &data).value(position), Ok(27_796));
+    for (address, length) in [(address + 1, 4), (address - 1, 4), (address, 3), (0, 4), (0xFFFF, 4)]
+    {
+        let outside = RegisterError::NotInBlock { register: "Present Position", address, length };
+        assert_eq!(RegisterBlock::new(address, &data[..length]).value(position), Err(outside));
+    }
 }

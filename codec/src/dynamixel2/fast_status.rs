@@ -10,6 +10,7 @@
 use super::frame::{Parts, Writer, length_field};
 use super::header::PREFIX;
 use super::{BROADCAST_ID, FrameError, Instruction, StatusError};
+use crate::register::{Register, RegisterError, Value};
 use crate::{EncodeError, crc};
 
 /// Bytes of a block beside its data: error, ID and CRC.
@@ -26,6 +27,16 @@ pub struct Block<'a> {
     pub data: &'a [u8],
 }
 
+impl Block<'_> {
+    /// The register's value, if it is what was read.
+    ///
+    /// # Errors
+    /// If the data are not as many as the register has.
+    pub fn value<T: Value>(&self, register: Register<T>) -> Result<T, RegisterError> {
+        register.decode(self.data)
+    }
+}
+
 /// A fast status packet in which everything is right: header, length, IDs and every CRC.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FastStatus<'a> {
@@ -35,7 +46,8 @@ pub struct FastStatus<'a> {
 
 impl<'a> FastStatus<'a> {
     /// Reads `bytes`, the one packet that answers an instruction for `length` bytes of data
-    /// (0 for Fast Sync Write) from the devices `ids`, in this order.
+    /// (0 for Fast Sync Write) from the devices `ids`, in this order. Who still has the request
+    /// asks it: [`FastSyncRead::answer`](super::instruction::FastSyncRead::answer).
     ///
     /// ```
     /// use actucheck_codec::dynamixel2::FastStatus;
@@ -47,7 +59,7 @@ impl<'a> FastStatus<'a> {
     /// let mut positions = Vec::new();
     /// for block in FastStatus::parse(packet, 4, &[1, 2])?.blocks() {
     ///     assert!(!block.error.alert());
-    ///     positions.push((block.id, ja40::PRESENT_POSITION.decode(block.data)?));
+    ///     positions.push((block.id, block.value(ja40::PRESENT_POSITION)?));
     /// }
     /// assert_eq!(positions, [(1, 2000), (2, 9)]);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -56,6 +68,15 @@ impl<'a> FastStatus<'a> {
     /// # Errors
     /// The first rule that the bytes break, with the offset.
     pub fn parse(bytes: &'a [u8], length: u16, ids: &[u8]) -> Result<Self, FrameError> {
+        Self::of(bytes, length, || ids.iter().copied())
+    }
+
+    /// The same, with the devices from a function that lists them.
+    pub(crate) fn of<I: Iterator<Item = u8>>(
+        bytes: &'a [u8],
+        length: u16,
+        ids: impl Fn() -> I,
+    ) -> Result<Self, FrameError> {
         let parts = Parts::split(bytes)?;
         let (code, blocks) = parts.body.split_first().unwrap_or((&0, &[]));
         if Instruction::from_code(*code) != Instruction::Status {
@@ -65,19 +86,20 @@ impl<'a> FastStatus<'a> {
             return Err(FrameError::Id { found: parts.header.id });
         }
         let block_len = BLOCK_OVERHEAD + usize::from(length);
+        let devices = ids().count();
         let (found, expected) =
-            (parts.body.len() + 2, block_len.saturating_mul(ids.len()).saturating_add(1));
-        if found != expected || ids.is_empty() {
+            (parts.body.len() + 2, block_len.saturating_mul(devices).saturating_add(1));
+        if found != expected || devices == 0 {
             return Err(FrameError::Length { found, expected });
         }
         // The last block's CRC is the packet's, so `blocks` ends two bytes early.
         parts.check_crc()?;
         let mut start = PREFIX + 1;
-        for (block, id) in blocks.chunks(block_len).zip(ids) {
+        for (block, id) in blocks.chunks(block_len).zip(ids()) {
             if let [_, found, ..] = block
-                && found != id
+                && *found != id
             {
-                return Err(FrameError::BlockId { at: start + 1, found: *found, expected: *id });
+                return Err(FrameError::BlockId { at: start + 1, found: *found, expected: id });
             }
             let at = start + block_len - 2;
             if let (Some(before), Some([low, high])) = (bytes.get(..at), block.get(block_len - 2..))

@@ -9,7 +9,7 @@ use core::fmt;
 
 use super::header::{CRC, Header, PREFIX, is_device, is_id};
 use super::stuffing::{self, Matcher};
-use super::{FrameError, Instruction};
+use super::{FrameError, Instruction, STUFFING_PATTERN};
 use crate::simd::patterns;
 use crate::{BufferTooSmall, EncodeError, crc};
 
@@ -232,6 +232,46 @@ pub fn encode<'b>(
         return Writer::after(buffer, len).into_written();
     }
     encode_parts(id, instruction, params, buffer)
+}
+
+/// How many bytes such a packet has, stuffing included.
+///
+/// ```
+/// use actucheck_codec::dynamixel2::{Instruction, frame};
+/// assert_eq!(frame::encoded_len(Instruction::Ping, &[])?, 10);
+/// assert_eq!(frame::encoded_len(Instruction::Write, &[b"\x74\x00", b"\xFF\xFF\xFD"])?, 16);
+/// # Ok::<(), actucheck_codec::EncodeError>(())
+/// ```
+///
+/// # Errors
+/// If the packet would be longer than its length field can say.
+pub fn encoded_len(instruction: Instruction, params: &[&[u8]]) -> Result<usize, EncodeError> {
+    len_of(|buffer| encode(0, instruction, params, buffer))
+}
+
+/// How many bytes a packet with so many bytes of parameters has at most, whatever they are: a third
+/// of the body may be stuffing. For buffers whose size is a constant.
+///
+/// ```
+/// use actucheck_codec::dynamixel2::frame;
+/// let buffer = [0; frame::max_encoded_len(6)]; // a Write of four bytes
+/// assert_eq!(buffer.len(), 18);
+/// ```
+#[must_use]
+pub const fn max_encoded_len(params: usize) -> usize {
+    let body = 1 + params;
+    PREFIX + body + body / STUFFING_PATTERN.len() + CRC
+}
+
+/// How many bytes `encode` would write.
+pub(crate) fn len_of(
+    encode: impl FnOnce(&mut [u8]) -> Result<&[u8], EncodeError>,
+) -> Result<usize, EncodeError> {
+    match encode(&mut []) {
+        Ok(packet) => Ok(packet.len()),
+        Err(EncodeError::Buffer(too_small)) => Ok(too_small.needed),
+        Err(error) => Err(error),
+    }
 }
 
 #[inline(never)]

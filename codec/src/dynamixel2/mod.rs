@@ -41,4 +41,4 @@ pub use fast_status::FastStatus;
 pub use frame::Frame;
 pub use generated::dynamixel2::*;
 pub use instruction::{Request, RequestError};
-pub use status::{Status, StatusError};
+pub use status::{Kind, Status, StatusError};

@@ -10,6 +10,17 @@ use crate::{BufferTooSmall, EncodeError};
 pub struct StatusError(pub u8);
 
 impl StatusError {
+    /// How the instruction went, and whether the device has a hardware error.
+    ///
+    /// ```
+    /// use actucheck_codec::dynamixel2::{ErrorNumber, StatusError};
+    /// assert_eq!(StatusError::new(ErrorNumber::AccessError, true), StatusError(0x87));
+    /// ```
+    #[must_use]
+    pub const fn new(number: ErrorNumber, alert: bool) -> Self {
+        Self(number.code() & !ALERT_BIT | if alert { ALERT_BIT } else { 0 })
+    }
+
     /// Whether the device has a hardware error, which its Hardware Error Status register tells.
     #[must_use]
     pub const fn alert(self) -> bool {
@@ -23,7 +34,29 @@ impl StatusError {
     }
 }
 
+/// What a packet is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind<'a> {
+    /// An instruction packet: a host asks. [`Request::parse`](super::Request::parse) takes it apart.
+    Instruction(Instruction),
+    /// A status packet: a device answers.
+    Status(Status<'a>),
+}
+
 impl<'a> Frame<'a> {
+    /// Whether it is an instruction packet or a status packet.
+    ///
+    /// ```
+    /// use actucheck_codec::dynamixel2::{Frame, Instruction, Kind};
+    /// let ping = Frame::parse(b"\xFF\xFF\xFD\x00\x01\x03\x00\x01\x19\x4E")?;
+    /// assert_eq!(ping.kind(), Kind::Instruction(Instruction::Ping));
+    /// # Ok::<(), actucheck_codec::dynamixel2::FrameError>(())
+    /// ```
+    #[must_use]
+    pub fn kind(&self) -> Kind<'a> {
+        self.status().map_or(Kind::Instruction(self.instruction()), Kind::Status)
+    }
+
     /// The error byte of a status packet; `None` for an instruction packet.
     #[must_use]
     pub fn error(&self) -> Option<StatusError> {

@@ -114,6 +114,11 @@ pub enum MessageError {
         /// The command.
         command: Command,
     },
+    /// What is to be set is no number.
+    NotANumber {
+        /// The command.
+        command: Command,
+    },
     /// The frame can't be built.
     Encode(EncodeError),
 }
@@ -128,6 +133,9 @@ impl fmt::Display for MessageError {
             }
             Self::Value { command } => {
                 write!(f, "{} takes another value here, or none", command.name())
+            }
+            Self::NotANumber { command } => {
+                write!(f, "{} takes a number, and this is none", command.name())
             }
             Self::Encode(error) => error.fmt(f),
         }

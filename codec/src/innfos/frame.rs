@@ -1,8 +1,16 @@
-use super::{Command, FrameError, HEADER, OPEN_REPLIES, REPLY_CRC_FROM, REQUEST_CRC_FROM, TAIL};
+use super::{
+    BROADCAST_ADDRESS, CRC_LOW_BYTE_FIRST, Command, FrameError, HEADER, LENGTH_LOW_BYTE_FIRST,
+    LENGTH_SIZE, MAX_ADDRESS, MIN_ADDRESS, OPEN_REPLIES, REPLY_CRC_FROM, REQUEST_CRC_FROM, TAIL,
+};
 use crate::{BufferTooSmall, EncodeError, crc};
 
 /// Bytes before the data: header, address, command, length.
-const PREFIX: usize = 5;
+const PREFIX: usize = size_of_val(&HEADER) + 2 * size_of::<u8>() + LENGTH_SIZE;
+
+// What the code of this module takes for granted of the YAML: any byte is an address.
+const _: () = assert!(LENGTH_SIZE == size_of::<u16>() && !LENGTH_LOW_BYTE_FIRST);
+const _: () = assert!(CRC_LOW_BYTE_FIRST);
+const _: () = assert!(MIN_ADDRESS == 1 && MAX_ADDRESS == u8::MAX && BROADCAST_ADDRESS == 0);
 
 /// Which way a frame goes. The frame itself does not tell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -148,6 +156,12 @@ fn is_open(kind: Kind, command: u8, length: usize) -> bool {
     kind == Kind::Reply && length > 0 && !has_crc(kind, length) && OPEN_REPLIES.contains(&command)
 }
 
+/// How many bytes a frame with so many bytes of data has.
+#[must_use]
+pub const fn encoded_len(kind: Kind, data: usize) -> usize {
+    PREFIX + data + if has_crc(kind, data) { size_of::<u16>() } else { 0 } + size_of_val(&TAIL)
+}
+
 /// Builds a frame in `buffer`; returns it. A reply for which it is open whether it has a CRC gets
 /// none, as the document prints it.
 ///
@@ -175,7 +189,7 @@ pub fn encode<'b>(
     let prefix = [HEADER, address, command.code(), high, low];
     let crc = crc::modbus(data).to_le_bytes();
     let crc: &[u8] = if has_crc(kind, data.len()) { &crc } else { &[] };
-    let needed = PREFIX + data.len() + crc.len() + 1;
+    let needed = encoded_len(kind, data.len());
     let too_small = BufferTooSmall { needed, available: buffer.len() };
     let target = buffer.get_mut(..needed).ok_or(too_small)?;
     let bytes = prefix.iter().chain(data).chain(crc).chain(&[TAIL]);

@@ -1,4 +1,7 @@
-use super::{Command, Direction, Format, Frame, Kind, MessageError, Value, encode};
+use super::{
+    Actuator, Command, Data, Direction, Format, Frame, Kind, MessageError, Value, encode,
+    encoded_len,
+};
 
 /// What a frame means: a command, and the value that it carries this way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,6 +21,35 @@ impl Message {
     #[must_use]
     pub const fn request(address: u8, command: Command, value: Option<Value>) -> Self {
         Self { kind: Kind::Request, address, command, value }
+    }
+
+    /// A message from the host that sets a quantity in the command's unit.
+    ///
+    /// ```
+    /// use actucheck_codec::innfos::{Command, DD_6010, Message, MessageError};
+    /// let command = Command::WritePosition;
+    /// assert!(Message::set(6, command, 1.5, &DD_6010).is_ok()); // R
+    /// let refused = Message::set(6, command, f64::NAN, &DD_6010);
+    /// assert_eq!(refused, Err(MessageError::NotANumber { command }));
+    /// ```
+    ///
+    /// # Errors
+    /// If `physical` is no number, or the command takes no quantity.
+    pub fn set(
+        address: u8,
+        command: Command,
+        physical: f64,
+        actuator: &Actuator,
+    ) -> Result<Self, MessageError> {
+        if physical.is_nan() {
+            return Err(MessageError::NotANumber { command });
+        }
+        let value = command.from_physical(physical, actuator);
+        let value = value.ok_or(MessageError::Value { command })?;
+        match format(Kind::Request, command)? {
+            Some(_) => Ok(Self::request(address, command, Some(value))),
+            None => Err(MessageError::Value { command }),
+        }
     }
 
     /// A message to the host.
@@ -53,7 +85,10 @@ impl Message {
         Ok(Self { kind, address: frame.address(), command, value })
     }
 
-    /// Builds the frame in `buffer`; returns it. 14 bytes are enough for every message.
+    /// The size of the longest message's frame.
+    pub const MAX_LEN: usize = encoded_len(Kind::Request, Data::MAX_LEN);
+
+    /// Builds the frame in `buffer`; returns it. [`Message::MAX_LEN`] bytes are always enough.
     ///
     /// # Errors
     /// If the documents don't have the command, it is not answered, the value is not of its
@@ -61,7 +96,7 @@ impl Message {
     pub fn encode<'b>(&self, buffer: &'b mut [u8]) -> Result<&'b [u8], MessageError> {
         let Self { kind, address, command, value } = *self;
         let data = match (format(kind, command)?, value) {
-            (None, None) => super::Data::default(),
+            (None, None) => Data::default(),
             (Some(format), Some(value)) if value.is(format) => value.encode(),
             _ => return Err(MessageError::Value { command }),
         };

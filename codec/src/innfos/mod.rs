@@ -47,7 +47,7 @@ pub use command::{Actuator, CommandRow, Direction, Format, FullScale};
 pub use datagram::{Frames, frames};
 pub use error::{FrameError, MessageError};
 pub use fixed::{Iq8, Iq24};
-pub use frame::{Frame, Kind, encode};
+pub use frame::{Frame, Kind, encode, encoded_len};
 pub use generated::innfos::*;
 pub use message::Message;
 pub use value::{Data, Flag, Mac, Value};

@@ -108,14 +108,17 @@ impl Mac {
 /// The bytes of a value, high byte first: 1 to 6.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Data {
-    bytes: [u8; 6],
+    bytes: [u8; Self::MAX_LEN],
     len: usize,
 }
 
 impl Data {
-    /// Six bytes at most.
+    /// The most that a value has.
+    pub(super) const MAX_LEN: usize = 6;
+
+    /// As many bytes at most.
     fn of(given: &[u8]) -> Self {
-        let mut bytes = [0; 6];
+        let mut bytes = [0; Self::MAX_LEN];
         for (slot, byte) in bytes.iter_mut().zip(given) {
             *slot = *byte;
         }

@@ -18,18 +18,22 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod block;
 mod data;
 mod device;
 mod error;
 mod meaning;
 mod range;
 mod row;
+mod several;
 mod typed;
 
+pub use block::RegisterBlock;
 pub use data::Data;
 pub use device::Device;
 pub use error::RegisterError;
 pub use meaning::{Condition, Meaning};
 pub use range::{Bound, Range};
 pub use row::{Access, Area, BitField, Kind, NamedValue, Row, Unit};
+pub use several::RegisterSyncWrite;
 pub use typed::{Register, RegisterRead, RegisterWrite, Value};

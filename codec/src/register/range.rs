@@ -63,6 +63,21 @@ impl Row {
         (min, max)
     }
 
+    /// The register that holds the end which `value` is beyond, if one does.
+    fn limit_beyond(&self, value: i64, limits: impl Fn(u16) -> Option<i64>) -> Option<u16> {
+        let Range::Between { min, max } = self.range_while(&limits) else {
+            return None;
+        };
+        let broken = [
+            min.value(&limits).is_some_and(|least| value < least).then_some(min),
+            max.value(&limits).is_some_and(|most| value > most).then_some(max),
+        ];
+        broken.into_iter().flatten().find_map(|end| match end {
+            Bound::Register { address, .. } => Some(address),
+            Bound::Value(_) => None,
+        })
+    }
+
     /// Whether the register may have this value, whoever sets it.
     ///
     /// # Errors
@@ -78,11 +93,12 @@ impl Row {
         {
             return Err(RegisterError::NotListed { register, value, listed });
         }
-        let (min, max) = self.bounds(limits);
+        let (min, max) = self.bounds(&limits);
         if (min..=max).contains(&value) {
             Ok(())
         } else {
-            Err(RegisterError::OutOfRange { register, value, min, max })
+            let limit = self.limit_beyond(value, limits);
+            Err(RegisterError::OutOfRange { register, value, min, max, limit })
         }
     }
 }

@@ -101,8 +101,31 @@ impl Row {
         if (min..=max).contains(&value) {
             Ok(Data::of(self.kind, value))
         } else {
-            Err(RegisterError::OutOfRange { register: self.name, value, min, max })
+            Err(RegisterError::OutOfRange { register: self.name, value, min, max, limit: None })
         }
+    }
+
+    /// The value that a host's Write of these bytes sets, as a device reads it. `limits` is as in
+    /// [`Row::encode`].
+    ///
+    /// # Errors
+    /// If the register is read-only, the bytes are not as many as it has, or the value is outside
+    /// its range; [`RegisterError::number`] is what to answer then.
+    pub fn accept(
+        &self,
+        bytes: &[u8],
+        limits: impl Fn(u16) -> Option<i64>,
+    ) -> Result<i64, RegisterError> {
+        let register = self.name;
+        if self.access == Access::ReadOnly {
+            return Err(RegisterError::ReadOnly { register });
+        }
+        let (found, expected) = (bytes.len(), self.kind.size().into());
+        let value = self.decode(bytes).ok_or(RegisterError::Size { register, found, expected })?;
+        if self.settled {
+            self.check(value, limits)?;
+        }
+        Ok(value)
     }
 
     /// The name of a value, if it has one.

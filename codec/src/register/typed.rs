@@ -177,6 +177,14 @@ impl RegisterRead {
         let (address, length) = (self.row.address.to_le_bytes(), self.row.kind.size());
         frame::encode(self.id, Instruction::Read, &[&address, &length.to_le_bytes()], buffer)
     }
+
+    /// How many bytes the packet has, stuffing included.
+    ///
+    /// # Errors
+    /// As `encode`, whatever the size of its buffer.
+    pub fn encoded_len(&self) -> Result<usize, EncodeError> {
+        frame::len_of(|buffer| self.encode(buffer))
+    }
 }
 
 /// The request to set a register, its value checked.
@@ -208,5 +216,13 @@ impl RegisterWrite {
     pub fn encode<'b>(&self, buffer: &'b mut [u8]) -> Result<&'b [u8], EncodeError> {
         let address = self.address.to_le_bytes();
         frame::encode(self.id, self.instruction, &[&address, self.data.as_bytes()], buffer)
+    }
+
+    /// How many bytes the packet has, stuffing included.
+    ///
+    /// # Errors
+    /// As `encode`, whatever the size of its buffer.
+    pub fn encoded_len(&self) -> Result<usize, EncodeError> {
+        frame::len_of(|buffer| self.encode(buffer))
     }
 }

@@ -53,7 +53,7 @@ fn fault(reason: Reason) -> Fault {
 }
 
 /// Feeds `bytes` in pieces of the sizes that `sizes` goes through again and again, and takes at
-/// most `patience` events after each.
+/// most `patience` events after each; all of them if that is the largest number.
 fn feed<const BLOCKS: usize>(
     parser: &mut Parser<BLOCKS>,
     mut bytes: &[u8],
@@ -63,6 +63,11 @@ fn feed<const BLOCKS: usize>(
 ) {
     while !bytes.is_empty() {
         let (piece, rest) = bytes.split_at(sizes.next().unwrap().min(bytes.len()));
+        if patience == usize::MAX {
+            parser.feed(piece, |event| events.push(owned(event)));
+            bytes = rest;
+            continue;
+        }
         let left = parser.push(piece).len();
         bytes = &bytes[piece.len() - left..];
         assert_eq!(bytes.len(), rest.len() + left);

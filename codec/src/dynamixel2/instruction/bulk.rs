@@ -5,7 +5,7 @@ use core::borrow::Borrow;
 use super::RequestError;
 use super::params::Params;
 use crate::EncodeError;
-use crate::dynamixel2::frame::{check_device, encode_with, length_field};
+use crate::dynamixel2::frame::{check_device, encode_with, len_of, length_field};
 use crate::dynamixel2::{BROADCAST_ID, Instruction};
 
 /// Reads registers of several devices, each of which answers with a status packet (DYNAMIXEL
@@ -40,6 +40,14 @@ impl<D: IntoIterator<Item: Borrow<DeviceRange>> + Clone> BulkRead<D> {
             devices().for_each(|device| put(&head(device.id, device.address, device.length)));
         };
         encode_with(BROADCAST_ID, Instruction::BulkRead, params, buffer)
+    }
+
+    /// How many bytes the packet has, stuffing included.
+    ///
+    /// # Errors
+    /// As `encode`, whatever the size of its buffer.
+    pub fn encoded_len(&self) -> Result<usize, EncodeError> {
+        len_of(|buffer| self.encode(buffer))
     }
 }
 
@@ -97,6 +105,14 @@ impl<'d, D: IntoIterator<Item: Borrow<DeviceWrite<'d>>> + Clone> BulkWrite<D> {
             }
         };
         encode_with(BROADCAST_ID, Instruction::BulkWrite, params, buffer)
+    }
+
+    /// How many bytes the packet has, stuffing included.
+    ///
+    /// # Errors
+    /// As `encode`, whatever the size of its buffer.
+    pub fn encoded_len(&self) -> Result<usize, EncodeError> {
+        len_of(|buffer| self.encode(buffer))
     }
 }
 

@@ -3,6 +3,7 @@
 use super::addressed;
 use super::params::Params;
 use crate::layout::LayoutError;
+use crate::register::Row;
 
 /// Reads `length` bytes from `address` on, which the status packet's data are (DYNAMIXEL
 /// Protocol 2.0, Read; JA40 document, §1.6.2).
@@ -17,6 +18,16 @@ pub struct Read {
 impl Read {
     fn with_params<T>(self, encode: impl FnOnce(&[&[u8]]) -> T) -> T {
         encode(&[&self.address.to_le_bytes(), &self.length.to_le_bytes()])
+    }
+
+    /// From the first to the last of these registers, and all that is between. What comes back is
+    /// taken apart by a [`RegisterBlock`](crate::register::RegisterBlock).
+    #[must_use]
+    pub fn covering(rows: &[&Row]) -> Self {
+        let end = |row: &&Row| row.address.saturating_add(row.kind.size());
+        let address = rows.iter().map(|row| row.address).min().unwrap_or_default();
+        let end = rows.iter().map(end).max().unwrap_or_default();
+        Self { address, length: end - address }
     }
 
     /// Reads its parameters.

@@ -53,6 +53,14 @@ macro_rules! addressed {
                 let instruction = crate::dynamixel2::Instruction::$name;
                 self.with_params(|params| crate::dynamixel2::frame::encode(id, instruction, params, buffer))
             }
+
+            /// How many bytes the packet has, stuffing included.
+            ///
+            /// # Errors
+            /// If it would be longer than its length field can say.
+            pub fn encoded_len(&self) -> Result<usize, crate::EncodeError> {
+                crate::dynamixel2::frame::len_of(|buffer| self.encode(0, buffer))
+            }
         }
     };
 }

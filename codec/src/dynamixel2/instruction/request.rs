@@ -132,6 +132,14 @@ impl<'a> Request<'a> {
         }
     }
 
+    /// How many bytes the packet has, stuffing included.
+    ///
+    /// # Errors
+    /// As [`Request::encode`], whatever the size of its buffer.
+    pub fn encoded_len(&self) -> Result<usize, EncodeError> {
+        frame::len_of(|buffer| self.encode(BROADCAST_ID, buffer))
+    }
+
     /// Its instruction.
     #[must_use]
     pub const fn instruction(&self) -> Instruction {

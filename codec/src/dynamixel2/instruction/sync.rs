@@ -5,8 +5,8 @@ use core::borrow::Borrow;
 use super::RequestError;
 use super::params::Params;
 use crate::EncodeError;
-use crate::dynamixel2::frame::{check_device, encode_with};
-use crate::dynamixel2::{BROADCAST_ID, Instruction};
+use crate::dynamixel2::frame::{check_device, encode_with, len_of};
+use crate::dynamixel2::{BROADCAST_ID, FastStatus, FrameError, Instruction};
 
 macro_rules! read {
     ($(#[$doc:meta])* $name:ident) => {
@@ -35,6 +35,14 @@ macro_rules! read {
                     ids().for_each(|id| put(&[id]));
                 };
                 encode_with(BROADCAST_ID, Instruction::$name, params, buffer)
+            }
+
+            /// How many bytes the packet has, stuffing included.
+            ///
+            /// # Errors
+            /// As `encode`, whatever the size of its buffer.
+            pub fn encoded_len(&self) -> Result<usize, EncodeError> {
+                len_of(|buffer| self.encode(buffer))
             }
         }
 
@@ -82,6 +90,29 @@ read! {
     FastSyncRead
 }
 
+impl<I: IntoIterator<Item: Borrow<u8>> + Clone> FastSyncRead<I> {
+    /// Reads the packet with which the devices answer.
+    ///
+    /// ```
+    /// use actucheck_codec::ja40;
+    /// let request = ja40::PRESENT_POSITION.fast_sync_read([1, 2]);
+    /// let packet = b"\xFF\xFF\xFD\x00\xFE\x11\x00\x55\
+    ///     \x00\x01\xD0\x07\x00\x00\x0C\x83\
+    ///     \x00\x02\x09\x00\x00\x00\x11\x40";
+    /// for block in request.answer(packet)?.blocks() {
+    ///     println!("{}: {}", block.id, block.value(ja40::PRESENT_POSITION)?);
+    /// }
+    /// # Ok::<(), actucheck_codec::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// The first rule that the bytes break, with the offset.
+    pub fn answer<'a>(&self, bytes: &'a [u8]) -> Result<FastStatus<'a>, FrameError> {
+        let ids = || self.ids.clone().into_iter().map(|id| *id.borrow());
+        FastStatus::of(bytes, self.length, ids)
+    }
+}
+
 /// A device, and what is written to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DeviceData<'a> {
@@ -123,6 +154,14 @@ macro_rules! write {
                 };
                 encode_with(BROADCAST_ID, Instruction::$name, params, buffer)
             }
+
+            /// How many bytes the packet has, stuffing included.
+            ///
+            /// # Errors
+            /// As `encode`, whatever the size of its buffer.
+            pub fn encoded_len(&self) -> Result<usize, EncodeError> {
+                len_of(|buffer| self.encode(buffer))
+            }
         }
 
         impl<'a> $name<DataBlocks<'a>> {
@@ -154,6 +193,17 @@ write! {
     /// Writes the same registers of several devices, which answer with one packet together:
     /// [`FastStatus`](crate::dynamixel2::FastStatus) (JA40 document, §1.6.9).
     FastSyncWrite
+}
+
+impl<'d, D: IntoIterator<Item: Borrow<DeviceData<'d>>> + Clone> FastSyncWrite<D> {
+    /// Reads the packet with which the devices answer: each with an error byte, without data.
+    ///
+    /// # Errors
+    /// The first rule that the bytes break, with the offset.
+    pub fn answer<'a>(&self, bytes: &'a [u8]) -> Result<FastStatus<'a>, FrameError> {
+        let ids = || self.devices.clone().into_iter().map(|device| device.borrow().id);
+        FastStatus::of(bytes, 0, ids)
+    }
 }
 
 fn head(address: u16, length: u16) -> [u8; 4] {

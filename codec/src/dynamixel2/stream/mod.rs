@@ -5,7 +5,7 @@
 //! panics, and takes a time that grows linearly with the bytes, whatever they are.
 //!
 //! ```
-//! use actucheck_codec::dynamixel2::stream::{Event, Parser, Reason};
+//! use actucheck_codec::dynamixel2::stream::{Event, Parser};
 //!
 //! // Noise, a Ping whose last byte is broken, and a good one, in two pieces.
 //! let pieces: [&[u8]; 2] = [
@@ -15,17 +15,13 @@
 //! let mut parser = Parser::new();
 //! let mut seen = Vec::new();
 //! for piece in pieces {
-//!     let mut rest = piece;
-//!     while !rest.is_empty() {
-//!         rest = parser.push(rest);
-//!         while let Some(event) = parser.next_event() {
-//!             seen.push(match event {
-//!                 Event::Frame(frame) => format!("{:?} to {}", frame.instruction(), frame.id()),
-//!                 Event::FastStatus(status) => format!("{} bytes", status.bytes().len()),
-//!                 Event::Skipped { bytes, reason } => format!("{bytes} skipped: {reason}"),
-//!             });
-//!         }
-//!     }
+//!     parser.feed(piece, |event| {
+//!         seen.push(match event {
+//!             Event::Frame(frame) => format!("{:?} to {}", frame.instruction(), frame.id()),
+//!             Event::FastStatus(status) => format!("{} bytes", status.bytes().len()),
+//!             Event::Skipped { bytes, reason } => format!("{bytes} skipped: {reason}"),
+//!         });
+//!     });
 //! }
 //! let expected = ["2 skipped: no header", "10 skipped: a packet with a wrong CRC", "Ping to 1"];
 //! assert_eq!(seen, expected);

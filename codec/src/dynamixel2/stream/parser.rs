@@ -92,7 +92,38 @@ impl<const BLOCKS: usize> Parser<BLOCKS> {
         }
     }
 
-    /// Takes as many of `bytes` as there is room for; returns the others.
+    /// Takes all of `bytes`, and hands on each event that they complete. To go on after
+    /// [`Parser::idle`] without waiting for bytes, feed none.
+    ///
+    /// ```
+    /// use actucheck_codec::dynamixel2::stream::{Event, Parser};
+    /// let received: [&[u8]; 2] = [b"\xFF\xFF\xFD\x00\x01\x04\x00\x55", b"\x00\xA1\x0C"];
+    /// let mut parser = Parser::new();
+    /// let mut ids = Vec::new();
+    /// for bytes in received {
+    ///     parser.feed(bytes, |event| {
+    ///         if let Event::Frame(frame) = event {
+    ///             ids.push(frame.id());
+    ///         }
+    ///     });
+    /// }
+    /// assert_eq!(ids, [1]);
+    /// ```
+    pub fn feed(&mut self, bytes: &[u8], mut take: impl FnMut(Event<'_>)) {
+        let mut rest = bytes;
+        loop {
+            rest = self.push(rest);
+            while let Some(event) = self.next_event() {
+                take(event);
+            }
+            if rest.is_empty() {
+                break;
+            }
+        }
+    }
+
+    /// Takes as many of `bytes` as there is room for; returns the others. [`Parser::feed`] takes
+    /// them all; this is for who wants to stop between two events.
     ///
     /// At least one byte is taken if [`Parser::next_event`] returned `None` last.
     #[must_use = "bytes that were not taken are to be pushed again after the events"]
