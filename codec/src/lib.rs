@@ -1,13 +1,27 @@
-//! Packets and control tables of robot actuators.
+//! Packets and control tables of robot actuators, on two wires.
 //!
-//! The wire is DYNAMIXEL Protocol 2.0 and its dialect, the JA actuators' protocol; [`innfos`] is
-//! another, with UDP below it. Instruction codes, layouts, registers and commands are generated at
-//! build time from the documents' YAML. Everything works on the caller's buffers: no allocation, no
-//! `std` but for the feature of that name, which asks the processor what it can do.
+//! | wire | module | what it carries |
+//! |---|---|---|
+//! | DYNAMIXEL Protocol 2.0 and its dialect, the JA actuators' protocol | [`dynamixel2`] | reads and writes of a control table, on a serial bus |
+//! | INNFOS Ethernet protocol | [`innfos`] | commands with a value, in UDP datagrams |
 //!
-//! No function of this crate panics, whatever bytes it is given. Lengths that come from the wire
-//! are checked against the bytes that are there; a buffer that is too small is an error that
-//! tells the size needed.
+//! | to | see |
+//! |---|---|
+//! | read or set a register of a known device | [`ja40`], [`ja_variant`], [`xm430_w210`] |
+//! | do so with a device of your own | [`register`], and `codec/examples/own-device` |
+//! | read one packet, or find packets in a stream | [`dynamixel2::Frame`], [`dynamixel2::stream::Parser`] |
+//! | build an instruction, or answer one | [`dynamixel2::instruction`], [`dynamixel2::status`] |
+//! | build and read INNFOS messages | [`innfos::Message`] |
+//! | compute the CRC alone | [`crc`] |
+//! | pass every error on with `?` | [`Error`] |
+//!
+//! Instruction codes, layouts, registers and commands are generated from the documents' YAML when
+//! the crate is built. Everything works on the caller's buffers: nothing is allocated. The feature
+//! `std` only asks the processor at run time which instructions it has.
+//!
+//! Whatever bytes a function is given, it does not panic. Lengths that come from the wire are checked
+//! against the bytes that are there. A buffer that is too small is an error that tells the size
+//! needed; what the buffer holds then, and behind what was written to it, is unspecified.
 //!
 //! ```
 //! use actucheck_codec::dynamixel2::{Frame, Instruction};
@@ -24,7 +38,7 @@
 //! let reply = b"\xFF\xFF\xFD\x00\x01\x08\x00\x55\x00\x94\x6C\x00\x00\xF5\xAF";
 //! let position = Frame::parse(reply)?.status()?.value(ja40::PRESENT_POSITION)?;
 //! assert_eq!(position, 27_796);
-//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! # Ok::<(), actucheck_codec::Error>(())
 //! ```
 
 #![cfg_attr(not(test), no_std)]

@@ -1,7 +1,7 @@
 //! Whole numbers and doubles, without the standard library's rounding.
 
-/// The whole number nearest to `value`, the one farther from 0 if two are as near; the largest or
-/// smallest of the type for what lies beyond it, `None` for what is no number.
+/// The whole number nearest to `value`; of two that are equally near, the one farther from 0. Beyond
+/// the type's range, its largest or smallest number; `None` for NaN.
 pub(crate) fn nearest(value: f64) -> Option<i64> {
     if value.is_nan() {
         return None;

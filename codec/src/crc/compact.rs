@@ -1,7 +1,7 @@
-//! The division in small words, for the shortest messages anywhere and for every message on a
-//! processor without 64-bit registers: little code and no table.
+//! CRCs by 16-bit and 32-bit arithmetic: little code and no table. Used for messages of a few bytes
+//! on every processor, and for all messages on a processor without 64-bit registers.
 //!
-//! How it finds a quotient is told in [`portable`](super::portable).
+//! [`portable`](super::portable) explains how a quotient is found.
 
 use super::order::Order;
 

@@ -7,8 +7,8 @@ use crate::simd::Processor;
 /// The way this machine computes CRCs best, found once.
 ///
 /// The free functions of [`crc`](super) look it up on every call, which costs a load and a
-/// branch. A parser of short packets keeps an `Engine` instead: one byte, and every call is a
-/// predictable branch away from the code for this processor.
+/// branch. A loop over many short packets keeps an `Engine` instead, which is one byte: every call
+/// then begins with one branch that the processor predicts.
 ///
 /// With the feature `std` the processor is asked; without it, only instructions that the build
 /// was told to use are used (`-C target-feature`). All engines give the same results.

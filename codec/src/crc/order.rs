@@ -2,7 +2,7 @@
 //!
 //! Everything below treats a 64-bit word as a polynomial over GF(2) of degree at most 63, the
 //! first message bit being the highest term. [`Msb`] keeps that term in bit 63, [`Lsb`] in
-//! bit 0, so neither has to reverse a bit. "Raise" and "lower" multiply and divide by x^n.
+//! bit 0, so that bits never have to be reversed. `raise` multiplies by x^n, `lower` divides by it.
 
 /// A bit order, and with it how a polynomial lies in a word.
 pub(crate) trait Order {

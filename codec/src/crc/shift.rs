@@ -1,7 +1,7 @@
 //! Arithmetic modulo P: powers of x, and with them a state moved over zero bytes.
 //!
-//! Everything here is in the plain bit order (bit i is x^i); a reflected state is turned round on
-//! the way in and out.
+//! Everything here is in the plain bit order (bit i is x^i). The caller reverses the bits of a
+//! reflected state before and after.
 #![expect(clippy::indexing_slicing, reason = "arrays of a fixed size, indices below it")]
 
 /// The order of x modulo P = (x + 1)(x^15 + x + 1): x^32767 = 1.
@@ -28,7 +28,7 @@ static POWERS: [[u16; 32]; 3] = {
 
 /// `state` x^(8 `count`) mod P: the state after `count` zero bytes.
 pub(crate) fn shift(state: u16, count: u64) -> u16 {
-    // 8 is prime to the order, so the byte counts have the same period as the exponents.
+    // 8 and the order have no common factor, so byte counts repeat after as many as exponents do.
     let mut count = count % ORDER;
     let mut state = state;
     for row in &POWERS {

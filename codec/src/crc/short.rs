@@ -1,7 +1,7 @@
 //! Messages of four to 16 bytes as one or two words, without a loop over the bytes.
 //!
 //! The words are *right-aligned*: the last byte of the message is the lowest, so that the same
-//! constants serve every length. The bytes come in by two loads that overlap; a load never leaves
+//! constants serve every length. Two loads that may overlap fetch the bytes; neither reads outside
 //! the slice.
 
 use super::order::Order;
@@ -25,8 +25,8 @@ pub(crate) fn pair<O: Order>(state: u16, bytes: &[u8]) -> (u64, u64) {
         return (0, 0); // never: callers see to the length
     };
     let (top, spare) = (O::top(state), spare_bits(bytes));
-    // Lowering drops the bytes that `last` holds already: of nine bytes all but one, and with
-    // them the state's second byte.
+    // `lower` drops the bytes that `last` has too. Of a message of nine bytes it drops all but one,
+    // and with them the state's second byte, which is added to `low` instead.
     let high = O::lower(O::load(first) ^ top, spare);
     let low = O::load(last) ^ O::raise(O::raise(top, 56 - spare), 8);
     (high, low)

@@ -22,13 +22,13 @@ pub(crate) use writer::Writer;
 #[derive(Clone, Copy)]
 pub struct Frame<'a> {
     id: u8,
-    /// The instruction's code. Which of the named ones it is costs a jump, and not everybody asks.
+    /// The instruction's code, which becomes an [`Instruction`] only when somebody asks for it.
     code: u8,
     /// How many bytes the body has, on the wire, and the parameters without stuffing.
     body_len: usize,
     params_len: usize,
-    /// From the instruction on. What stands behind the body is of no meaning, but that it may be
-    /// read makes it faster to take stuffing away.
+    /// From the instruction on. Bytes behind the body mean nothing; that they may be read makes
+    /// unstuffing faster.
     bytes: &'a [u8],
 }
 
@@ -120,7 +120,8 @@ impl<'a> Frame<'a> {
     }
 
     /// Writes the parameters without stuffing to `buffer`; returns them. What is behind them in
-    /// `buffer` is lost: with 128 bytes of room, short packets are copied by moves of fixed size.
+    /// `buffer` is lost. With 128 bytes of room it is fastest: short packets are then copied by moves
+    /// of a fixed size.
     ///
     /// # Errors
     /// If `buffer` is smaller than [`Frame::params_len`].

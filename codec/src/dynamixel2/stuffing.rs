@@ -2,7 +2,7 @@
 //! "packet handling").
 //!
 //! A *body* is the bytes from the instruction up to the CRC. A sender puts FD behind every
-//! FF FF FD in it, a receiver takes it away.
+//! FF FF FD in it, a receiver removes it.
 
 mod insert;
 mod remove;

@@ -108,9 +108,9 @@ impl Command {
         })
     }
 
-    /// The value nearest to a quantity in the command's unit, the one farther from 0 if two are
-    /// as near. What lies beyond the format becomes its largest or smallest value. `None` if the
-    /// command's value is no quantity, or for what is no number.
+    /// The value nearest to a quantity in the command's unit; of two that are equally near, the one
+    /// farther from 0. What lies beyond the format becomes its largest or smallest value. `None` if
+    /// the command's value is no quantity, or for NaN.
     ///
     /// ```
     /// use actucheck_codec::innfos::{Command, DD_6010, Iq24, Value};

@@ -114,7 +114,7 @@ pub enum MessageError {
         /// The command.
         command: Command,
     },
-    /// What is to be set is no number.
+    /// The quantity to be set is NaN.
     NotANumber {
         /// The command.
         command: Command,

@@ -12,9 +12,8 @@ macro_rules! fixed {
             /// How many bits stand behind the point.
             pub const FRACTION_BITS: u32 = $bits;
 
-            /// The number nearest to `value`, the one farther from 0 if two are as near. What lies
-            /// beyond the type becomes its largest or smallest number. `None` for what is no
-            /// number.
+            /// The number nearest to `value`; of two that are equally near, the one farther from 0.
+            /// What lies beyond the type becomes its largest or smallest number. `None` for NaN.
             #[must_use]
             pub fn from_f64(value: f64) -> Option<Self> {
                 let (min, max) = (<$raw>::MIN.into(), <$raw>::MAX.into());

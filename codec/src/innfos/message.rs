@@ -34,7 +34,7 @@ impl Message {
     /// ```
     ///
     /// # Errors
-    /// If `physical` is no number, or the command takes no quantity.
+    /// If `physical` is NaN, or the command takes no quantity.
     pub fn set(
         address: u8,
         command: Command,

@@ -1,4 +1,4 @@
-//! The INNFOS actuators' protocol: frames in UDP datagrams to an Ethernet control board.
+//! The INNFOS Ethernet protocol: frames in UDP datagrams to an Ethernet control board.
 //!
 //! | header | address | command | length | data | CRC | end |
 //! |---|---|---|---|---|---|---|
@@ -31,10 +31,10 @@ mod frame;
 mod message;
 mod value;
 
-/// What the build script makes of the protocol's YAML.
+/// What the build script makes of the wire's YAML.
 #[allow(
     unreachable_pub,            // its contents are exported below
-    unused_imports,             // a small protocol has no use for every type
+    unused_imports,             // a small wire has no use for every type
     clippy::unreadable_literal, // numbers keep the form that they have in the YAML
     clippy::match_same_arms,    // an arm a row, whatever the other rows say
     clippy::too_many_lines      // tables are as long as the documents' are

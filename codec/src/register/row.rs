@@ -141,9 +141,9 @@ impl Row {
         self.unit.map(|unit| to_f64(value) * unit.factor)
     }
 
-    /// The count nearest to a physical value, the one farther from 0 if two are as near. What is
-    /// beyond the size of the register becomes its largest or smallest value. `None` if the
-    /// register has no unit, or for what is no number.
+    /// The count nearest to a physical value; of two that are equally near, the one farther from 0.
+    /// What is beyond the size of the register becomes its largest or smallest value. `None` if the
+    /// register has no unit, or for NaN.
     ///
     /// ```
     /// use actucheck_codec::ja40;

@@ -1,9 +1,9 @@
-//! Windows of 64 bytes, and what is looked for in them, the best way that the processor has.
+//! Searches in windows of 64 bytes, with the fastest instructions that the processor has.
 //!
 //! A [`Task`] is a loop over windows. [`run`] compiles it once for each back end and picks the one
-//! for this machine. A [`Backend`] says what stands where in a window, and whether a window ends in
-//! its CRC. All of the crate's `unsafe` is in [`x86_64`]; the arithmetic of CRCs is in
-//! [`crc`](crate::crc).
+//! for this machine. A [`Backend`] tells where the pattern of byte stuffing stands in a window, and
+//! whether a window ends in its CRC. All of the crate's `unsafe` is in `x86_64`; the arithmetic of
+//! CRCs is in [`crc`](crate::crc).
 
 #[cfg(any(test, feature = "meter"))]
 pub mod meter;
@@ -25,10 +25,11 @@ use x86_64::{Narrow, Wide};
 /// Bytes of a window.
 pub(crate) const WINDOW: usize = 64;
 
-/// Work that is compiled once for each back end, with that back end's processor features. A call
-/// of code for a particular processor is never inlined into code for any processor, so it is the
-/// caller's whole inner loop that becomes a task. Its `run` has to be `inline(always)`: what stays
-/// a function of its own is compiled for any processor.
+/// Work that is compiled once for each back end, with that back end's processor features.
+///
+/// The compiler never inlines a function that needs processor features into one that does not. So
+/// the caller's whole inner loop is the task, and its `run` is `inline(always)`: a function that is
+/// not inlined would be compiled without the features.
 pub(crate) trait Task {
     type Output;
     fn run(self, backend: impl Backend) -> Self::Output;
@@ -45,8 +46,8 @@ pub(crate) struct Places {
 
 /// A packet, up to its CRC, that is not in one piece yet.
 ///
-/// The prefix and the lead are not neighbours: a processor waits when it loads at once what it has
-/// just stored in two pieces.
+/// The prefix and the lead are not neighbours in memory, so that no compiler loads both at once: a
+/// processor has to wait when one load covers two stores that it has just made.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub(crate) struct Pieces<'a> {
@@ -80,7 +81,7 @@ pub(crate) struct Looked {
     pub(crate) patterns: u64,
 }
 
-/// What a processor does best its own way.
+/// What each back end does with the instructions of its processor.
 pub(crate) trait Backend: Copy {
     /// As [`crc::umts`](crate::crc::umts).
     fn umts(self, bytes: &[u8]) -> u16;

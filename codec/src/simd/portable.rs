@@ -31,7 +31,7 @@ impl Backend for Portable {
     #[inline]
     fn ends_in_crc(self, window: &[u8; WINDOW], len: usize) -> bool {
         const { assert!(UMTS_INIT == 0, "zeros in front must not change a CRC") }
-        // Of a fixed size, as a loop over a packet would end where no processor expects it.
+        // All 64 bytes, whatever the length: the end of a loop over `len` bytes is hard to predict.
         let mut bytes = *window;
         let words = bytes.as_chunks_mut().0.iter_mut().zip(keep_last(len).as_chunks().0);
         for (word, keep) in words {
@@ -61,7 +61,7 @@ impl Backend for Portable {
             *mismatches = (word ^ first) | (one_on ^ second) | (two_on ^ third);
             some |= some_zero(*mismatches);
         }
-        // Patterns are rare, and where there is none nobody asks for stuffing.
+        // Patterns are rare; without one, the places of stuffing are not needed.
         if some == 0 {
             return Places { patterns: 0, stuffing: 0 };
         }

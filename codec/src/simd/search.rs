@@ -1,5 +1,5 @@
-//! Looks for headers and for the pattern of byte stuffing: many places at a time the way of the
-//! processor while there are as many, then eight at a time.
+//! Looks for headers and for the pattern of byte stuffing: in windows of 64 bytes while there are as
+//! many, then at eight places at a time.
 //!
 //! Eight neighbouring places are one `u64`, the first in its lowest byte; the words that begin
 //! one, two and three bytes later hold what stands behind each. A byte of the combined word is

@@ -6,9 +6,9 @@
 //! x^16 + x^15 + x^2 + 1, its 16 lowest bits q give the remainder without a product:
 //! V ^ q ^ q << 2 ^ q << 15.
 //!
-//! This is the one module of the crate with `unsafe` in it, for two things: loads from a
-//! reference to an array, and calls of functions that need processor features, which a value of
-//! [`Narrow`] or [`Wide`] proves present.
+//! This is the only module of the crate with `unsafe`. It is needed for loads from a reference to
+//! an array, and for calls of functions that need processor features; a value of [`Narrow`] or
+//! [`Wide`] is the proof that the processor has them.
 #![allow(unsafe_code)]
 
 mod constants;

@@ -1,7 +1,7 @@
-//! Short packets, from where their bytes are to the buffer and to the CRC.
+//! Encodes short packets: their bytes go to the buffer and into the CRC, and are not read back.
 //!
-//! To read back bytes that were just written in smaller pieces takes a processor longer than
-//! everything else about such a packet.
+//! A load of bytes that were just stored in smaller pieces makes the processor wait for longer than
+//! all the rest of such a packet takes.
 
 use crate::dynamixel2::header::{CRC, PREFIX};
 use crate::dynamixel2::{HEADER, STUFFING_BYTE, STUFFING_PATTERN};
@@ -85,8 +85,8 @@ fn put(pieces: Pieces<'_>, crc: u16, len: usize, room: &mut [u8; ROOM]) -> Optio
     Some(())
 }
 
-/// The same, with stuffing behind the patterns that begin at these places of the tail. Apart, as
-/// most packets need none.
+/// The same, with stuffing behind the patterns that begin at these places of the tail. A function of
+/// its own, as most packets need none.
 #[inline(never)]
 fn encode_stuffed(
     backend: impl Backend,
@@ -101,7 +101,7 @@ fn encode_stuffed(
     // So short a length is all in its low byte.
     let prefix = prefix + (u64::from(count) << 40);
     let target = put_front(Pieces { prefix, ..pieces }, buffer)?;
-    // A whole window each time, as nothing foretells where a loop over the bytes ends.
+    // A whole window each time: the end of a loop over the bytes is hard to predict.
     *target.first_chunk_mut()? = *whole.first_chunk::<WINDOW>()?;
     let (mut left, mut stuffed) = (patterns, 0);
     while left != 0 {
@@ -134,7 +134,7 @@ fn word(bytes: &[u8]) -> u64 {
         let (first, last) = (u32::from_le_bytes(*first), u32::from_le_bytes(*last));
         u64::from(last) << (8 * (bytes.len() - 4)) | u64::from(first)
     } else {
-        // Byte by byte, as a caller may have just put them together.
+        // Byte by byte: the caller may have just stored them one by one (see above).
         bytes.iter().rev().fold(0, |word, byte| word << 8 | u64::from(*byte))
     }
 }

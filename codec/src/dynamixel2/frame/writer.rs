@@ -5,7 +5,7 @@ use crate::dynamixel2::HEADER;
 use crate::dynamixel2::header::{CRC, PREFIX};
 use crate::{BufferTooSmall, EncodeError, crc};
 
-/// Writes a frame front to back, and goes on counting when the buffer is full.
+/// Writes a packet from front to back. When the buffer is full, it only counts.
 pub(crate) struct Writer<'b> {
     buffer: &'b mut [u8],
     written: usize,

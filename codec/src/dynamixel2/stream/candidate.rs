@@ -41,8 +41,8 @@ impl Progress {
     }
 
     /// Looks at `bytes`, which begin with a whole header. The rules are tried in the order of the
-    /// bytes that can break them, so the first broken one is the same however many bytes are
-    /// there behind it.
+    /// bytes that can break them. So the first broken rule does not depend on how many bytes have
+    /// come.
     #[inline]
     pub(super) fn judge(&mut self, bytes: &[u8], max_packet: usize) -> Verdict {
         let header = match Header::check(bytes) {
@@ -72,8 +72,8 @@ impl Progress {
         Verdict::Whole(Whole { len, patterns: self.patterns, fast })
     }
 
-    /// Whether a pattern stands in the body without its stuffing. A header inside the body is
-    /// one, so a candidate never outlasts the packet behind it.
+    /// Whether a pattern stands in the body without its stuffing. The next packet's header is such
+    /// a pattern, so a false header is found out when the next packet begins.
     #[inline]
     fn find_bare_pattern(&mut self, bytes: &[u8], len: usize) -> bool {
         let body_end = len - CRC;

@@ -1,10 +1,10 @@
 //! The CRC of any range of the buffer, in about the time that 64 bytes take.
 //!
-//! Fast status packets are not stuffed, so many headers can stand inside one that turns out to be
-//! none, and ranges that begin at each of them overlap. To read every range would take a time
-//! that grows with the square of its length. But a CRC is linear: from the CRCs `a` and `b` of
-//! everything up to two places `n` bytes apart, that of the bytes between is b + a·x^(8n) mod P.
-//! So it is enough to keep one every 64 bytes.
+//! Fast status packets are not stuffed, so one that turns out to be false may have many headers
+//! inside, each of which claims bytes up to the same end. To compute each of these CRCs from its
+//! bytes would take time that grows with the square of the length. But a CRC is linear: if `a` and
+//! `b` are the CRCs of everything up to two places `n` bytes apart, the CRC of the bytes between is
+//! b + a·x^(8n) mod P. So it is enough to keep one CRC every 64 bytes.
 
 use super::BLOCK;
 use crate::crc::{self, UMTS_INIT};

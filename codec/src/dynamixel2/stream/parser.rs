@@ -240,7 +240,7 @@ impl<const BLOCKS: usize> Parser<BLOCKS> {
         let end = self.start + whole.len - CRC;
         let buffer = self.buffer.as_flattened().as_flattened();
         let found = buffer.get(end..).and_then(<[u8]>::first_chunk);
-        // Other packets can't overlap but for a few bytes, so that reading them all is no harm.
+        // Other packets overlap by a few bytes at most, so reading each whole keeps the cost linear.
         let computed = if whole.fast && whole.len > 2 * BLOCK {
             self.checkpoints.range(buffer, self.start, end)
         } else {
@@ -286,11 +286,11 @@ impl<const BLOCKS: usize> Parser<BLOCKS> {
     fn make_room(&mut self, wanted: usize) {
         let size = 2 * BLOCKS * BLOCK;
         if self.start == self.end {
-            // Not at the front: a short packet is looked at as the end of a block.
+            // Not at the very front: `short` reads a whole window that ends with the packet.
             (self.start, self.end) = (BLOCK, BLOCK);
             self.checkpoints.clear();
         } else if size - self.end < wanted && self.start >= size / 2 {
-            // By whole blocks, so that the checkpoints move too. One more stays, as above.
+            // By whole blocks, as the checkpoints are one a block. One more stays, as above.
             let blocks = self.start / BLOCK - usize::from(BLOCKS > 1);
             let gone = blocks * BLOCK;
             let buffer = self.buffer.as_flattened_mut().as_flattened_mut();

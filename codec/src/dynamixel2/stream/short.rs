@@ -1,7 +1,7 @@
-//! Short packets, the most of what is on a bus: their CRC and stuffing by one window.
+//! Short packets, which are most of the traffic on a bus: one window decides about CRC and stuffing.
 //!
-//! Where the lengths of packets vary, a loop over their bytes ends where no processor expects it.
-//! So a short packet is looked at as the end of a window of fixed size.
+//! Where the lengths of packets vary, a processor can't predict where a loop over their bytes ends.
+//! So a short packet is looked at as the end of a window of a fixed size.
 
 use super::candidate::Whole;
 use crate::dynamixel2::STUFFING_PATTERN;
@@ -11,8 +11,8 @@ use crate::simd::{Backend, Places, Task, WINDOW, meter, run};
 /// How many packets are looked for at once.
 const AHEAD: usize = 16;
 
-/// Packets found ahead, one directly behind the other. To look for several at once lets the
-/// processor begin with one before it is done with the last.
+/// Packets found ahead, one directly behind the other. Looking for several in one loop lets the
+/// processor work on more than one at a time.
 #[derive(Clone, Debug)]
 pub(super) struct Ready {
     packets: [Short; AHEAD],

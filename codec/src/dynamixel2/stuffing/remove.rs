@@ -1,4 +1,4 @@
-//! Takes stuffing away: from a body that is known to be right, quickly, and from any.
+//! Takes stuffing away: fast from a body that is known to be right, and from any other.
 
 use crate::dynamixel2::STUFFING_PATTERN;
 use crate::simd::{Backend, Places, Task, WINDOW, run};
@@ -33,7 +33,7 @@ fn remove_slowly(bytes: &[u8], stuffed: usize, target: &mut [u8]) {
 /// The task to do so by moves of a whole window each, whatever is behind; `None` if the body is
 /// too long for it, has none or more than two patterns, or ends too close to the end of `bytes`.
 ///
-/// No branch depends on where the patterns stand, as nothing foretells it.
+/// No branch depends on where the patterns stand, as no processor could predict it.
 struct Short<'a> {
     bytes: &'a [u8],
     stuffed: usize,
@@ -54,7 +54,7 @@ impl Task for Short<'_> {
         if stuffed > WINDOW || patterns == 0 || others & others.wrapping_sub(1) != 0 {
             return None;
         }
-        // Where there is no stuffing, that of a body that ends there.
+        // Without a second pattern, the place behind the body.
         let stuffing = |patterns: u64| (patterns.trailing_zeros() as usize + 3).min(stuffed);
         let first = stuffing(patterns);
         let second = stuffing(others);

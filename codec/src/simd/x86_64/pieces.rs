@@ -1,5 +1,5 @@
-//! A packet that is still in pieces: its CRC, and whether it needs stuffing, out of the registers
-//! and the memory that its bytes are in.
+//! A packet that is still in pieces: computes its CRC, and finds the patterns that need stuffing,
+//! before the pieces are put together.
 #![expect(clippy::indexing_slicing, reason = "arrays of a fixed size, indices below it")]
 
 use core::arch::x86_64::{
@@ -33,8 +33,8 @@ static FACTORS: [[u8; BLOCK]; WORD + WINDOW + 1] = {
     factors
 };
 
-// Functions that both back ends use have the back end as a parameter, so that each has a copy of
-// its own, which becomes part of it.
+// A function that both back ends use has the back end as a type parameter: then each back end has a
+// copy of its own, which can be inlined into it.
 
 /// What is known of some bytes.
 #[derive(Clone, Copy)]
@@ -44,7 +44,7 @@ struct Seen {
     places: Places,
 }
 
-/// What is looked for: patterns, or just FF FF. The second is quicker, and mostly there is none.
+/// What is looked for: patterns, or only FF FF, which is faster and is absent from most packets.
 const PATTERNS: bool = true;
 const PAIRS: bool = false;
 
@@ -93,7 +93,7 @@ macro_rules! look {
                 Some(looked)
             }
 
-            /// One by one, so that the pieces stay in registers where this is not called.
+            /// The pieces come one by one, so that the caller can keep them in registers.
             #[cold]
             #[inline(never)]
             fn patterns(self, prefix: u64, lead_len: usize, lead: u64, tail: &[u8]) -> Option<u64> {
