@@ -1,5 +1,5 @@
-//! Makes a report of outcomes, one at a time. What is remembered does not grow with their number:
-//! counts of everything, and the smallest few of what did not pass.
+//! Makes a report from outcomes, one at a time. Its memory does not grow with their number: it
+//! keeps counts, and the smallest few of the checks that did not pass.
 
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
@@ -15,7 +15,7 @@ use super::smallest::Smallest;
 use crate::suite::expect::Unexpected;
 use crate::verdict::{Outcome, Totals, Verdict};
 
-/// How many different texts are counted apart; the suite's own are far fewer.
+/// How many different texts are counted separately; the suite itself has far fewer.
 const MOST_TEXTS: usize = 200;
 const OTHER_TEXTS: &str = "and other reasons";
 
@@ -26,13 +26,13 @@ pub struct End {
     pub seconds: f64,
     /// Why it ended early, if it did.
     pub stopped: Option<Stopped>,
-    /// How many checks were not asked for that.
+    /// How many checks were not asked because of that.
     pub left: usize,
     /// The last lines that the adapter logged.
     pub log: String,
 }
 
-/// Takes the outcomes of a run and becomes its report.
+/// Collects the outcomes of a run for its report.
 #[derive(Debug)]
 pub struct Collector<'a> {
     run: &'a Run<'a>,
@@ -41,7 +41,7 @@ pub struct Collector<'a> {
     skips: Counts,
 }
 
-/// What came out of the checks of a requirement.
+/// The outcomes of a requirement's checks.
 #[derive(Debug)]
 struct Collected {
     level: Level,
@@ -57,7 +57,7 @@ impl<'a> Collector<'a> {
         Self { run, requirements, questions, skips: Counts::default() }
     }
 
-    /// Takes an outcome; they come in the order of the plan.
+    /// Adds an outcome. Outcomes arrive in the order of the plan.
     pub fn add(&mut self, outcome: Outcome) {
         if outcome.verdict == Verdict::Skip {
             self.skips.add(&outcome.detail, &outcome.id);
@@ -81,7 +81,7 @@ impl<'a> Collector<'a> {
         }
     }
 
-    /// Takes back that some checks passed as expected, which only the end of a run can tell.
+    /// Turns passes into unexpected passes, which are known only at the end of a run.
     pub fn revise(&mut self, unexpected: Unexpected) {
         let Unexpected { requirement, count, first } = unexpected;
         let Some(collected) = self.requirements.get_mut(&requirement) else { return };
@@ -103,7 +103,7 @@ impl<'a> Collector<'a> {
         totals
     }
 
-    /// The report of a run that ended so.
+    /// The report, with how the run ended.
     #[must_use]
     pub fn finish(mut self, end: End) -> Report {
         let End { seconds, stopped, left, log } = end;
@@ -122,8 +122,8 @@ impl<'a> Collector<'a> {
         }
     }
 
-    /// In the order of the documents; what no document demands comes first, for it is about the
-    /// adapter.
+    /// In the order of the documents. Rules of the adapter protocol, which no document has, come
+    /// first.
     fn requirements(&mut self) -> (Vec<RequirementResult>, Vec<NotPassed>) {
         let spec = self.run.spec;
         let rows = spec.requirements.iter().flat_map(|file| &file.content.requirements);
@@ -145,7 +145,7 @@ impl<'a> Collector<'a> {
         (results, not_passed)
     }
 
-    /// A question after the other, in the order in which they were asked.
+    /// The questions, in the order in which they were asked.
     fn profile(&mut self) -> Vec<ProfileEntry> {
         let question = |((requirement, question), answers): (_, Counts)| ProfileEntry {
             requirement,
@@ -169,7 +169,7 @@ impl Collected {
     }
 }
 
-/// How often each of some texts was said, and of which check first.
+/// Counts texts, each with the first check that it came with.
 #[derive(Debug, Default)]
 struct Counts(IndexMap<String, (usize, String)>);
 

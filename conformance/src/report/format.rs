@@ -7,24 +7,24 @@ use anstream::adapter::strip_bytes;
 use super::model::Report;
 use super::{html, json, junit, markdown, text};
 
-/// Why a report that is kept can't be written as `jsonl`, in a sentence.
+/// Says why a saved report can't be written as `jsonl`.
 pub const NO_JSONL: &str =
     "jsonl has every check of a run, and a report keeps only some; write it with `actucheck codec`";
 
-/// What a report can be written as.
+/// The formats of a report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// As on the terminal.
+    /// Text, as on the terminal.
     Text,
     /// The whole report, for programs.
     Json,
-    /// Every outcome as it comes, for programs; see [`super::jsonl`].
+    /// Every outcome as it arrives, for programs; see [`super::jsonl`].
     Jsonl,
-    /// For what collects the results of tests.
+    /// For tools that collect test results.
     Junit,
     /// A summary for a CI job's page.
     Markdown,
-    /// A page that needs no network.
+    /// A page that works without a network.
     Html,
 }
 

@@ -1,4 +1,4 @@
-//! The report as one page that needs neither network nor script, on a phone as on a desk.
+//! The report as one page without network access or scripts, for small and large screens.
 
 use std::io::{self, Write};
 
@@ -33,7 +33,7 @@ struct Document<'a> {
 }
 
 impl Page<'_> {
-    /// What a reader wants to see the evidence of, the most urgent first.
+    /// The verdicts whose evidence is shown, the most urgent first.
     fn groups(&self) -> Vec<Group<'_>> {
         Report::URGENT.into_iter().flat_map(|verdict| self.report.groups(verdict)).collect()
     }

@@ -1,4 +1,4 @@
-//! Every outcome of a run as it comes, for programs: one JSON object a line.
+//! Every outcome of a run as it arrives, for programs: one JSON object per line.
 
 use std::io::{self, Write};
 
@@ -7,26 +7,27 @@ use serde::Serialize;
 
 use super::model::{CheckResult, Header, Summary};
 
-/// Version of the lines' form. It changes when a field goes or takes another meaning.
+/// Version of the lines' format. It changes when a field is removed or gets another meaning.
 pub const VERSION: u32 = 1;
 
 /// A line.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 #[serde(tag = "line", rename_all = "kebab-case")]
 pub enum Line {
-    /// The first: what is checked, and with which checks.
+    /// The first line: what is checked, and with which checks.
     Header {
-        /// Version of the lines' form.
+        /// Version of the lines' format.
         version: u32,
         /// The rest.
         #[serde(flatten)]
         header: Header,
     },
-    /// What came out of a check. Outcomes stand in the order in which they came. A check that passes
-    /// though it is expected to fail is a `pass` here: that it should not be expected is known at the
-    /// end only, and counted in the last line.
+    /// The outcome of a check, in the order of arrival. A check that passes although it is expected
+    /// to fail is a `pass` here, as unexpected passes are known only at the end; the last line
+    /// counts them.
     Check(Box<CheckResult>),
-    /// The last: how the run went as a whole. A file without it is of a run that broke off.
+    /// The last line: the result of the whole run. A file without it is from a run that was
+    /// aborted.
     Summary(Summary),
 }
 

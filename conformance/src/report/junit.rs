@@ -1,4 +1,4 @@
-//! The report for what collects the results of tests.
+//! The report for tools that collect test results.
 
 use std::io::{self, Write};
 use std::time::Duration;
@@ -10,8 +10,8 @@ use super::view::Section;
 use super::words;
 use crate::verdict::Verdict;
 
-/// Writes a test suite a section of a document: a test case a requirement, and behind it one for each
-/// check that is kept of those that are wrong.
+/// Writes one test suite per section of a document. It has one test case per requirement, each
+/// followed by one per kept check that did not pass.
 ///
 /// # Errors
 /// If it can't be written.
@@ -37,7 +37,7 @@ fn suite(report: &Report, section: &Section<'_>) -> TestSuite {
     suite
 }
 
-/// What a requirement demands, and how its checks came out.
+/// The text of a requirement, and the verdicts on its checks.
 fn requirement(report: &Report, requirement: &RequirementResult) -> TestCase {
     let RequirementResult { id, level, verdict, totals, .. } = requirement;
     let share = words::count(requirement.checks(), "check");
@@ -47,7 +47,7 @@ fn requirement(report: &Report, requirement: &RequirementResult) -> TestCase {
     lines.extend(requirement.statement.as_ref().map(|statement| {
         format!("{:9} {} ({})", level.to_string(), statement.text, statement.place())
     }));
-    // JUnit has no warnings; what it has is output that people look at.
+    // JUnit has no warnings, so they are written as output.
     let warnings = report.groups(Verdict::Warn);
     let own = warnings.iter().find(|group| group.requirement.id == *id);
     if let Some(smallest) = own.and_then(|group| group.checks.smallest.first()) {
@@ -58,7 +58,7 @@ fn requirement(report: &Report, requirement: &RequirementResult) -> TestCase {
     case
 }
 
-/// A check that is wrong, with its evidence.
+/// A check that did not pass, with its evidence.
 fn check(result: &CheckResult) -> TestCase {
     let outcome = &result.outcome;
     let lines: Vec<_> = evidence(result).collect();
@@ -84,7 +84,7 @@ fn case(name: &str, class: &str, verdict: Verdict, message: &str, evidence: &str
     case
 }
 
-/// The implementation failed, or the check could not be made.
+/// A failure of the implementation, or an error of the check.
 const fn kind(verdict: Verdict) -> NonSuccessKind {
     match verdict {
         Verdict::Fail | Verdict::UnexpectedPass => NonSuccessKind::Failure,
@@ -92,7 +92,7 @@ const fn kind(verdict: Verdict) -> NonSuccessKind {
     }
 }
 
-/// Checks that nobody asked have no ids here, but must not look as if all were well.
+/// Checks that were not asked have no test cases, so an error says that they are missing.
 fn cut_short(sentence: String) -> TestSuite {
     let mut status = TestCaseStatus::non_success(NonSuccessKind::Error);
     status.set_type("not-run").set_message(sentence);

@@ -1,4 +1,4 @@
-//! The report for a CI job's page: short, with one case a finding.
+//! The report for a CI job's page: short, with one case per finding.
 
 use std::io::{self, Write};
 
@@ -46,7 +46,7 @@ fn findings(verdict: Verdict, groups: &[Group<'_>], out: &mut dyn Write) -> io::
         return Ok(());
     }
     writeln!(out, "\n### {} {verdict}", mark(verdict))?;
-    // What is known, or only advised, needs no evidence here.
+    // Expected failures and warnings need no evidence here.
     let brief = matches!(verdict, Verdict::ExpectedFailure | Verdict::Warn);
     if brief {
         writeln!(out)?;
@@ -86,7 +86,7 @@ fn profile(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// Text that Markdown shall show as it is, in a table's cell too.
+/// Escapes a text so that Markdown shows it as it is, in a table's cell too.
 pub(super) fn prose(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in text.chars() {
@@ -101,7 +101,7 @@ pub(super) fn prose(text: &str) -> String {
     escaped
 }
 
-/// A block of code: indented, for text may have fences of its own.
+/// A block of code, which is indented, as the text may contain fences.
 fn block(text: &str) -> String {
     text.lines().map(|line| format!("    {line}")).collect::<Vec<_>>().join("\n")
 }

@@ -1,8 +1,8 @@
-//! What came out of a run, for a person and for a program.
+//! Reports of a run, for people and programs.
 //!
-//! A [`Collector`] takes outcomes one at a time and becomes a [`Report`]; every format writes that, and
-//! the JSON format is that, so that [`read`] can bring it back: to be written in another format, or
-//! to be compared with others in [`compare`]. [`jsonl`] has every outcome, as it comes.
+//! A [`Collector`] takes outcomes one at a time and makes a [`Report`], which every format writes.
+//! The JSON format has the whole report, so that [`read`] can read it again, to write it in another
+//! format or to [`compare`] it with others. [`jsonl`] has every outcome as it arrives.
 //!
 //! A module imports only from those before it in this order: [`model`]; `result`; `smallest`;
 //! [`collect`], [`read`]; `words`, [`view`]; [`text`], [`json`], [`jsonl`], [`junit`], [`markdown`],

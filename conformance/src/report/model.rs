@@ -1,4 +1,4 @@
-//! What every report says, in whatever format.
+//! The content of a report, for every format.
 
 use actucheck_spec::Spec;
 use actucheck_spec::model::Level;
@@ -9,18 +9,18 @@ use crate::adapter::{Implementation, Wire};
 use crate::explain::diff::Diff;
 use crate::verdict::{Outcome, Totals, Verdict};
 
-/// Version of the report's form. It changes when a field goes or takes another meaning.
+/// Version of the report's format. It changes when a field is removed or gets another meaning.
 pub const VERSION: u32 = 4;
 
-/// What came out of a run.
+/// The result of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Report {
-    /// Version of the report's form.
+    /// Version of the report's format.
     pub version: u32,
     /// What was checked, and with which checks.
     #[serde(flatten)]
     pub header: Header,
-    /// How the run went as a whole.
+    /// The result of the whole run.
     #[serde(flatten)]
     pub summary: Summary,
     /// Each requirement that checks were about, in the order of the documents.
@@ -29,18 +29,18 @@ pub struct Report {
     pub profile: Vec<ProfileEntry>,
     /// Why checks were skipped.
     pub skips: Vec<Tally>,
-    /// What did not pass, by requirement and verdict.
+    /// The checks that did not pass, by requirement and verdict.
     pub not_passed: Vec<NotPassed>,
     /// The last lines that the adapter logged.
     pub log: String,
 }
 
-/// What is known of a run before its first check.
+/// The facts about a run that are known before its first check.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Header {
     /// Version of the program that wrote it.
     pub actucheck: String,
-    /// What was checked.
+    /// The implementation that was checked.
     pub implementation: Implementation,
     /// The wire.
     pub wire: Wire,
@@ -50,20 +50,20 @@ pub struct Header {
     pub seed: u64,
     /// How many packets were generated.
     pub cases: u32,
-    /// Bytes of the longest bodies that were all tried inside every kind of packet.
+    /// The most bytes in the bodies that were all tried inside every kind of packet.
     pub body_length: u32,
 }
 
-/// What is known of a run after its last check.
+/// The facts about a run that are known after its last check.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Summary {
     /// How long the run took.
     pub seconds: f64,
     /// Why the run ended early, if it did.
     pub stopped: Option<Stopped>,
-    /// How many checks were not asked for that.
+    /// How many checks were not asked because of that.
     pub left: usize,
-    /// How often each verdict came out.
+    /// The count of each verdict.
     pub totals: Totals,
 }
 
@@ -73,26 +73,26 @@ pub struct Summary {
 pub enum Stopped {
     /// The user ended it.
     Interrupted,
-    /// As much failed as was allowed to.
+    /// The allowed number of failures was reached.
     MaxFail,
 }
 
-/// How the checks of a requirement came out.
+/// The result for a requirement.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct RequirementResult {
     /// The requirement's id.
     pub id: String,
-    /// How binding it is.
+    /// The requirement's level.
     pub level: Level,
-    /// What it says; `null` for a rule of the adapter protocol, which no document has.
+    /// Its text and source; `null` for a rule of the adapter protocol, which no document has.
     pub statement: Option<Statement>,
     /// The worst verdict of its checks.
     pub verdict: Verdict,
-    /// How often each verdict came out.
+    /// The count of each verdict.
     pub totals: Totals,
 }
 
-/// What a document demands.
+/// A statement of a document.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Statement {
     /// In our own words.
@@ -110,52 +110,52 @@ pub struct ProfileEntry {
     pub requirement: String,
     /// The question, in words.
     pub question: String,
-    /// What is done, the most frequent first.
+    /// The behaviours, the most frequent first.
     pub behaviours: Vec<Tally>,
 }
 
-/// How often something was said of checks.
+/// How many checks have a text in common.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Tally {
-    /// What was said.
+    /// The text.
     pub text: String,
-    /// Of how many checks.
+    /// The number of checks.
     pub count: usize,
     /// The id of the first of them.
     pub example: String,
 }
 
-/// The checks of a requirement that did not pass and came out alike. What is recorded stands in
-/// [`Report::profile`], what is skipped in [`Report::skips`].
+/// The checks of a requirement with the same verdict, which is not a pass. Answers that are not
+/// judged are in [`Report::profile`], and skipped checks in [`Report::skips`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct NotPassed {
     /// The requirement's id.
     pub requirement: String,
-    /// What came out.
+    /// The verdict.
     pub verdict: Verdict,
-    /// How many checks came out so.
+    /// The number of checks with this verdict.
     pub count: usize,
-    /// Those with the shortest requests, at most 5.
+    /// The checks with the shortest requests, at most 5.
     pub smallest: Vec<CheckResult>,
 }
 
-/// What came out of a check.
+/// The outcome of a check.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CheckResult {
     /// Check, verdict and evidence.
     #[serde(flatten)]
     pub outcome: Outcome,
-    /// Where the bytes demanded and the bytes that came differ; of packets, where the parameters
-    /// of the first do that has others.
+    /// Where the expected and the actual bytes differ. For packets: where the parameters of the
+    /// first packet that differs do.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub diff: Option<Diff>,
-    /// The part of the frame in which the first byte that differs stands.
+    /// The part of the frame with the first byte that differs.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub differs_in: Option<String>,
-    /// Bytes of the request and the outputs that are too long to stand here.
+    /// The number of bytes of the request and the outputs that were cut off.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub left_out: Option<usize>,
-    /// The command that asks it again; only where it did not pass.
+    /// The command that asks the check again; only if the check did not pass.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub replay: Option<String>,
 }
@@ -181,7 +181,7 @@ impl Report {
         }
     }
 
-    /// Whether something went wrong with the adapter itself, so that its log tells more.
+    /// Whether the adapter itself had a problem, so that its log is of interest.
     #[must_use]
     pub fn adapter_broke(&self) -> bool {
         let broke = [Verdict::Timeout, Verdict::Crash, Verdict::AdapterFault, Verdict::NotRun];
@@ -190,7 +190,7 @@ impl Report {
 }
 
 impl RequirementResult {
-    /// How many checks were about it.
+    /// The number of its checks.
     #[must_use]
     pub fn checks(&self) -> usize {
         self.totals.sum()

@@ -1,4 +1,4 @@
-//! Reports that were written before.
+//! Reads saved reports.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -14,7 +14,7 @@ use super::model::{
 use super::smallest::Smallest;
 use crate::verdict::{Totals, Verdict};
 
-/// Why a file can't be taken for a report.
+/// Why a file can't be read as a report.
 #[derive(Debug, Error)]
 pub enum ReadError {
     /// It can't be read.
@@ -25,15 +25,15 @@ pub enum ReadError {
         /// What the system says.
         error: std::io::Error,
     },
-    /// It is no report.
-    #[error("{path} is no report, as --report json=FILE writes it: {error}")]
+    /// It is not a report.
+    #[error("{path} is not a report that --report json=FILE wrote: {error}")]
     Parse {
         /// The file.
         path: String,
         /// What is wrong, with line and column.
         error: serde_json::Error,
     },
-    /// It is a report of a version that this program does not know.
+    /// It is a report of an unknown version.
     #[error(
         "{path} is a report of version {found}, this program reads {OLDEST} to {VERSION}; run the checks again, or use the actucheck that wrote it"
     )]
@@ -43,12 +43,12 @@ pub enum ReadError {
         /// Its version.
         found: u32,
     },
-    /// Its numbers can't all be true.
+    /// Its numbers contradict each other.
     #[error("{path} contradicts itself: {what}; run the checks again")]
     Contradiction {
         /// The file.
         path: String,
-        /// What does not agree.
+        /// The contradiction.
         what: String,
     },
 }
@@ -56,7 +56,7 @@ pub enum ReadError {
 /// The oldest version that is read.
 const OLDEST: u32 = 3;
 
-/// What every version has.
+/// The field that every version has.
 #[derive(Deserialize)]
 struct Versioned {
     version: u32,
@@ -79,7 +79,7 @@ struct Version3 {
 /// Reads a report in JSON.
 ///
 /// # Errors
-/// If it can't be read, is no report, is of a version that is not known, or contradicts itself.
+/// If it can't be read, is not a report, has an unknown version, or contradicts itself.
 pub fn read(path: &Path) -> Result<Report, ReadError> {
     let name = || path.display().to_string();
     let text =
@@ -127,7 +127,7 @@ impl From<Version3> for Report {
     }
 }
 
-/// What of a report can't be true, for what else it says.
+/// Finds a contradiction in a report.
 fn contradiction(report: &Report) -> Option<String> {
     let mut totals = Totals::default();
     for row in &report.requirements {

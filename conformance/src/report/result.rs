@@ -1,5 +1,5 @@
-//! One outcome as a report has it: with the bytes that differ, and the command that asks it again.
-//! Nothing in it is longer than a reader needs, however much an implementation says.
+//! An outcome in a report, with the bytes that differ and the command that asks the check again.
+//! Its texts are cut to a limit, as an implementation may send texts of any length.
 
 use std::collections::BTreeMap;
 use std::fmt::{self, Write as _};
@@ -13,30 +13,30 @@ use crate::explain::diff;
 use crate::suite::Options;
 use crate::verdict::Outcome;
 
-/// Characters of the longest sentence that is kept, and of the longest name.
+/// The limit of a sentence, and of a name, in characters.
 pub(super) const LONGEST_TEXT: usize = 1000;
 const LONGEST_NAME: usize = 100;
 
-/// Bytes of the longest request or output that is kept, as JSON.
+/// The limit of a request or output as JSON, in bytes.
 const LONGEST_PART: usize = 4000;
 
-/// A run before its first check.
+/// A run, as known before its first check.
 #[derive(Clone, Debug)]
 pub struct Run<'a> {
     /// The spec that the checks come from.
     pub spec: &'a Spec,
-    /// What is checked.
+    /// The implementation that is checked.
     pub implementation: &'a Implementation,
-    /// What decides which checks there are.
+    /// The options that determine the checks.
     pub options: Options,
     /// The adapter's command; empty for the built-in codec.
     pub command: &'a [String],
-    /// The files that keep checks which `actucheck list` does not have, by the checks' ids.
+    /// The files with checks that `actucheck list` does not have, by the checks' ids.
     pub records: BTreeMap<String, PathBuf>,
 }
 
 impl Run<'_> {
-    /// What a report says of it.
+    /// The part of a report about it.
     #[must_use]
     pub fn header(&self) -> Header {
         let name = |text: &String| legible(text, LONGEST_NAME);
@@ -57,7 +57,7 @@ impl Run<'_> {
         }
     }
 
-    /// What a report says of an outcome.
+    /// The part of a report about an outcome.
     #[must_use]
     pub fn result(&self, mut outcome: Outcome) -> CheckResult {
         let bytes = outcome.bytes();
@@ -80,7 +80,7 @@ impl Run<'_> {
         CheckResult { outcome, diff, differs_in, left_out, replay }
     }
 
-    /// The command that asks the same again, as a shell takes it.
+    /// The command that asks the check again, quoted for a shell.
     fn replay(&self, id: &str) -> String {
         let Options { wire, seed, cases, .. } = self.options;
         let record = self.records.get(id);
@@ -96,12 +96,12 @@ impl Run<'_> {
             words.push("--".to_owned());
             words.extend_from_slice(self.command);
         }
-        // Only a NUL can't be quoted, and no command that was started has one.
+        // Only a NUL can't be quoted, and a command that was started has none.
         shlex::try_join(words.iter().map(String::as_str)).unwrap_or_default()
     }
 }
 
-/// Takes away what is too long; how many bytes that were.
+/// Removes outputs that are too long. Returns the number of bytes removed.
 fn leave_out<T: fmt::Display>(part: &mut Option<T>) -> usize {
     let bytes = part.as_ref().map_or(0, |part| part.to_string().len());
     if bytes <= LONGEST_PART {
@@ -111,8 +111,8 @@ fn leave_out<T: fmt::Display>(part: &mut Option<T>) -> usize {
     bytes
 }
 
-/// A text from outside on one line: what would move a terminal's cursor or turn the direction of
-/// the script is escaped, and only the first characters are left of a long one.
+/// A text from outside on one line. Characters that would control a terminal or change the
+/// direction of the script are escaped, and a long text is cut.
 pub(super) fn legible(text: &str, longest: usize) -> String {
     let mut clean = String::with_capacity(text.len().min(longest));
     for (count, (at, character)) in text.char_indices().enumerate() {

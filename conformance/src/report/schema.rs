@@ -1,5 +1,5 @@
-//! JSON Schemas of what is written as JSON, derived from the model. `ACCEPT=1 cargo test -p
-//! actucheck --test reports` writes what is kept in `conformance/schema` anew.
+//! JSON Schemas of the JSON output, derived from the model. `ACCEPT=1 cargo test -p actucheck
+//! --test reports` rewrites the files in `conformance/schema`.
 
 use actucheck_spec::schema::of_written;
 

@@ -1,14 +1,15 @@
-//! What a report keeps of the checks that did not pass: the smallest few.
+//! Keeps the smallest few of the checks that did not pass.
 
 use super::model::{CheckResult, NotPassed};
 use crate::verdict::{Outcome, Verdict};
 
-/// How many checks of a requirement are kept that came out alike. What is kept of a check
-/// is bounded too, in [`super::result`], so that a report's size does not depend on how much fails.
+/// The maximum number of checks that are kept per requirement and verdict. The size of each is
+/// limited too, in [`super::result`], so that the size of a report does not depend on the number of
+/// failures.
 const KEPT: usize = 5;
 
-/// How many checks came out alike, and the smallest of them. Outcomes come in the order of the plan,
-/// so of two that are as small the first is kept.
+/// The number of checks of a requirement with one verdict, and the smallest of them. Outcomes
+/// arrive in the order of the plan, and of two equally small ones the first is kept.
 #[derive(Debug, Default)]
 pub(super) struct Smallest {
     count: usize,
@@ -16,7 +17,7 @@ pub(super) struct Smallest {
 }
 
 impl Smallest {
-    /// Counts an outcome, and keeps what `result` makes of it if it is one of the smallest.
+    /// Counts an outcome, and keeps its `result` if it is one of the smallest.
     pub(super) fn add(&mut self, outcome: Outcome, result: impl FnOnce(Outcome) -> CheckResult) {
         self.count += 1;
         let size = outcome.request.as_ref().map_or(0, |request| request.to_string().len());
@@ -27,12 +28,12 @@ impl Smallest {
         }
     }
 
-    /// Counts so many more of which nothing is kept.
+    /// Counts more outcomes without keeping any.
     pub(super) const fn add_more(&mut self, count: usize) {
         self.count += count;
     }
 
-    /// What a report says of them, as of checks of this requirement with this verdict.
+    /// The part of a report about them.
     pub(super) fn finish(self, requirement: String, verdict: Verdict) -> NotPassed {
         let smallest = self.kept.into_iter().map(|(_, result)| result).collect();
         NotPassed { requirement, verdict, count: self.count, smallest }

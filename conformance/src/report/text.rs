@@ -31,7 +31,7 @@ pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         report.summary.totals.sum()
     )?;
     requirements(report, out)?;
-    // What is most urgent stands last, where the terminal ends.
+    // The most urgent part is last, at the end of the terminal.
     for verdict in Report::URGENT.into_iter().rev() {
         for group in report.groups(verdict) {
             self::group(&group, out)?;
@@ -45,7 +45,8 @@ pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     summary(report, out)
 }
 
-/// Writes one check: what it asks, what it demands, and which sentence of which document that is.
+/// Writes one check: its question, the right answer, and the sentence of a document that requires
+/// it.
 ///
 /// # Errors
 /// If it can't be written.
@@ -68,7 +69,7 @@ pub fn check(spec: &Spec, check: &Check, out: &mut dyn Write) -> io::Result<()> 
     reject.map_or(Ok(()), |reject| writeln!(out, "  {:9} {reject}", "demanded"))
 }
 
-/// A question that the documents leave unspecified, and the ways that are foreseen.
+/// A question that the documents leave unspecified, and the foreseen behaviours.
 fn question(open: &Unspecified, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "  {:9} {}", "recorded", open.question)?;
     for way in &open.ways {
@@ -77,13 +78,13 @@ fn question(open: &Unspecified, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "  {:9} or a rejection", "")
 }
 
-/// A requirement in words, and who says so.
+/// The text of a requirement, and its source.
 fn statement(level: Level, statement: &Statement, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "  {level:9} {}", statement.text)?;
-    writeln!(out, "  {:9} {DIM}{}{DIM:#}", "says who", statement.place())
+    writeln!(out, "  {:9} {DIM}{}{DIM:#}", "source", statement.place())
 }
 
-/// A line a requirement: how its checks came out.
+/// One line per requirement, with the counts of its verdicts.
 fn requirements(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let width = report.requirements.iter().map(|row| row.id.len()).max().unwrap_or(0);
     for row in &report.requirements {
@@ -121,7 +122,7 @@ fn result(result: &CheckResult, out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// Whoever mixes implementations on a bus may want to know.
+/// Differences in unspecified behaviour matter to users who mix implementations on a bus.
 fn profile(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     if report.profile.is_empty() {
         return Ok(());
@@ -131,7 +132,7 @@ fn profile(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "\n{DIM}{many} {rest}{DIM:#}")
 }
 
-/// What the adapter logged, where something went wrong with the adapter itself.
+/// The adapter's log, if the adapter itself had a problem.
 fn log(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     if report.log.is_empty() || !report.adapter_broke() {
         return Ok(());
@@ -153,7 +154,7 @@ fn summary(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "\n{style}{}{style:#}  {}", report.word(), counts(&report.summary.totals))
 }
 
-/// `12 pass  3 fail`, without the verdicts that did not come out.
+/// The counts of the verdicts that occurred: `12 pass  3 fail`.
 pub(super) fn counts(totals: &Totals) -> String {
     let count = |(verdict, count)| {
         let style = style(verdict);

@@ -1,4 +1,4 @@
-//! What a reader looks for in a report, whatever format it is written in.
+//! Views of a report that several formats share.
 
 use std::fmt;
 
@@ -11,8 +11,8 @@ use crate::explain::diff::Row;
 use crate::verdict::{Outcome, Verdict};
 
 impl Report {
-    /// The verdicts that a reader wants to see the evidence of, the most urgent one first: as long
-    /// as the adapter itself is at fault, the rest tells little.
+    /// The verdicts whose evidence is shown, the most urgent first. While the adapter itself has
+    /// problems, the other verdicts say little.
     pub const URGENT: [Verdict; 7] = [
         Verdict::AdapterFault,
         Verdict::Crash,
@@ -23,12 +23,12 @@ impl Report {
         Verdict::ExpectedFailure,
     ];
 
-    /// Why the run ended early and what that cost, in a sentence; `None` if it did not.
+    /// Why the run ended early, and how many checks were not asked; `None` if it did not end early.
     #[must_use]
     pub fn cut_short(&self) -> Option<String> {
         let why = match self.summary.stopped? {
             Stopped::Interrupted => "interrupted",
-            Stopped::MaxFail => "as much failed as --max-fail allows",
+            Stopped::MaxFail => "the number of failures that --max-fail allows was reached",
         };
         let left = words::count(self.summary.left, "check");
         Some(format!("{why}: {left} not asked"))
@@ -83,12 +83,12 @@ impl Section<'_> {
     }
 }
 
-/// The checks of a requirement that came out alike.
+/// The checks of a requirement with the same verdict.
 #[derive(Clone, Copy, Debug)]
 pub struct Group<'a> {
     /// The requirement.
     pub requirement: &'a RequirementResult,
-    /// How many checks there are, and the smallest of them.
+    /// The number of checks, and the smallest of them.
     pub checks: &'a NotPassed,
 }
 
@@ -100,7 +100,7 @@ impl Group<'_> {
         format!("{} of {all}", words::thousands(self.checks.count))
     }
 
-    /// How many checks there are of which no evidence is kept.
+    /// The number of checks without kept evidence.
     #[must_use]
     pub fn more(&self) -> usize {
         self.checks.count.saturating_sub(self.checks.smallest.len())
@@ -108,8 +108,8 @@ impl Group<'_> {
 }
 
 impl CheckResult {
-    /// What was asked, what was demanded, what came instead, why that is not right, and how to ask
-    /// it again: each with its label.
+    /// The question, the expected answer, the actual answer, the reason, and how to ask it again,
+    /// each with its label.
     #[must_use]
     pub fn evidence(&self) -> Vec<(&'static str, Evidence<'_>)> {
         let Outcome { request, expected, actual, detail, .. } = &self.outcome;
@@ -119,7 +119,7 @@ impl CheckResult {
             Some(diff) => [&diff.expected, &diff.actual].map(|row| Some(Evidence::Bytes(row))),
             None => [None, None],
         };
-        // The rows are either the outputs themselves or parameters in them.
+        // The rows are the outputs or the parameters in them.
         let ([expected, got], [params, instead]) = match expected {
             Some(Output::Bytes(_)) if self.diff.is_some() => (rows, [None, None]),
             _ => (outputs, rows),
@@ -138,27 +138,27 @@ impl CheckResult {
         lines.into_iter().filter_map(|(label, evidence)| Some((label, evidence?))).collect()
     }
 
-    /// `byte 5, in the length`; `None` where no part of a frame is to blame.
+    /// `byte 5, in the length`; `None` if the difference is not in a frame.
     fn differs(&self) -> Option<String> {
         let (at, part) = (self.diff.as_ref()?.first?, self.differs_in.as_ref()?);
         Some(format!("byte {at}, in the {part}"))
     }
 
-    /// What the reader does not see here, and where it can be seen.
+    /// A note about cut texts, and where to see them in full.
     fn left_out(&self) -> Option<String> {
         let bytes = words::count(self.left_out?, "byte");
         Some(format!("{bytes} that are too long for a report; `actucheck show` has the request"))
     }
 }
 
-/// Something that speaks for or against an implementation.
+/// A piece of evidence about an implementation.
 #[derive(Clone, Debug)]
 pub enum Evidence<'a> {
     /// For a reader.
     Words(String),
     /// For a program.
     Code(String),
-    /// Bytes; those that differ stand in brackets.
+    /// Bytes; those that differ are in brackets.
     Bytes(&'a Row),
 }
 

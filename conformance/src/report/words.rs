@@ -22,7 +22,7 @@ pub(super) fn count(number: usize, what: &str) -> String {
     format!("{} {what}{ending}", thousands(number))
 }
 
-/// A sign for a verdict, for those who do not see its colour.
+/// A sign for a verdict, for readers who do not see its colour.
 pub(super) const fn mark(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Pass => "✓",
@@ -35,7 +35,7 @@ pub(super) const fn mark(verdict: Verdict) -> &'static str {
     }
 }
 
-/// What was said, with numbers where it is not all the same.
+/// The texts, with numbers if there are several.
 pub(super) fn tallies(tallies: &[Tally]) -> String {
     match tallies {
         [] => "-".to_owned(),

@@ -71,6 +71,6 @@ fn parameters_that_differ_are_marked_within_a_packet() {
 #[test]
 fn a_run_without_fault_says_so() {
     let right = page(&sample::right());
-    assert!(right.contains("Nothing to complain of.") && right.contains(">passed<"));
+    assert!(right.contains("Nothing is wrong.") && right.contains(">passed<"));
     assert!(page(&sample::interrupted()).contains("interrupted: 7 checks not asked"));
 }

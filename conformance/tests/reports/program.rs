@@ -126,7 +126,7 @@ fn what_can_not_be_is_refused_in_a_sentence() {
         (&["report", "compare", "report.json", "old.json"], "old.json is a report of version 1"),
         (
             &["report", "compare", "report.json", "report.json", "--report", "junit=x"],
-            "junit and jsonl tell of one run",
+            "junit and jsonl describe one run",
         ),
         (&["report", "render", "report.json", "--report", "jsonl=x"], "jsonl has every check"),
     ] {

@@ -18,7 +18,7 @@ fn a_terminal_shows_the_worst_last() {
 
     FAIL dynamixel2.stuffing.transmit
       must      A sender adds FD after every FF FF FD between the instruction and the last parameter, then sets the length and computes the CRC.
-      says who  DYNAMIXEL Protocol 2.0, Packet 처리 (packet handling)
+      source    DYNAMIXEL Protocol 2.0, Packet 처리 (packet handling)
       check     dynamixel2.stuffing.goal-position/encode
       request   {"op":"encode","wire":"dynamixel2","packet":{"kind":"instruction","id":1,"instruction":3,"params":"3402fffffdff","call":{"name":"write","address":564,"data":"fffffdff"}}}
       expected  ff ff fd 00 01 [0a] 00 03 34 02 ff ff fd [fd] ff [23 51]

@@ -7,7 +7,7 @@ use super::words::{ASKED_DIFFERENTLY, cell};
 use crate::report::markdown::prose;
 use crate::report::words::{self, count, mark};
 
-/// Writes it.
+/// Writes the comparison.
 pub(super) fn write(comparison: &Comparison, out: &mut dyn Write) -> io::Result<()> {
     let many = comparison.implementations.len();
     writeln!(out, "## {many} implementations on wire {}", comparison.wire.id())?;
@@ -52,7 +52,7 @@ fn head(first: &str, comparison: &Comparison, out: &mut dyn Write) -> io::Result
     writeln!(out, "\n|---|{}", "---|".repeat(comparison.implementations.len()))
 }
 
-/// Only the questions that are not answered alike.
+/// Writes only the questions with different answers.
 fn profile(comparison: &Comparison, out: &mut dyn Write) -> io::Result<()> {
     let mut different = comparison.profile.iter().filter(|answers| !answers.alike()).peekable();
     if different.peek().is_none() {

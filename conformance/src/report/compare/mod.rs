@@ -1,5 +1,5 @@
-//! Several implementations beside each other: who gets what wrong, and who does what where the
-//! documents leave it unspecified.
+//! Compares several implementations: which requirements each one breaks, and what each one does
+//! where the documents leave it unspecified.
 
 mod html;
 mod markdown;
@@ -17,9 +17,9 @@ pub use text::write as write_text;
 use super::format::Format;
 use super::json;
 
-/// What a comparison can't be written as, in a sentence.
+/// Says that a comparison has no such format.
 pub const ONE_RUN: &str =
-    "junit and jsonl tell of one run; a comparison is written as text, json, markdown or html";
+    "junit and jsonl describe one run; a comparison is written as text, json, markdown or html";
 
 impl Format {
     /// Writes a comparison in this format, without colours.

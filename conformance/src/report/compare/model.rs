@@ -1,4 +1,4 @@
-//! The matrix, and how it is made of reports.
+//! The comparison matrix, and how it is made from reports.
 
 use std::hash::Hash;
 
@@ -14,13 +14,13 @@ use crate::report::model::{
 };
 use crate::verdict::{Totals, Verdict};
 
-/// Version of the comparison's form. It changes when a field goes or takes another meaning.
+/// Version of the comparison's format. It changes when a field is removed or gets another meaning.
 const VERSION: u32 = 2;
 
 /// The matrix of implementations and requirements.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Comparison {
-    /// Version of the comparison's form.
+    /// Version of the comparison's format.
     pub version: u32,
     /// Version of the program that wrote it.
     pub actucheck: String,
@@ -37,31 +37,31 @@ pub struct Comparison {
 /// An implementation and its run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Implementation {
-    /// What was checked.
+    /// The implementation that was checked.
     #[serde(flatten)]
     pub who: adapter::Implementation,
     /// The seed of the generated checks.
     pub seed: u64,
     /// How many packets were generated.
     pub cases: u32,
-    /// Bytes of the longest bodies that were all tried inside every kind of packet.
+    /// The most bytes in the bodies that were all tried inside every kind of packet.
     pub body_length: u32,
     /// Why the run ended early, if it did.
     pub stopped: Option<Stopped>,
-    /// How often each verdict came out.
+    /// The count of each verdict.
     pub totals: Totals,
 }
 
-/// How a requirement is met.
+/// How each implementation meets a requirement.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Row {
     /// The requirement's id.
     pub id: String,
-    /// How binding it is.
+    /// The requirement's level.
     pub level: Level,
-    /// What it says; `null` for a rule of the adapter protocol, which no document has.
+    /// Its text and source; `null` for a rule of the adapter protocol, which no document has.
     pub statement: Option<Statement>,
-    /// By each implementation; `null` if no check was about it.
+    /// How each implementation meets it; `null` if no check was about it.
     pub cells: Vec<Option<Cell>>,
 }
 
@@ -70,9 +70,9 @@ pub struct Row {
 pub struct Cell {
     /// The worst verdict of its checks.
     pub verdict: Verdict,
-    /// How often each verdict came out.
+    /// The count of each verdict.
     pub totals: Totals,
-    /// The smallest check with the worst verdict; `null` unless that tells of something wrong.
+    /// The smallest check with the worst verdict; `null` if that verdict is not a problem.
     pub smallest: Option<CheckResult>,
 }
 
@@ -83,18 +83,18 @@ pub struct Answers {
     pub requirement: String,
     /// The question, in words.
     pub question: String,
-    /// What each implementation does; empty for one that was not asked.
+    /// What each implementation does; empty if it was not asked.
     pub behaviours: Vec<Vec<Tally>>,
 }
 
-/// What a reader looks for in a row.
+/// The category of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Standing {
-    /// An implementation gets it wrong.
+    /// An implementation breaks it.
     Wrong,
-    /// Nobody gets it wrong, but not all come out alike.
+    /// No implementation breaks it, but the verdicts differ.
     Different,
-    /// All come out alike, and none is wrong.
+    /// The verdicts are equal, and no implementation breaks it.
     Alike,
 }
 
@@ -110,7 +110,7 @@ pub struct MixedWires {
 }
 
 impl Comparison {
-    /// Holds reports against each other.
+    /// Compares reports.
     ///
     /// # Errors
     /// If they are of different wires.
@@ -132,8 +132,8 @@ impl Comparison {
         })
     }
 
-    /// Whether all implementations were asked about the same requirements, with checks that grew
-    /// from the same seed, and to the end.
+    /// Whether all implementations were asked about the same requirements, with checks from the
+    /// same seed, and none of the runs ended early.
     #[must_use]
     pub fn asked_alike(&self) -> bool {
         let growth = |one: &Implementation| (one.seed, one.cases, one.body_length);
@@ -144,14 +144,14 @@ impl Comparison {
             && self.requirements.iter().flat_map(|row| &row.cells).all(Option::is_some)
     }
 
-    /// The rows of this standing, in the order of the documents.
+    /// The rows of this category, in the order of the documents.
     pub fn rows(&self, standing: Standing) -> impl Iterator<Item = &Row> {
         self.requirements.iter().filter(move |row| row.standing() == standing)
     }
 }
 
 impl Row {
-    /// What a reader looks for in it.
+    /// The category of the row.
     #[must_use]
     pub fn standing(&self) -> Standing {
         let mut verdicts = self.cells.iter().map(|cell| cell.as_ref().map(|cell| cell.verdict));
@@ -168,8 +168,8 @@ impl Row {
 }
 
 impl Cell {
-    /// How many checks came out so, and of how many that could; `None` if all did. What is only
-    /// recorded can't come out otherwise.
+    /// How many checks have this verdict, and out of how many; `None` if all have it. Checks whose
+    /// answer is not judged don't count.
     #[must_use]
     pub fn share(&self) -> Option<(usize, usize)> {
         let judged = self.totals.sum() - self.totals.count(Verdict::Recorded);
@@ -179,7 +179,7 @@ impl Cell {
 }
 
 impl Answers {
-    /// Whether all implementations that were asked do the same.
+    /// Whether all implementations that were asked behave alike.
     #[must_use]
     pub fn alike(&self) -> bool {
         let texts = |tallies: &Vec<Tally>| {
@@ -239,8 +239,8 @@ fn profile(reports: &[Report]) -> Vec<Answers> {
     united(lists, key).into_iter().filter_map(answers).collect()
 }
 
-/// What is in any of some lists of one order: a row for each key, in that order as far as the
-/// lists tell it, and in it a place for each list.
+/// Merges lists that have a common order. The result has one row per key, in that order as far as
+/// the lists determine it, with one entry per list.
 fn united<'a, T, K: Hash + Eq>(
     lists: impl ExactSizeIterator<Item = &'a [T]>,
     key: impl Fn(&'a T) -> K,

@@ -23,7 +23,7 @@ pub fn write(comparison: &Comparison, out: &mut dyn Write) -> io::Result<()> {
     profile(comparison, out)
 }
 
-/// The numbers by which the columns go, and whose they are.
+/// The numbers of the columns, and their implementations.
 fn implementations(comparison: &Comparison, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "wire {}", comparison.wire.id())?;
     for (index, one) in comparison.implementations.iter().enumerate() {
@@ -37,7 +37,7 @@ fn implementations(comparison: &Comparison, out: &mut dyn Write) -> io::Result<(
     Ok(())
 }
 
-/// The rows of one standing by section, a column an implementation.
+/// The rows of one category by section, with one column per implementation.
 fn matrix(
     title: &str,
     comparison: &Comparison,
@@ -70,7 +70,7 @@ fn matrix(
     Ok(())
 }
 
-/// The rest of a line: texts as wide as their columns, without blanks behind the last.
+/// The rest of a line: texts padded to their columns, without trailing blanks.
 fn columns(
     texts: impl Iterator<Item = (Style, String)>,
     widths: &[usize],
@@ -84,7 +84,7 @@ fn columns(
     writeln!(out)
 }
 
-/// How wide each column is.
+/// The width of each column.
 fn widths(comparison: &Comparison, rows: &[&Row]) -> Vec<usize> {
     let width = |column: usize| {
         let cells = rows.iter().filter_map(|row| row.cells.get(column));
@@ -93,7 +93,7 @@ fn widths(comparison: &Comparison, rows: &[&Row]) -> Vec<usize> {
     (0..comparison.implementations.len()).map(width).collect()
 }
 
-/// Only the questions that are not answered alike.
+/// Writes only the questions with different answers.
 fn profile(comparison: &Comparison, out: &mut dyn Write) -> io::Result<()> {
     let (alike, different): (Vec<_>, Vec<_>) =
         comparison.profile.iter().partition(|answers| answers.alike());

@@ -2,8 +2,8 @@
 
 use super::model::Cell;
 
-/// Said of a comparison where it may be unfair.
-pub(super) const ASKED_DIFFERENTLY: &str = "They were not asked the same: selection, seed, cases or lengths differ, or a run was cut short.";
+/// A warning that a comparison may be unfair.
+pub(super) const ASKED_DIFFERENTLY: &str = "The runs are not comparable in full: selection, seed, cases or lengths differ, or a run ended early.";
 
 /// A cell of the matrix: `pass`, `fail 65/23963`, or `-` if nothing was asked.
 pub(super) fn cell(cell: Option<&Cell>) -> String {
