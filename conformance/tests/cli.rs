@@ -271,7 +271,7 @@ fn the_help_of_each_subcommand_has_an_example_of_it() {
             seen += 1;
         }
     }
-    assert_eq!(seen, 15);
+    assert_eq!(seen, 16);
 }
 
 #[test]

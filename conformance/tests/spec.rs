@@ -128,6 +128,64 @@ fn what_is_checked_is_not_among_what_is_not() {
 }
 
 #[test]
+fn a_register_is_shown_with_everything_that_belongs_to_it() {
+    let (status, stdout, stderr) = spec(&["show", "ja40/Goal Position"]);
+    assert_eq!((status, stderr.as_str()), (0, ""));
+    assert_eq!(spec(&["show", "ja40/564"]).1, stdout);
+    for words in [
+        "ja40/Goal Position  i32, RAM, RW",
+        "Min Position Limit to Max Position Limit",
+        "while Operating Mode is Extended Position Control Mode",
+        "2.4.22 Goal Position(564) (ja40-protocol.md line 829)",
+        "ja40.goal-position.limits (chosen)",
+        "ja40.goal-position.range (must)",
+    ] {
+        assert!(stdout.contains(words), "{words}\n{stdout}");
+    }
+}
+
+#[test]
+fn whatever_has_an_id_is_shown() {
+    let data = actucheck_spec::Spec::embedded().unwrap();
+    let requirements = data.requirements.iter().flat_map(|file| &file.content.requirements);
+    let first = requirements.map(|row| row.id.clone()).next().unwrap();
+    for (id, words) in [
+        (first.as_str(), "demands"),
+        ("ja40.goal-position.limits", "register ja40/Goal Position"),
+        ("ja40.clear.instruction", "truncated"),
+        ("dynamixel2/Clear", "key (the rest = 44584c22)"),
+        ("dynamixel2/0x10", "dynamixel2/Clear"),
+        ("innfos/0x7f", "75.225 times the value"),
+        ("dynamixel2.stuffing.transmit", "packet handling"),
+    ] {
+        let (status, stdout, stderr) = spec(&["show", id]);
+        assert_eq!((status, stderr.as_str()), (0, ""), "{id}");
+        assert!(stdout.contains(words), "{stdout}");
+    }
+}
+
+#[test]
+fn an_id_that_is_not_there_brings_near_ones() {
+    let (status, _, stderr) = spec(&["show", "goal-position.lim"]);
+    assert_eq!(status, 2);
+    assert!(stderr.contains("did you mean ja-variant.goal-position.limits"), "{stderr}");
+    assert_eq!(spec(&["show", "ja40/Goal Positions"]).0, 2);
+    assert_eq!(spec(&["show", "dynamixel2/0x99"]).0, 2);
+}
+
+#[test]
+fn the_documents_sentences_are_counted() {
+    let (status, stdout, _) = spec(&["coverage", "--sentences"]);
+    assert_eq!(status, 0);
+    let data = actucheck_spec::Spec::embedded().unwrap();
+    let all = data.sentences.iter().map(|file| file.content.sentences().count()).sum::<usize>();
+    let last: Vec<_> = stdout.lines().last().unwrap().split_whitespace().collect();
+    assert_eq!((last[0], last[1]), ("all", all.to_string().as_str()), "{stdout}");
+    let (_, one, _) = spec(&["coverage", "--sentences", "--document", "innfos"]);
+    assert_eq!(one.lines().count(), 2, "{one}");
+}
+
+#[test]
 fn an_export_goes_to_a_file_or_to_standard_output() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("spec.h");
@@ -142,7 +200,7 @@ fn an_export_goes_to_a_file_or_to_standard_output() {
 
 #[test]
 fn every_subcommand_has_an_example() {
-    for command in ["diff", "errata", "coverage", "export"] {
+    for command in ["show", "diff", "errata", "coverage", "export"] {
         let (_, stdout, _) = spec(&[command, "--help"]);
         assert!(stdout.contains(&format!("  actucheck spec {command} ")), "{stdout}");
     }

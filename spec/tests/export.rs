@@ -129,6 +129,16 @@ impl Facts {
             if let Some(initial) = row.initial {
                 self.add(&format!("{name}_INITIAL"), initial);
             }
+            if let Some(unit) = &row.unit {
+                // As a number of billionths, which is exact enough and an integer.
+                let billionths = |value: f64| (value * 1e9).round();
+                let expression = format!("({name}_SCALE * 1e9 + 0.5)");
+                #[allow(clippy::cast_possible_truncation)] // all units are small
+                self.add(&expression, billionths(unit.factor) as i64);
+                let (first, length) = (unit.symbol.as_bytes()[0], unit.symbol.len());
+                self.add(&format!("(unsigned char){name}_UNIT[0]"), first.into());
+                self.add(&format!("(sizeof {name}_UNIT - 1)"), i64::try_from(length).unwrap());
+            }
             let Some(range) = &row.range else { continue };
             for (end, bound) in [("MIN", &range.min), ("MAX", &range.max)] {
                 if let Some(Bound::Value(value)) = bound {
@@ -173,6 +183,11 @@ fn a_c_program_prints_what_the_yaml_says() {
     facts.add("DYNAMIXEL2_ERROR_ACCESS", 7);
     facts.add("INNFOS_WRITE_POSITION", 0x0A);
     facts.add("JA40_HARDWARE_ERROR_STATUS_OVERHEATING_ERROR_MASK", 4);
+    facts.add("JA40_PROFILE_VELOCITY_TIME_BASED_PROFILE_MAX", 32_767);
+    facts.add("JA40_PROFILE_VELOCITY_TIME_BASED_PROFILE_SCALE", 1);
+    facts.add("((const unsigned char[])DYNAMIXEL2_CLEAR_KEY)[3]", 0x22);
+    facts.add("sizeof((const unsigned char[])DYNAMIXEL2_CONTROL_TABLE_BACKUP_KEY)", 4);
+    facts.add("INNFOS_ALARM_EQUIPMENT_ERROR_MASK", 0xF800);
     spec.devices.iter().for_each(|file| facts.device(&file.content));
     spec.protocols.iter().for_each(|file| facts.protocol(&file.content));
     facts.innfos(&spec.innfos.content);

@@ -46,6 +46,9 @@ fn shape(vector: &Vector) -> Option<String> {
         _ if invalid && vector.fault.is_none() => "an invalid frame needs its `fault`",
         _ if !invalid && vector.packet.is_none() => "the frame's `packet` is missing",
         _ if !invalid && vector.fault.is_some() => "a frame with a `fault` must be `invalid`",
+        (_, Some(_)) if vector.note.is_none() => {
+            "`bytes` are not the printed ones, so a `note` must say why the vector exists"
+        }
         _ => return None,
     };
     Some(message.to_owned())

@@ -1,4 +1,4 @@
-//! Documents, protocols, devices and errata as one JSON file. Every field is always there; what
+//! Documents, protocols, devices, requirements and errata as one JSON file. Every field is always there; what
 //! the documents do not tell is `null` or an empty list.
 
 use schemars::JsonSchema;
@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::{ExportError, to_json};
 use crate::Spec;
-use crate::model::{Device, Document, Erratum, Innfos, Protocol};
+use crate::model::{Device, Document, Erratum, Innfos, Protocol, Requirement};
 
 /// Version of the file's form. It changes when a field goes or takes another meaning.
 pub const VERSION: u32 = 1;
@@ -24,6 +24,8 @@ pub struct Export<'a> {
     pub innfos: &'a Innfos,
     /// The control tables.
     pub devices: Vec<&'a Device>,
+    /// What the documents demand, and the errata that each demand rests on.
+    pub requirements: Vec<&'a Requirement>,
     /// The documents' defects.
     pub errata: Vec<&'a Erratum>,
 }
@@ -38,6 +40,11 @@ impl<'a> Export<'a> {
             protocols: spec.protocols.iter().map(|file| &file.content).collect(),
             innfos: &spec.innfos.content,
             devices: spec.devices.iter().map(|file| &file.content).collect(),
+            requirements: spec
+                .requirements
+                .iter()
+                .flat_map(|file| &file.content.requirements)
+                .collect(),
             errata: spec.errata.content.errata.iter().collect(),
         }
     }

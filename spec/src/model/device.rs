@@ -63,6 +63,24 @@ pub struct Alarm {
     pub errata: Vec<String>,
 }
 
+impl Alarm {
+    /// Bit, limits and condition in words: `Overheating Error: Present Temperature above
+    /// Temperature Limit`.
+    #[must_use]
+    pub fn in_words(&self, device: &Device) -> String {
+        let limits = [("below", &self.below), ("above", &self.above)];
+        let limits = limits
+            .iter()
+            .filter_map(|(word, limit)| Some(format!("{word} {}", limit.as_ref()?)))
+            .collect::<Vec<_>>()
+            .join(" or ");
+        let when = self.when.as_ref();
+        let when =
+            when.map_or_else(String::new, |when| format!(", while {}", when.in_words(device)));
+        format!("{}: {} {limits}{when}", self.bit, self.register)
+    }
+}
+
 /// What another register has to hold: `{register: Drive Mode, bits: Profile Configuration,
 /// one_of: [1]}`.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
@@ -81,6 +99,17 @@ impl Condition {
     /// `Operating Mode is Position Control Mode`.
     #[must_use]
     pub fn in_words(&self, device: &Device) -> String {
+        let values = self.values_in_words(device);
+        let what = self
+            .bits
+            .as_ref()
+            .map_or_else(|| self.register.clone(), |bits| format!("{bits} of {}", self.register));
+        format!("{what} is {}", values.join(" or "))
+    }
+
+    /// The values by the names that `device` gives them, or as numbers.
+    #[must_use]
+    pub fn values_in_words(&self, device: &Device) -> Vec<String> {
         let register = device.register(&self.register);
         let bits = self.bits.as_ref().and_then(|name| register?.bit_field(name));
         let named = bits.map_or_else(
@@ -91,12 +120,7 @@ impl Condition {
             let name = named.iter().find(|row| row.value == *value);
             name.map_or_else(|| value.to_string(), |row| row.name.clone())
         };
-        let values: Vec<_> = self.one_of.iter().map(value).collect();
-        let what = self
-            .bits
-            .as_ref()
-            .map_or_else(|| self.register.clone(), |bits| format!("{bits} of {}", self.register));
-        format!("{what} is {}", values.join(" or "))
+        self.one_of.iter().map(value).collect()
     }
 }
 

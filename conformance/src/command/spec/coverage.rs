@@ -9,6 +9,7 @@ use actucheck_spec::coverage::{self, CheckName, Cover, Row};
 use actucheck_spec::model::{Level, Requirement, Role};
 use clap::Args;
 
+use super::sentences;
 use crate::command::shared::table::{self, BOLD, DIM};
 use crate::command::shared::{Failure, one_of};
 
@@ -30,6 +31,9 @@ pub(crate) struct Coverage {
     /// Only the requirements that nothing checks yet
     #[arg(long)]
     uncovered: bool,
+    /// Count the documents' sentences instead, and what became of them
+    #[arg(long, conflicts_with_all = ["role", "uncovered"])]
+    sentences: bool,
 }
 
 const ROLES: [(Role, &str, &str); 3] = [
@@ -44,6 +48,9 @@ const NOTHING: &str = "nothing yet";
 pub(super) fn text(spec: &Spec, options: &Coverage) -> Result<String, Failure> {
     let document = options.document.as_deref();
     super::known_document(spec, document)?;
+    if options.sentences {
+        return Ok(sentences::text(spec, document));
+    }
     let role = options.role;
     let mut checks = Vec::new();
     for wire in Wire::ALL {
@@ -72,7 +79,8 @@ fn matrix(spec: &Spec, rows: &[Row<'_>]) -> String {
     let mut text = String::new();
     for document in &spec.documents.content.documents {
         let own = rows.iter().filter(|row| row.requirement.source.document == document.id);
-        let head = ["requirement", "level", "binds", "section", "checked by"].map(str::to_owned);
+        let head = ["requirement", "level", "binds", "section", "rests on", "checked by"];
+        let head = head.map(str::to_owned);
         let cells: Vec<_> = [head].into_iter().chain(own.map(cells)).collect();
         if cells.len() == 1 {
             continue;
@@ -90,10 +98,11 @@ fn matrix(spec: &Spec, rows: &[Row<'_>]) -> String {
     text
 }
 
-fn cells(row: &Row<'_>) -> [String; 5] {
-    let Requirement { id, level, source, binds, .. } = row.requirement;
+fn cells(row: &Row<'_>) -> [String; 6] {
+    let Requirement { id, level, source, binds, errata, .. } = row.requirement;
     let binds: Vec<_> = binds.iter().map(ToString::to_string).collect();
-    [id.clone(), level.to_string(), binds.join(" "), source.section.clone(), checked_by(row)]
+    let (level, binds, errata) = (level.to_string(), binds.join(" "), errata.join(" "));
+    [id.clone(), level, binds, source.section.clone(), errata, checked_by(row)]
 }
 
 /// What checks the requirement. Checks of a role that it does not bind are named, but do not count.

@@ -4,6 +4,8 @@ mod coverage;
 mod diff;
 mod errata;
 mod export;
+mod sentences;
+mod show;
 
 use std::io::{self, Write as _};
 use std::process::ExitCode;
@@ -16,6 +18,7 @@ use super::shared::{self, Failure};
 /// Shows, compares and exports what the documents say
 #[derive(Debug, Subcommand)]
 pub(crate) enum Spec {
+    Show(show::Show),
     Diff(diff::Diff),
     Errata(errata::Errata),
     Coverage(coverage::Coverage),
@@ -26,6 +29,7 @@ pub(crate) enum Spec {
 pub(crate) fn run(command: &Spec) -> Result<ExitCode, Failure> {
     let spec = shared::spec()?;
     match command {
+        Spec::Show(options) => print(&show::text(&spec, options)?),
         Spec::Diff(options) => print(&diff::text(&spec, options)?),
         Spec::Errata(options) => print(&errata::text(&spec, options)?),
         Spec::Coverage(options) => print(&coverage::text(&spec, options)?),

@@ -1,6 +1,6 @@
 use super::writer::{Constant, Header, lower, upper};
 use crate::generate::places;
-use crate::model::{BitField, Bound, Device, Register, Type};
+use crate::model::{BitField, Bound, Device, Range, Register, Type, Unit};
 
 pub(super) fn write(device: &Device, header: &mut Header) {
     let prefix = upper(&device.device);
@@ -12,39 +12,62 @@ pub(super) fn write(device: &Device, header: &mut Header) {
     }
     for row in &device.registers {
         let name = format!("{prefix}_{}", upper(&row.name));
-        header.title(&about(row));
+        header.title(&about(device, row));
         header.define(&Constant::new(format!("{name}_ADDRESS"), format!("{}U", row.address), ""));
         header.define(&Constant::new(format!("{name}_SIZE"), format!("{}U", row.kind.size()), ""));
         let tag = format!("{}_{}", lower(&device.device), lower(&row.name));
         header.typedef(c_type(row.kind), &format!("{tag}_t"));
         numbers(row, &name, header);
+        for meaning in &row.meanings {
+            // Of a mode, or of bits that stand for one: JA40_PROFILE_VELOCITY_TIME_BASED_PROFILE.
+            let mode = meaning.when.values_in_words(device).join(" ");
+            let name = format!("{name}_{}", upper(&mode));
+            limits(row.kind, meaning.range.as_ref(), &name, header);
+            unit(meaning.unit.as_ref(), &name, header);
+        }
         for bits in &row.bits {
             self::bits(bits, &name, header);
         }
     }
 }
 
-fn about(row: &Register) -> String {
+fn about(device: &Device, row: &Register) -> String {
     let mut facts = vec![format!("{}: {}, {}", row.name, row.area, row.access)];
     facts.extend(row.range.as_ref().map(ToString::to_string));
     facts.extend(row.unit.as_ref().map(|unit| format!("one count is {unit}")));
+    facts.extend(row.meanings.iter().map(|meaning| meaning.in_words(device)));
     facts.push(places(&row.source));
     facts.join("; ")
 }
 
-/// The range as far as it is numbers, the initial value and the named ones.
-fn numbers(row: &Register, name: &str, header: &mut Header) {
-    let range = row.range.as_ref();
+/// The physical value of one count, and its unit.
+fn unit(unit: Option<&Unit>, name: &str, header: &mut Header) {
+    if let Some(unit) = unit {
+        let factor = format!("{:?}", unit.factor);
+        header.define(&Constant::new(format!("{name}_SCALE"), factor, "of one count"));
+        let symbol = format!("{:?}", unit.symbol);
+        header.define(&Constant::new(format!("{name}_UNIT"), symbol, ""));
+    }
+}
+
+/// The range as far as it is numbers.
+fn limits(kind: Type, range: Option<&Range>, name: &str, header: &mut Header) {
     let ends = [
         ("MIN", range.and_then(|range| range.min.as_ref())),
         ("MAX", range.and_then(|range| range.max.as_ref())),
     ];
     for (end, bound) in ends {
         if let Some(Bound::Value(value)) = bound {
-            let value = number(row.kind, *value);
+            let value = number(kind, *value);
             header.define(&Constant::new(format!("{name}_{end}"), value, ""));
         }
     }
+}
+
+/// Range, unit, the initial value and the named ones.
+fn numbers(row: &Register, name: &str, header: &mut Header) {
+    limits(row.kind, row.range.as_ref(), name, header);
+    unit(row.unit.as_ref(), name, header);
     if let Some(value) = row.initial {
         let value = number(row.kind, value);
         header.define(&Constant::new(format!("{name}_INITIAL"), value, ""));

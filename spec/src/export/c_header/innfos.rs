@@ -1,5 +1,5 @@
 use super::writer::{Constant, Header, lower, upper};
-use crate::model::{Command, Innfos};
+use crate::model::{Command, FullScale, Innfos};
 
 pub(super) fn write(innfos: &Innfos, header: &mut Header) {
     let (prefix, tag) = (upper(&innfos.protocol), lower(&innfos.protocol));
@@ -33,6 +33,10 @@ pub(super) fn write(innfos: &Innfos, header: &mut Header) {
         Constant::new(name, format!("{:#06X}", row.mask), "")
     });
     header.enumeration(&format!("{tag}_alarm"), &alarms.collect::<Vec<_>>());
+    let named = innfos.alarms.rows.iter().fold(0, |named, row| named | row.mask);
+    let others = format!("{prefix}_ALARM_{}_MASK", upper(&innfos.alarms.other));
+    let comment = "every bit without a name of its own";
+    header.define(&Constant::new(others, format!("{:#06X}U", !named), comment));
     for row in &innfos.actuators.rows {
         let name = format!("{prefix}_MODEL_{}", upper(&row.name));
         for (quantity, value, unit) in [
@@ -66,6 +70,14 @@ fn commands(innfos: &Innfos, prefix: &str, tag: &str, header: &mut Header) {
         let largest = row.reply.iter().max().copied().unwrap_or(0);
         let (constant, value) = (format!("{name}_REPLY_SIZE"), format!("{largest}U"));
         header.define(&Constant::new(constant, value, several(&row.reply)));
+        if let Some(unit) = &row.unit {
+            let comment = match row.full_scale {
+                Some(FullScale::Current) => "times the model's CURRENT",
+                Some(FullScale::MotorSpeed) => "times the model's MOTOR_SPEED",
+                None => "",
+            };
+            header.define(&Constant::new(format!("{name}_UNIT"), format!("{unit:?}"), comment));
+        }
         if let Some(factor) = row.factor {
             let comment = "the number on the wire of the value 1";
             header.define(&Constant::new(format!("{name}_FACTOR"), format!("{factor:?}"), comment));

@@ -25,6 +25,15 @@ pub(super) fn write(protocol: &Protocol, header: &mut Header) {
         Constant::new(name, format!("{:#04X}", row.code), &row.summary)
     });
     header.enumeration(&format!("{tag}_instruction"), &instructions.collect::<Vec<_>>());
+    for row in &protocol.instructions {
+        for field in &row.parameters {
+            let Some(fixed) = &field.fixed else { continue };
+            let name = format!("{prefix}_{}_{}", upper(&row.name), upper(&field.name));
+            let bytes: Vec<_> = fixed.iter().map(|byte| format!("{byte:#04X}U")).collect();
+            let value = format!("{{{}}}", bytes.join(", "));
+            header.define(&Constant::new(name, value, "the bytes that it always has"));
+        }
+    }
     let errors = status.errors.iter().map(|row| {
         // The names of most end with the word, which the prefix has already.
         let name = row.name.strip_suffix(" Error").unwrap_or(&row.name);

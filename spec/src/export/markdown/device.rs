@@ -14,6 +14,20 @@ pub(super) fn write(device: &Device, text: &mut Text) {
     let head =
         ["address", "name", "type", "area", "access", "initial", "range", "one count", "source"];
     text.table(&head, device.registers.iter().map(cells));
+    let others = device.registers.iter().flat_map(|row| {
+        let meanings = row.meanings.iter();
+        meanings.map(|meaning| vec![row.name.clone(), meaning.in_words(device)])
+    });
+    let others: Vec<_> = others.collect();
+    if !others.is_empty() {
+        text.heading(3, &format!("What else registers of {} mean", device.title));
+        text.table(&["register", "meaning"], others);
+    }
+    if !device.alarms.is_empty() {
+        text.heading(3, &format!("Alarms of {}", device.title));
+        let alarms = device.alarms.iter().map(|row| vec![row.in_words(device)]);
+        text.table(&["bit and condition"], alarms);
+    }
     text.heading(3, &format!("Values and bits of {}", device.title));
     text.table(
         &["register", "bit", "value", "meaning"],

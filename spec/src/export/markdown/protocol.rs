@@ -47,5 +47,7 @@ fn field(field: &Field) -> String {
         Some(Size::Named(size)) => format!("{} ({size})", field.name),
         None => format!("for each of the {}: {}", field.name, layout(&field.each)),
     };
+    let fixed = field.fixed.as_ref().map_or_else(String::new, |bytes| format!(" = {bytes}"));
+    let words = words + &fixed;
     if field.optional { format!("[{words}]") } else { words }
 }

@@ -1,0 +1,349 @@
+//! `actucheck spec show`.
+
+use std::collections::BTreeSet;
+
+use actucheck_spec::Spec;
+use actucheck_spec::model::{
+    Citation, Command, Device, Erratum, Field, Instruction, Protocol, Register, Requirement, Size,
+    Vector, VectorsFile,
+};
+use actucheck_spec::rests;
+use clap::Args;
+
+use crate::command::shared::Failure;
+use crate::command::shared::table::{self, BOLD};
+
+const EXAMPLE: &str = "\
+Examples:
+  actucheck spec show ja40.goal-position.limits
+      an erratum, with everything that rests on it
+  actucheck spec show \"ja40/Goal Position\"
+      a register; ja40/564 is the same
+  actucheck spec show dynamixel2/Clear
+      an instruction
+  actucheck spec show innfos/0x05
+      a command";
+
+/// Shows one thing of the spec, with everything that belongs to it
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(crate) struct Show {
+    /// Id of a requirement, an erratum or a vector; DEVICE/REGISTER, with the register's name or
+    /// address; WIRE/INSTRUCTION, or WIRE/COMMAND with the command's code
+    #[arg(value_name = "ID")]
+    id: String,
+}
+
+/// What was asked for, in blocks.
+pub(super) fn text(spec: &Spec, options: &Show) -> Result<String, Failure> {
+    let id = options.id.as_str();
+    if let Some(row) = spec.requirement(id) {
+        return Ok(requirement(spec, row));
+    }
+    if let Some(row) = spec.erratum(id) {
+        return Ok(erratum(spec, row));
+    }
+    if let Some((file, row)) = spec.vectors().find(|(_, row)| row.id == id) {
+        return Ok(vector(spec, file, row));
+    }
+    let part = id.split_once('/').and_then(|(whole, part)| member(spec, whole, part));
+    part.ok_or_else(|| Failure::usage(unknown(spec, id)))
+}
+
+fn member(spec: &Spec, whole: &str, part: &str) -> Option<String> {
+    if let Some(device) = spec.device(whole) {
+        let address = part.parse().ok();
+        let found = device
+            .registers
+            .iter()
+            .find(|row| row.name.eq_ignore_ascii_case(part) || Some(row.address) == address)?;
+        return Some(register(spec, device, found));
+    }
+    let digits = part.strip_prefix("0x").or_else(|| part.strip_prefix("0X"));
+    let code = digits.and_then(|digits| u8::from_str_radix(digits, 16).ok());
+    if let Some(wire) = spec.protocol(whole) {
+        let mut rows = wire.instructions.iter();
+        let found =
+            rows.find(|row| row.name.eq_ignore_ascii_case(part) || Some(row.code) == code)?;
+        return Some(instruction(spec, wire, found));
+    }
+    let innfos = &spec.innfos.content;
+    let found = innfos.command(code?).filter(|_| innfos.protocol == whole)?;
+    Some(command(spec, found))
+}
+
+/// What to ask instead: ids that hold the words asked for.
+fn unknown(spec: &Spec, id: &str) -> String {
+    let rows = spec.requirements.iter().flat_map(|file| &file.content.requirements);
+    let errata = spec.errata.content.errata.iter().map(|row| row.id.clone());
+    let registers = spec.devices.iter().flat_map(|file| {
+        let device = &file.content;
+        device.registers.iter().map(|row| format!("{}/{}", device.device, row.name))
+    });
+    let instructions = spec.protocols.iter().flat_map(|file| {
+        let wire = &file.content;
+        wire.instructions.iter().map(|row| format!("{}/{}", wire.protocol, row.name))
+    });
+    let all = rows.map(|row| row.id.clone()).chain(errata).chain(registers).chain(instructions);
+    let wanted = id.to_lowercase();
+    let near: BTreeSet<_> =
+        all.filter(|known| known.to_lowercase().contains(&wanted)).take(8).collect();
+    if near.is_empty() {
+        format!("the spec has no `{id}`; `actucheck spec coverage` and `spec errata` list ids")
+    } else {
+        let near: Vec<_> = near.into_iter().collect();
+        format!("the spec has no `{id}`; did you mean {}?", near.join(", "))
+    }
+}
+
+/// A title, and labelled lines of which those without text are left out.
+struct Block(String);
+
+impl Block {
+    fn new(title: &str, behind: &str) -> Self {
+        Self(format!("{BOLD}{title}{BOLD:#}  {behind}").trim_end().to_owned() + "\n")
+    }
+
+    fn line(&mut self, label: &str, text: &str) {
+        if !text.is_empty() {
+            self.0.push_str(&table::labelled(label, text));
+        }
+    }
+
+    fn lines(&mut self, label: &str, texts: impl IntoIterator<Item = String>) {
+        let mut label = label;
+        for text in texts {
+            self.line(label, &text);
+            label = "";
+        }
+    }
+
+    /// Where it stands: document and section, with the heading of a numbered one.
+    fn places(&mut self, spec: &Spec, source: &[Citation]) {
+        self.lines("place", source.iter().map(|citation| place(spec, citation)));
+    }
+
+    /// The sentences that it is of.
+    fn sentences(&mut self, spec: &Spec, id: &str) {
+        let files = spec.sentences.iter().map(|file| &file.content);
+        let lines = files.flat_map(|file| {
+            let own = file.sentences().filter(|(_, row)| row.of.iter().any(|of| of == id));
+            let name = spec.document(&file.document).map_or("", |document| &document.file);
+            own.map(move |(_, row)| format!("{name} line {}: {} …", row.line, row.words))
+        });
+        self.lines("sentences", lines);
+    }
+
+    fn errata<'a>(&mut self, spec: &Spec, ids: impl IntoIterator<Item = &'a String>) {
+        let rows = ids.into_iter().filter_map(|id| spec.erratum(id));
+        let told = |row: &Erratum| format!("{} ({}): {}", row.id, row.status, row.held_right);
+        self.lines("errata", rows.map(told));
+    }
+
+    /// The requirements of the sentences that `id` is of, those of the sections that it alone
+    /// cites, and those of sections that it shares, if they name it.
+    fn requirements(&mut self, spec: &Spec, id: &str, name: &str, source: [&[Citation]; 2]) {
+        let [own_sections, shared] = source;
+        let mut ids = BTreeSet::new();
+        for (_, row) in spec.sentences.iter().flat_map(|file| file.content.sentences()) {
+            if row.of.iter().any(|of| of == id) {
+                ids.extend(row.of.iter().map(String::as_str));
+            }
+        }
+        let rows = spec.requirements.iter().flat_map(|file| &file.content.requirements);
+        let own = rows.filter(|row| {
+            ids.contains(row.id.as_str())
+                || own_sections.contains(&row.source)
+                || shared.contains(&row.source) && row.text.contains(name)
+        });
+        self.lines("demands", own.map(|row| format!("{} ({}): {}", row.id, row.level, row.text)));
+    }
+}
+
+fn place(spec: &Spec, citation: &Citation) -> String {
+    let sections = spec.sentences_of(&citation.document).map(|file| &file.sections);
+    let section =
+        sections.and_then(|sections| sections.iter().find(|row| row.section == citation.section));
+    let title = section.and_then(|row| row.title.as_ref());
+    let title = title.map_or_else(String::new, |title| format!(" {title}"));
+    let file = spec.document(&citation.document).map_or("", |document| &document.file);
+    let line = section.map_or_else(String::new, |row| format!(" line {}", row.line));
+    format!("{}{title} ({file}{line})", spec.place(citation))
+}
+
+/// The citations that no more than `few` of all rows have too, and the others.
+fn parted<'a>(
+    source: &[Citation],
+    rows: &(impl Iterator<Item = &'a [Citation]> + Clone),
+    few: usize,
+) -> (Vec<Citation>, Vec<Citation>) {
+    let is_own = |citation: &Citation| {
+        rows.clone().filter(|source| source.contains(citation)).count() <= few
+    };
+    source.iter().cloned().partition(is_own)
+}
+
+fn joined<T: ToString>(items: &[T]) -> String {
+    items.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+}
+
+fn requirement(spec: &Spec, row: &Requirement) -> String {
+    let mut block = Block::new(&row.id, &row.level.to_string());
+    block.line("demands", &row.text);
+    block.line("binds", &joined(&row.binds));
+    block.places(spec, std::slice::from_ref(&row.source));
+    block.sentences(spec, &row.id);
+    block.errata(spec, &row.errata);
+    let vectors = spec.vectors().map(|(_, vector)| vector);
+    let own = vectors.filter(|vector| vector.requirement.as_ref() == Some(&row.id));
+    block.lines("vectors", own.map(|vector| vector.id.clone()));
+    block.lines("tests", row.tests.iter().cloned());
+    block.line("checked with", row.checked_with.as_deref().unwrap_or_default());
+    block.0
+}
+
+fn erratum(spec: &Spec, row: &Erratum) -> String {
+    let mut block = Block::new(&row.id, &row.status.to_string());
+    block.places(spec, std::slice::from_ref(&row.source));
+    block.line("printed", &row.printed);
+    block.line("held right", &row.held_right);
+    block.line("evidence", &row.evidence);
+    block.sentences(spec, &row.id);
+    let all = rests::all(spec);
+    let own = all.iter().filter(|(id, _)| *id == row.id);
+    let mut own: Vec<_> = own.map(|(_, what)| what.to_string()).collect();
+    own.dedup();
+    block.lines("rest on it", own);
+    block.0
+}
+
+fn vector(spec: &Spec, file: &VectorsFile, row: &Vector) -> String {
+    let mut block = Block::new(&row.id, &format!("{:?}", row.result).to_lowercase());
+    block.line("bytes", &actucheck_spec::model::HexBytes(row.frame().to_vec()).to_string());
+    block.line("note", row.note.as_deref().unwrap_or_default());
+    block.line("fault", &row.fault.map_or_else(String::new, |fault| fault.to_string()));
+    block.places(spec, std::slice::from_ref(row.source.as_ref().unwrap_or(&file.source)));
+    block.line("shows", row.requirement.as_deref().unwrap_or_default());
+    block.errata(spec, &row.errata);
+    block.0
+}
+
+fn register(spec: &Spec, device: &Device, row: &Register) -> String {
+    let id = format!("{}/{}", device.device, row.name);
+    let mut block = Block::new(&id, &format!("{}, {}, {}", row.kind, row.area, row.access));
+    block.line("address", &row.address.to_string());
+    block.line("initial", &row.initial.map_or_else(String::new, |value| value.to_string()));
+    if let Some(range) = &row.range {
+        let open = if spec.settles(range) { "" } else { " (open: a write is not held to it)" };
+        block.line("range", &format!("{range}{open}"));
+    }
+    block.line("one count", &row.unit.as_ref().map_or_else(String::new, ToString::to_string));
+    block.lines("or", row.meanings.iter().map(|meaning| meaning.in_words(device)));
+    block.lines("values", row.values.iter().map(|named| format!("{} {named}", named.value)));
+    let bits = row.bits.iter().map(|bits| {
+        let values: Vec<_> =
+            bits.values.iter().map(|named| format!("{} {named}", named.value)).collect();
+        let values =
+            if values.is_empty() { String::new() } else { format!(": {}", values.join(", ")) };
+        format!("{} from bit {}, {} wide{values}", bits.name, bits.lowest, bits.width)
+    });
+    block.lines("bits", bits);
+    let alarms = device.alarms.iter().filter(|alarm| {
+        let names = [Some(&alarm.register), alarm.below.as_ref(), alarm.above.as_ref()];
+        row.bit_field(&alarm.bit).is_some() || names.contains(&Some(&row.name))
+    });
+    block.lines("alarms", alarms.map(|alarm| alarm.in_words(device)));
+    let backup = device.backup.contains(&row.name);
+    block.line("backup", if backup { "it is in a backup" } else { "" });
+    block.places(spec, &row.source);
+    block.sentences(spec, &id);
+    block.errata(spec, row.all_errata());
+    let rows = device.registers.iter().map(|row| &row.source[..]);
+    let (own, shared) = parted(&row.source, &rows, 4);
+    block.requirements(spec, &id, &row.name, [&own, &shared]);
+    block.0
+}
+
+fn instruction(spec: &Spec, wire: &Protocol, row: &Instruction) -> String {
+    let id = format!("{}/{}", wire.protocol, row.name);
+    let mut block = Block::new(&id, &format!("{:#04X}", row.code));
+    block.line("does", &row.summary);
+    block.line("parameters", &layout(&row.parameters));
+    block.line(
+        "answer",
+        &row.status.as_ref().map_or_else(String::new, |fields| {
+            if fields.is_empty() {
+                "a status packet without parameters".to_owned()
+            } else {
+                layout(fields)
+            }
+        }),
+    );
+    block.line("blocks", &row.fast_status.as_ref().map_or_else(String::new, |rows| layout(rows)));
+    let facts = [
+        (row.broadcast_only, "goes to the broadcast ID only"),
+        (row.answers_broadcast, "is answered when it goes to the broadcast ID"),
+        (row.always_answered, "is answered at every Status Return Level"),
+    ];
+    block.lines("it", facts.iter().filter(|(holds, _)| *holds).map(|(_, fact)| (*fact).to_owned()));
+    let devices = spec.devices.iter().map(|file| &file.content);
+    let obey = devices.filter(|device| device.instructions.contains(&row.name));
+    block.line("devices", &joined(&obey.map(|device| &device.device).collect::<Vec<_>>()));
+    block.places(spec, &row.source);
+    block.errata(spec, &row.errata);
+    let rows = wire.instructions.iter().map(|row| &row.source[..]);
+    let (own, shared) = parted(&row.source, &rows, 1);
+    block.requirements(spec, &id, &row.name, [&own, &shared]);
+    block.0
+}
+
+fn layout(fields: &[Field]) -> String {
+    let field = |field: &Field| {
+        let size = match &field.size {
+            Some(Size::Bytes(1)) => "1 byte".to_owned(),
+            Some(Size::Bytes(size)) => format!("{size} bytes"),
+            Some(Size::Named(name)) if name == "rest" => "the rest".to_owned(),
+            Some(Size::Named(name)) => format!("as many bytes as {name}"),
+            None => format!("for each device: {}", layout(&field.each)),
+        };
+        let fixed = field.fixed.as_ref().map_or_else(String::new, |bytes| format!(" = {bytes}"));
+        let values: Vec<_> =
+            field.values.iter().map(|named| format!("{:#04X} {named}", named.value)).collect();
+        let values =
+            if values.is_empty() { String::new() } else { format!(": {}", values.join(", ")) };
+        format!("{} ({size}{fixed}{values})", field.name)
+    };
+    fields.iter().map(field).collect::<Vec<_>>().join(", ")
+}
+
+fn command(spec: &Spec, row: &Command) -> String {
+    let wire = &spec.innfos.content.protocol;
+    let id = format!("{wire}/{:#04X}", row.code);
+    let mut block = Block::new(&id, &format!("{} {}", row.direction, row.name));
+    block.line("request", &format!("{} bytes of data", row.request));
+    let sizes: Vec<_> = row.reply.iter().map(ToString::to_string).collect();
+    let reply = if sizes.is_empty() {
+        "none".to_owned()
+    } else {
+        format!("{} bytes of data", sizes.join(" or "))
+    };
+    block.line("reply", &reply);
+    block.line("format", &row.format.map_or_else(String::new, |format| format.to_string()));
+    block.line("unit", row.unit.as_deref().unwrap_or_default());
+    block.line(
+        "scale",
+        &row.factor.map_or_else(String::new, |factor| {
+            format!("the number on the wire is {factor} times the value")
+        }),
+    );
+    let full_scale = row.full_scale.map(|scale| format!("{scale:?}").to_lowercase());
+    block.line(
+        "fraction of",
+        &full_scale.map_or_else(String::new, |scale| format!("the model's full scale ({scale})")),
+    );
+    block.places(spec, &row.source);
+    block.sentences(spec, &id);
+    block.errata(spec, &row.errata);
+    block.requirements(spec, &id, &format!("{:#04X}", row.code), [&[], &row.source]);
+    block.0
+}
