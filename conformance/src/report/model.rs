@@ -101,6 +101,9 @@ pub struct Statement {
     pub document: String,
     /// The section.
     pub section: String,
+    /// Ids of the errata that the demand rests on.
+    #[serde(default)]
+    pub errata: Vec<String>,
 }
 
 /// A question that the documents leave unspecified, and what the implementation does.
@@ -203,12 +206,18 @@ impl Statement {
     pub fn of(spec: &Spec, requirement: &str) -> Option<Self> {
         let row = spec.requirement(requirement)?;
         let document = spec.document(&row.source.document)?.title.clone();
-        Some(Self { text: row.text.clone(), document, section: row.source.section.clone() })
+        let (text, section) = (row.text.clone(), row.source.section.clone());
+        Some(Self { text, document, section, errata: row.errata.clone() })
     }
 
-    /// The document and the section.
+    /// The document and the section, and the errata that the demand rests on.
     #[must_use]
     pub fn place(&self) -> String {
-        format!("{}, {}", self.document, self.section)
+        let place = format!("{}, {}", self.document, self.section);
+        if self.errata.is_empty() {
+            place
+        } else {
+            format!("{place}; rests on {}", self.errata.join(", "))
+        }
     }
 }
