@@ -10,7 +10,7 @@ pub(super) fn check(spec: &Spec) -> Vec<Diagnostic> {
         for (index, register) in file.content.registers.iter().enumerate() {
             let row = Row { file, register, node: format!("registers[{index}]") };
             row.initial(&mut defects);
-            row.range(&mut defects);
+            row.ranges(&mut defects);
             row.values(&mut defects);
             row.bits(&mut defects);
         }
@@ -39,34 +39,46 @@ impl Row<'_> {
         }
     }
 
-    fn range(&self, defects: &mut Vec<Diagnostic>) {
-        let Some(range) = &self.register.range else {
-            return;
-        };
+    /// The range, and those of other meanings.
+    fn ranges(&self, defects: &mut Vec<Diagnostic>) {
+        if let Some(range) = &self.register.range {
+            self.range("range", range, defects);
+        }
+        for (index, meaning) in self.register.meanings.iter().enumerate() {
+            let node = format!("meanings[{index}]");
+            match &meaning.range {
+                Some(range) => self.range(&format!("{node}.range"), range, defects),
+                None if meaning.unit.is_none() => {
+                    defects.push(self.at(&node, "a meaning has a `range`, a `unit` or both"));
+                }
+                None => {}
+            }
+        }
+    }
+
+    fn range(&self, node: &str, range: &Range, defects: &mut Vec<Diagnostic>) {
         let shape = matches!(
             (&range.min, &range.max, &range.one_of),
             (Some(_), Some(_), None) | (None, None, Some(_))
         );
         if !shape {
-            defects.push(self.at("range", "a range has either `min` and `max` or `one_of`"));
+            defects.push(self.at(node, "a range has either `min` and `max` or `one_of`"));
         }
         if let (Some(Bound::Value(min)), Some(Bound::Value(max))) = (&range.min, &range.max)
             && min > max
         {
-            defects.push(self.at("range", &format!("the range begins at {min} and ends at {max}")));
+            defects.push(self.at(node, &format!("the range begins at {min} and ends at {max}")));
         }
-        let bounds = [("range.min", &range.min), ("range.max", &range.max)];
-        for (node, bound) in bounds {
+        for (end, bound) in [("min", &range.min), ("max", &range.max)] {
             if let Some(Bound::Value(value)) = bound
                 && let Some(message) = self.misfit("bound", *value)
             {
-                defects.push(self.at(node, &message));
+                defects.push(self.at(&format!("{node}.{end}"), &message));
             }
         }
         for value in range.one_of.iter().flatten() {
-            defects.extend(
-                self.misfit("value", *value).map(|message| self.at("range.one_of", &message)),
-            );
+            let misfit = self.misfit("value", *value);
+            defects.extend(misfit.map(|message| self.at(&format!("{node}.one_of"), &message)));
         }
     }
 
