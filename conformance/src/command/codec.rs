@@ -125,8 +125,9 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
         left: size.saturating_sub(asked),
         log: subjects.end()?,
     });
-    streams.end(&report.summary)?;
+    let streamed = streams.end(&report.summary);
     outputs.write(|format, out| format.write(&report, out), |out| text::write(&report, out))?;
+    streamed?;
     Ok(ExitCode::from(report.exit_status()))
 }
 

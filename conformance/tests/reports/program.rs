@@ -79,6 +79,21 @@ fn every_outcome_is_written_as_it_comes() {
     assert!(stderr.contains("\npassed  "), "{stderr}");
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn one_report_that_can_not_be_written_spoils_no_other() {
+    let folder = tempfile::tempdir().unwrap();
+    for broken in ["json=/dev/full", "jsonl=/dev/full"] {
+        let run = ["codec", "--select", "*goal-position/*", "--report", broken];
+        let run = [&run[..], &["--report", "html=page.html"]].concat();
+        let (status, stdout, stderr) = actucheck(folder.path(), &run);
+        assert_eq!(status, 3);
+        assert!(stderr.starts_with("actucheck: cannot write /dev/full: "), "{stderr}");
+        assert!(stdout.contains("\npassed  "), "{stdout}");
+        assert!(fs::metadata(folder.path().join("page.html")).unwrap().len() > 1000);
+    }
+}
+
 #[test]
 fn a_report_on_standard_output_stands_there_alone() {
     let folder = folder();

@@ -106,22 +106,23 @@ impl Outputs {
         self.files.extract_if(.., |file| file.format == format).collect()
     }
 
-    /// Writes every report with `report`, and the text on the terminal, which may have colours,
+    /// Writes every report with `report`, whether or not another can be written, and the text on the terminal, which may have colours,
     /// with `text`.
     pub(crate) fn write(
         self,
         report: impl Fn(Format, &mut dyn Write) -> io::Result<()>,
         text: impl Fn(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), Failure> {
+        let mut result = Ok(());
         for Output { format, name, mut file } in self.files {
             let written = report(format, &mut file).and_then(|()| file.flush());
-            seen(&name, written)?;
+            result = result.and(seen(&name, written));
         }
         let written = match self.terminal {
             Terminal::Stdout => text(&mut anstream::stdout()),
             Terminal::Stderr => text(&mut anstream::stderr()),
         };
-        seen("the report", written)
+        result.and(seen("the report", written))
     }
 }
 

@@ -1,4 +1,4 @@
-//! Reports that are written while a run goes on.
+//! Reports that are written during a run.
 
 use std::io::{self, Write};
 
@@ -10,14 +10,14 @@ use actucheck::verdict::Outcome;
 use super::Failure;
 use super::outputs::{Output, Outputs, seen};
 
-/// The `jsonl` reports of a run. One that can't be written on does not end the run.
+/// The `jsonl` reports of a run. An error in writing one does not end the run.
 pub(crate) struct Streams(Vec<Open>);
 
-/// A report's name, and where it is written to or why it can't be.
+/// The name of a report, and its stream or the error that ended it.
 type Open = (String, io::Result<Stream<Box<dyn Write + Send>>>);
 
 impl Streams {
-    /// Begins those that the user wants.
+    /// Writes the headers.
     pub(crate) fn begin(outputs: &mut Outputs, header: &Header) -> Self {
         let begin = |Output { name, file, .. }| (name, Stream::begin(file, header.clone()));
         Self(outputs.take(Format::Jsonl).into_iter().map(begin).collect())
@@ -34,7 +34,7 @@ impl Streams {
         }
     }
 
-    /// Writes the last lines.
+    /// Writes the summaries.
     pub(crate) fn end(self, summary: &Summary) -> Result<(), Failure> {
         for (name, stream) in self.0 {
             seen(&name, stream.and_then(|stream| stream.end(summary.clone())))?;
