@@ -37,6 +37,7 @@ fn ids_are_known_before_a_check_is_built() {
         let plan = suite::plan(&spec, &options);
         let built: Vec<_> = plan.checks().map(|check| check.id).collect();
         assert!(plan.ids().eq(built.iter().cloned()));
+        assert_eq!(plan.size(), built.len());
         let apart: BTreeSet<_> = built.iter().collect();
         assert_eq!(apart.len(), built.len(), "an id is there twice");
     }

@@ -87,7 +87,7 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
         None => Expectations::default(),
     };
     selection.restrict(&mut plan)?;
-    let size = plan.ids().count();
+    let size = plan.size();
 
     let template = "{bar:30} {pos}/{len} checks  {per_sec}  {eta} left";
     let progress = shared::progress(Some(size as u64), template);
@@ -103,8 +103,12 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     let mut streams = Streams::begin(&mut outputs, &run.header());
     let mut collector = Collector::new(&run);
     let mut limit = Limit::new(options.max_fail);
+    let mut handed_on = 0_u64;
     let asked = run::run(&mut subjects.all, &plan, &interrupted, &mut |mut outcome| {
-        progress.inc(1);
+        handed_on += 1;
+        if handed_on.is_multiple_of(64) {
+            progress.inc(64);
+        }
         expectations.apply(&mut outcome);
         streams.check(&run, &outcome);
         let goes_on = limit.after(&outcome);

@@ -147,10 +147,11 @@ fn unknown() -> Citation {
 
 /// Bytes as hex digits for an id; `empty` for no bytes.
 fn hex(bytes: &[u8]) -> String {
-    match bytes {
-        [] => "empty".to_owned(),
-        bytes => bytes.iter().map(|byte| format!("{byte:02x}")).collect::<Vec<_>>().concat(),
+    if bytes.is_empty() {
+        return "empty".to_owned();
     }
+    let digit = |value: u8| char::from_digit(value.into(), 16).unwrap_or_default();
+    bytes.iter().flat_map(|byte| [digit(byte >> 4), digit(byte & 15)]).collect()
 }
 
 /// The requirement on an instruction's parameters: `dynamixel2.sync-read.parameters`.

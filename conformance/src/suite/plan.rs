@@ -41,7 +41,8 @@ pub(crate) struct Group<'a> {
     build: Build<'a>,
 }
 
-type Build<'a> = Box<dyn FnOnce() -> Vec<Check> + Send + 'a>;
+/// Builds the checks of a group, given its stem.
+type Build<'a> = Box<dyn FnOnce(&str) -> Vec<Check> + Send + 'a>;
 
 /// What follows the stem in the id of each check of a group.
 enum Names {
@@ -81,7 +82,7 @@ impl<'a> Plan<'a> {
         self.families.push(Family::new("", move || {
             let names = checks.iter().map(|check| check.id.clone()).collect();
             let checks = Arc::clone(&checks);
-            let build = Box::new(move || checks.to_vec());
+            let build = Box::new(move |_: &str| checks.to_vec());
             std::iter::once(Group { stem: String::new(), names: Names::Own(names), build })
         }));
     }
@@ -170,7 +171,7 @@ impl<'a> Plan<'a> {
 
     /// The selected checks of a group.
     pub(crate) fn build(&self, group: Group<'_>) -> Vec<Check> {
-        let mut checks = (group.build)();
+        let mut checks = (group.build)(&group.stem);
         if self.is_whole() {
             return checks;
         }
@@ -199,6 +200,16 @@ impl<'a> Plan<'a> {
         Box::new(ids.filter(|id| self.has(id)))
     }
 
+    /// How many checks there are.
+    #[must_use]
+    pub fn size(&self) -> usize {
+        if self.is_whole() {
+            self.families.iter().flat_map(Family::named).map(|group| group.size()).sum()
+        } else {
+            self.ids().count()
+        }
+    }
+
     /// The check with this id, even if the plan is restricted.
     #[must_use]
     pub fn find(&self, id: &str) -> Option<Check> {
@@ -207,7 +218,7 @@ impl<'a> Plan<'a> {
         let (family, place) =
             families.find_map(|family| Some((family, family.named().position(|it| has(&it))?)))?;
         let group = (family.groups)().nth(place)?;
-        (group.build)().into_iter().find(|check| check.id == id)
+        (group.build)(&group.stem).into_iter().find(|check| check.id == id)
     }
 }
 
@@ -258,7 +269,7 @@ pub(crate) fn by_stem<'a>(checks: Vec<Check>) -> impl Iterator<Item = Group<'a>>
         }
         let name = |check: &Check| check.id.strip_prefix(&stem).unwrap_or_default().to_owned();
         let names = Names::Own(group.iter().map(name).collect());
-        Some(Group { stem, names, build: Box::new(move || group) })
+        Some(Group { stem, names, build: Box::new(move |_| group) })
     })
 }
 
@@ -267,7 +278,7 @@ impl<'a> Group<'a> {
     pub(crate) fn new(
         stem: String,
         names: &'static [&'static str],
-        build: impl FnOnce() -> Vec<Check> + Send + 'a,
+        build: impl FnOnce(&str) -> Vec<Check> + Send + 'a,
     ) -> Self {
         Self { stem, names: Names::Fixed(names), build: Box::new(build) }
     }

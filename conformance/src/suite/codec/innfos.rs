@@ -81,9 +81,7 @@ where
         let prefix = prefix.clone();
         packets().map(move |(name, Sent { address, command, data })| {
             let id = format!("{prefix}{name}");
-            Group::new(id.clone(), &NAMES, move || {
-                both_ways(&author, &id, kind, address, command, &data)
-            })
+            Group::new(id, &NAMES, move |id| both_ways(&author, id, kind, address, command, &data))
         })
     })
 }

@@ -68,8 +68,7 @@ fn alone(author: Author<'_>, longest: u32) -> Family<'_> {
     const PREFIX: &str = "dynamixel2.stuffing.body.";
     let group = move |body: Vec<u8>| {
         let id = format!("{PREFIX}{}", hex(&body));
-        let stem = id.clone();
-        Group::new(stem, &["/stuff", "/unstuff"], move || stuffing(&author, &id, &body).into())
+        Group::new(id, &["/stuff", "/unstuff"], move |id| stuffing(&author, id, &body).into())
     };
     Family::new(PREFIX, move || words(longest).map(group))
 }
@@ -162,9 +161,8 @@ fn inside(author: Author<'_>, place: Place, longest: u32) -> Family<'_> {
         words(longest).filter(move |word| !(word.is_empty() && place.is_to_all())).map(
             move |word| {
                 let id = format!("{prefix}{}", hex(&word));
-                let stem = id.clone();
-                Group::new(stem, &["/encode", "/decode", "/stream"], move || {
-                    found_in(&author, &id, &place.packet(&word))
+                Group::new(id, &["/encode", "/decode", "/stream"], move |id| {
+                    found_in(&author, id, &place.packet(&word))
                 })
             },
         )
@@ -191,7 +189,7 @@ fn instructions(author: Author<'_>) -> impl Iterator<Item = Group<'_>> {
     let codes = (0..=u8::MAX).filter(|code| *code != STATUS);
     codes.map(move |code| {
         let id = format!("dynamixel2.instruction.{code:02x}");
-        Group::new(id.clone(), &NAMES, move || instruction(&author, &id, code))
+        Group::new(id, &NAMES, move |id| instruction(&author, id, code))
     })
 }
 
@@ -222,9 +220,9 @@ fn without_call(mut check: Check) -> Check {
 fn error_bytes(author: Author<'_>) -> impl Iterator<Item = Group<'_>> {
     (0..=u8::MAX).map(move |error| {
         let id = format!("dynamixel2.error.{error:02x}");
-        Group::new(id.clone(), &BOTH_WAYS, move || {
+        Group::new(id, &BOTH_WAYS, move |id| {
             let packet = Packet::Status { id: 1, error, params: vec![0x2A].into() };
-            author.both_ways(&id, "dynamixel2.status-packet.error.fields", &packet)
+            author.both_ways(id, "dynamixel2.status-packet.error.fields", &packet)
         })
     })
 }
@@ -232,16 +230,16 @@ fn error_bytes(author: Author<'_>) -> impl Iterator<Item = Group<'_>> {
 fn ids(author: Author<'_>) -> impl Iterator<Item = Group<'_>> {
     let pings = (0..=252).chain([BROADCAST]).map(move |id| {
         let stem = format!("dynamixel2.id.{id}.ping");
-        Group::new(stem.clone(), &BOTH_WAYS, move || {
+        Group::new(stem, &BOTH_WAYS, move |stem| {
             let ping = Packet::Instruction { id, instruction: 0x01, params: Vec::new().into() };
-            author.both_ways(&stem, "dynamixel2.packet.id.range", &ping)
+            author.both_ways(stem, "dynamixel2.packet.id.range", &ping)
         })
     });
     let statuses = (0..=252).map(move |id| {
         let stem = format!("dynamixel2.id.{id}.status");
-        Group::new(stem.clone(), &BOTH_WAYS, move || {
+        Group::new(stem, &BOTH_WAYS, move |stem| {
             let status = Packet::Status { id, error: 0, params: vec![0x2A].into() };
-            author.both_ways(&stem, "dynamixel2.status-packet.layout", &status)
+            author.both_ways(stem, "dynamixel2.status-packet.layout", &status)
         })
     });
     pings.chain(statuses)
@@ -269,7 +267,7 @@ fn lengths(author: Author<'_>, around: Vec<usize>) -> impl Iterator<Item = Group
     ];
     around.into_iter().map(move |length| {
         let id = format!("dynamixel2.length.{length}");
-        Group::new(id.clone(), &NAMES, move || of_length(&author, &id, length))
+        Group::new(id, &NAMES, move |id| of_length(&author, id, length))
     })
 }
 

@@ -86,10 +86,12 @@ pub(super) fn family(author: Author<'_>, seed: u64, cases: u32) -> Family<'_> {
         (0..cases).filter_map(move |number| {
             // A strategy without filters always yields a value.
             let case = strategy.new_tree(&mut runner).ok()?.current();
-            Some(Group::new(id(number), &NAMES, move || of(&author, &id(number), &case)))
+            Some(Group::new(id(number), &NAMES, move |id| of(&author, id, &case)))
         })
     })
-    .with_names(move || (0..cases).map(move |number| Group::new(id(number), &NAMES, Vec::new)))
+    .with_names(move || {
+        (0..cases).map(move |number| Group::new(id(number), &NAMES, |_| Vec::new()))
+    })
 }
 
 /// The generator of values; the same seed yields the same values.
