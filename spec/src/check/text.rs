@@ -1,5 +1,5 @@
-//! The numbers that a requirement's text names are those of the data: what a register `accepts`,
-//! the codes of instructions, and the commands of INNFOS.
+//! The numbers that a requirement's text names are those of the data: what a register `accepts` or
+//! is, its bits, the codes of instructions, and the commands of INNFOS.
 
 use crate::model::{Bound, Citation, Device, Range, Requirement};
 use crate::{Diagnostic, Spec};
@@ -10,7 +10,10 @@ pub(super) fn check(spec: &Spec) -> Vec<Diagnostic> {
         for (index, row) in file.content.requirements.iter().enumerate() {
             let about = |device: &&Device| cites(&device.source, row);
             let devices = spec.devices.iter().map(|file| &file.content).filter(about);
-            let messages = devices.filter_map(|device| accepts(device, row));
+            let messages = devices.flat_map(|device| {
+                let rules = [accepts, is, bit];
+                rules.map(|rule| rule(device, row)).into_iter().flatten()
+            });
             let messages = messages.chain(codes(spec, row)).chain(commands(spec, row));
             let node = format!("requirements[{index}].text");
             defects.extend(
@@ -44,6 +47,25 @@ fn accepts(device: &Device, row: &Requirement) -> Option<String> {
     }
     let held = register.range.as_ref().map_or_else(|| "any value".to_owned(), Range::to_string);
     Some(format!("{} is {held} in {}", register.name, device.device))
+}
+
+/// `Model Number is 5210.`: of a register with an initial value.
+fn is(device: &Device, row: &Requirement) -> Option<String> {
+    let (name, number) = row.text.strip_suffix('.')?.split_once(" is ")?;
+    let number: i64 = number.replace(',', "").parse().ok()?;
+    let initial = device.register(name)?.initial.filter(|initial| *initial != number)?;
+    Some(format!("{name} is {initial} in {}", device.device))
+}
+
+/// `Bit 2 of Hardware Error Status`: a bit that has a name.
+fn bit(device: &Device, row: &Requirement) -> Option<String> {
+    let (place, behind) = row.text.strip_prefix("Bit ")?.split_once(" of ")?;
+    let place: u8 = place.parse().ok()?;
+    let named = device.registers.iter().filter(|register| behind.starts_with(&register.name));
+    let register = named.max_by_key(|register| register.name.len())?;
+    let mask = 1_u64.checked_shl(place.into()).unwrap_or(0);
+    let has = register.bits.iter().any(|bits| bits.mask() & mask != 0);
+    (!has).then(|| format!("bit {place} of {} has no name in {}", register.name, device.device))
 }
 
 /// The numbers that a text begins with, `0 to 1,000` or `4 and 17`.
