@@ -1,4 +1,4 @@
-//! A picture of the CRC's throughput: both axes logarithmic, a line a contender.
+//! Draws the CRC's throughput: both axes are logarithmic, with one line per contender.
 
 use std::fmt::Write as _;
 
@@ -12,7 +12,7 @@ const BOTTOM: f64 = 430.0;
 const SIZES: (f64, f64) = (8.0, 1_048_576.0);
 const SPEEDS: (f64, f64) = (0.2, 128.0);
 
-/// Colours that are seen on white and on black. Ours are strong, the peers' recede.
+/// Colours for light and dark backgrounds: strong ones for the codec, pale ones for the peers.
 const STYLE: &str = "
   text { font: 13px system-ui, sans-serif; fill: #57606a }
   .title { font-size: 16px; font-weight: 600; fill: #1f2328 }
@@ -32,7 +32,7 @@ const STYLE: &str = "
   }
 ";
 
-/// The picture, of the group `umts`.
+/// The picture of the group `umts`.
 #[must_use]
 pub fn svg(all: &[Measured]) -> String {
     let mut svg = format!(
@@ -54,7 +54,7 @@ pub fn svg(all: &[Measured]) -> String {
             PORTABLE => "portable",
             _ => "peer",
         };
-        // A String takes whatever is written to it.
+        // Writing to a string can't fail.
         let _ = writeln!(svg, "<polyline class=\"{class}\" points=\"{}\"/>", points.join(" "));
         let (end, edge) = (line.end(), RIGHT + 14.0);
         let _ = writeln!(svg, "<path class=\"join\" d=\"M{RIGHT},{end:.1} L{edge},{label:.1}\"/>");
@@ -91,7 +91,7 @@ struct Line<'a> {
 }
 
 impl Line<'_> {
-    /// The height at which it ends.
+    /// The height at which the line ends.
     fn end(&self) -> f64 {
         self.points.last().map_or(BOTTOM, |point| point.1)
     }
@@ -111,12 +111,12 @@ fn lines(all: &[Measured]) -> Vec<Line<'_>> {
     lines
 }
 
-/// Where on the way from `from` to `to` a value is, within its range.
+/// The position of a value between `from` and `to`, by its place in its range.
 fn along(value: f64, (least, most): (f64, f64), from: f64, to: f64) -> f64 {
     from + (to - from) * (value / least).ln() / (most / least).ln()
 }
 
-/// Moves heights, which are in order, apart, and keeps their middle where it is.
+/// Moves heights, which are in order, apart, and keeps their middle.
 fn spread(heights: &mut [f64]) {
     const GAP: f64 = 17.0;
     for _ in 0..200 {

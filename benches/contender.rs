@@ -1,4 +1,4 @@
-//! What is measured side by side: a name and a function over a batch.
+//! The implementations that are measured side by side: each has a name and a function over a batch.
 
 use actucheck_codec::crc::{self, Engine};
 
@@ -6,27 +6,27 @@ use actucheck_codec::crc::{self, Engine};
 pub const OURS: &str = "actucheck";
 /// The name of the codec without instructions that only some processors have.
 pub const PORTABLE: &str = "actucheck, portable";
-/// The name of what reads the bytes and does nothing with them: the limit.
+/// The name of the limit, which only reads the bytes.
 pub const READ: &str = "read only";
 
-/// `dynamixel2`, and the system call that can't be had without it.
+/// `dynamixel2`, including a system call that it always makes.
 pub const DYNAMIXEL2_AND_CALL: &str = "dynamixel2 + system call";
 /// That system call alone.
 pub const SYSTEM_CALL: &str = "system call";
 
-/// The sum of the CRCs of a batch; it keeps the compiler from leaving any out.
+/// The sum of the CRCs of a batch, so that the compiler can't omit any.
 pub type Sum = dyn Fn(&[&[u8]]) -> u16;
 
 /// One way to compute the CRC of each message of a batch.
 pub struct Contender {
-    /// Whose way it is.
+    /// The contender's name.
     pub name: &'static str,
-    /// Computes them all.
+    /// Computes all CRCs.
     pub run: Box<Sum>,
 }
 
 impl Contender {
-    /// `crc` over a batch, in a loop of its own, so that it can be inlined.
+    /// `crc` over a batch, in a separate loop, so that it can be inlined.
     pub fn new(name: &'static str, crc: impl Fn(&[u8]) -> u16 + 'static) -> Self {
         let sum = move |messages: &[&[u8]]| {
             messages.iter().fold(0, |sum: u16, message| sum.wrapping_add(crc(message)))
@@ -55,7 +55,7 @@ pub fn modbus() -> Vec<Contender> {
     ]
 }
 
-/// Reads all the bytes, as fast as this processor does.
+/// Reads all bytes as fast as this processor can.
 fn read(bytes: &[u8]) -> u16 {
     #[cfg(target_arch = "x86_64")]
     if std::is_x86_feature_detected!("avx2") {
@@ -73,7 +73,7 @@ fn read(bytes: &[u8]) -> u16 {
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "takes the vectors of the function that it is in")]
 fn sum(bytes: &[u8]) -> u16 {
-    // Eight vectors of 32 bytes: with fewer, each would wait for the one before.
+    // Eight vectors of 32 bytes: with fewer, each would wait for the previous one.
     let (blocks, rest) = bytes.as_chunks::<256>();
     let mut lanes = [0_u64; 32];
     for block in blocks {

@@ -1,4 +1,5 @@
-//! The time that this thread had a processor, for criterion: other programs' turns don't count.
+//! The processor time of this thread, for criterion. Time in which other programs run does not
+//! count.
 
 use std::time::Duration;
 
@@ -24,7 +25,7 @@ fn now() -> Duration {
     Duration::try_from(time).unwrap_or_default()
 }
 
-/// Elsewhere, all of the time.
+/// On other systems, the elapsed time.
 #[cfg(not(unix))]
 fn now() -> Duration {
     static START: std::sync::LazyLock<std::time::Instant> =

@@ -14,7 +14,8 @@ use criterion::{
 const SIZES: [usize; 14] =
     [8, 10, 14, 20, 32, 64, 128, 256, 512, 1024, 4096, 16 << 10, 64 << 10, 1 << 20];
 
-/// All contenders over one size, then the next, so that what is compared is measured together.
+/// Measures all contenders for one size, then for the next, so that compared figures are measured
+/// close together.
 fn measure(criterion: &mut Criterion<CpuTime>, name: &str, contenders: &[Contender]) {
     let noise = noise();
     let mut group = criterion.benchmark_group(name);

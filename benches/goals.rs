@@ -1,4 +1,4 @@
-//! How much faster than the best peer the codec is to be.
+//! Goals: how much faster the codec must be than the best peer.
 
 /// The goal of one case of one benchmark.
 #[must_use]
@@ -29,8 +29,8 @@ pub fn goal(group: &str, case: &str) -> Option<f64> {
     }
 }
 
-/// At 64 KiB: the speed as a part of what only reading the bytes reaches.
+/// At 64 KiB: the speed as a fraction of the speed of only reading the bytes.
 pub const OF_READING: f64 = 0.7;
 
-/// The trap: how much longer twice the input may take.
+/// The trap: how much longer an input of twice the size may take.
 pub const GROWTH: f64 = 2.3;

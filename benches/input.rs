@@ -1,22 +1,22 @@
-//! Messages, bodies and packets to measure with, all from seeds.
+//! Messages, bodies and packets for the measurements, all generated from seeds.
 
 use actucheck_codec::EncodeError;
 use actucheck_codec::dynamixel2::status::{self, StatusError};
 use actucheck_codec::dynamixel2::{Instruction, frame, stuffing};
 
-/// How many messages, bodies or packets one measurement goes over. So many random lengths are
-/// more than a branch predictor learns.
+/// The number of messages, bodies or packets per measurement. A branch predictor can't learn this
+/// many random lengths.
 pub const BATCH: usize = 1 << 16;
 
-/// Up to this size a message's CRC is measured by the batch.
+/// Up to this size, CRCs are measured in batches.
 pub const LARGEST_IN_BATCH: usize = 1024;
 
-/// Numbers that look random and are the same in every run: `SplitMix64`.
+/// Pseudo-random numbers, the same in every run: `SplitMix64`.
 #[derive(Clone, Debug)]
 pub struct Random(u64);
 
 impl Random {
-    /// The sequence that belongs to `seed`.
+    /// The sequence of `seed`.
     #[must_use]
     pub const fn new(seed: u64) -> Self {
         Self(seed)
@@ -30,27 +30,27 @@ impl Random {
         mixed ^ mixed >> 31
     }
 
-    /// A number from 0 up to, but not, `limit`; 0 if that is 0.
+    /// A number from 0 to below `limit`; 0 if `limit` is 0.
     #[expect(clippy::cast_possible_truncation, reason = "it is below a usize")]
     pub const fn below(&mut self, limit: usize) -> usize {
         ((self.bits() as u128 * limit as u128) >> 64) as usize
     }
 
-    /// So many bytes.
+    /// This many bytes.
     pub fn bytes(&mut self, length: usize) -> Vec<u8> {
         let words = std::iter::repeat_with(|| self.bits().to_le_bytes());
         words.take(length.div_ceil(8)).flatten().take(length).collect()
     }
 }
 
-/// Something to cut [`messages`] from.
+/// Bytes from which [`messages`] are cut.
 #[must_use]
 pub fn noise() -> Vec<u8> {
     Random::new(1).bytes((1 << 20) + 8192)
 }
 
-/// Messages in `noise`: a batch whose lengths vary by a quarter of `size` to either side, or, if
-/// `size` is above [`LARGEST_IN_BATCH`], one of just that size.
+/// Messages in `noise`: a batch whose lengths vary around `size` by up to a quarter. If `size` is
+/// above [`LARGEST_IN_BATCH`], a single message of exactly that size.
 #[must_use]
 pub fn messages(noise: &[u8], size: usize) -> Vec<&[u8]> {
     let mut random = Random::new(2);
@@ -66,18 +66,18 @@ pub fn messages(noise: &[u8], size: usize) -> Vec<&[u8]> {
     std::iter::repeat_with(length).take(BATCH).map(&mut message).collect()
 }
 
-/// What a body holds.
+/// The content of a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Content {
     /// Nothing that needs stuffing.
     Plain,
-    /// FF FF FD once every 16 bytes on average, at any place, and FF FF as often.
+    /// On average one FF FF FD per 16 bytes, at any place, and as many FF FF.
     Rich,
 }
 
 impl Content {
-    /// A body of `length` bytes. It has no FF FF FF: behind that, not every peer knows a pattern,
-    /// and what encodes something else can't be compared.
+    /// A body of `length` bytes without FF FF FF: some peers miss a pattern after that, and
+    /// different output can't be compared.
     pub fn body(self, random: &mut Random, length: usize) -> Vec<u8> {
         loop {
             let mut body = random.bytes(length);
@@ -95,7 +95,7 @@ impl Content {
         }
     }
 
-    /// As many bodies as a batch has. Their lengths vary as those of [`messages`] do.
+    /// A batch of bodies. Their lengths vary like those of [`messages`].
     #[must_use]
     pub fn bodies(self, size: usize) -> Vec<Vec<u8>> {
         let mut random = Random::new(4);
@@ -126,18 +126,18 @@ fn put(body: &mut [u8], random: &mut Random, bytes: &[u8]) {
     }
 }
 
-/// What one Write says.
+/// The content of a Write.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Write {
     /// The device.
     pub id: u8,
     /// The register; below 256, as `rustypot` knows no others.
     pub address: u8,
-    /// What to write there.
+    /// The data.
     pub data: Vec<u8>,
 }
 
-/// The Writes that encoding is measured with: the case's name, and what to write.
+/// The Writes for the measurements of encoding, with the names of the cases.
 #[must_use]
 pub fn writes() -> [(&'static str, Vec<Write>); 4] {
     let case = |content: Content, length| {

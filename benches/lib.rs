@@ -1,8 +1,8 @@
-//! What the benchmarks share: their inputs, the peers, and what is made of the measurements.
+//! The common parts of the benchmarks: inputs, peers, and the evaluation of the measurements.
 //!
-//! Inputs are generated, from seeds, and so are the same in every run. `cargo bench -p
-//! actucheck-benches --features peers` measures; the program `ratios` makes `RESULTS.md` and
-//! `crc.svg` of it.
+//! Inputs are generated from seeds, so they are the same in every run. `cargo bench -p
+//! actucheck-benches --features peers` measures; the program `ratios` turns the measurements into
+//! `RESULTS.md` and `crc.svg`.
 
 pub mod chart;
 pub mod contender;

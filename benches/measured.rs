@@ -1,4 +1,4 @@
-//! What criterion keeps of a run: `target/criterion/**/new/{benchmark,estimates}.json`.
+//! The files that criterion writes for a run: `target/criterion/**/new/{benchmark,estimates}.json`.
 
 use std::fs;
 use std::io;
@@ -11,32 +11,32 @@ use crate::contender::{DYNAMIXEL2_AND_CALL, SYSTEM_CALL};
 /// One measurement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
-    /// The benchmark, as `umts`.
+    /// The benchmark, such as `umts`.
     pub group: String,
-    /// Who, as `crc-fast`.
+    /// The contender, such as `crc-fast`.
     pub who: String,
-    /// The case, as `64`.
+    /// The case, such as `64`.
     pub case: String,
     /// The median time of one round, in nanoseconds.
     pub time: f64,
-    /// How far the median may be off: half its confidence interval, as a part of itself.
+    /// The uncertainty of the median: half its confidence interval, as a fraction of the median.
     pub error: f64,
-    /// How many bytes, or packets, one round goes over.
+    /// The number of bytes, or packets, in one round.
     pub units: f64,
 }
 
 impl Measured {
-    /// Nanoseconds a byte, or a packet.
+    /// Nanoseconds per byte, or per packet.
     #[must_use]
     pub fn per_unit(&self) -> f64 {
         self.time / self.units
     }
 }
 
-/// All measurements below `folder`, in the order of their names.
+/// All measurements in `folder`, sorted by name.
 ///
 /// # Errors
-/// If a file can't be read, or is not what criterion writes.
+/// If a file can't be read or was not written by criterion.
 pub fn read(folder: &Path) -> io::Result<Vec<Measured>> {
     let mut all = Vec::new();
     visit(folder, &mut all)?;
@@ -86,7 +86,7 @@ fn measured(benchmark: &Value, estimates: &Value) -> Option<Measured> {
     })
 }
 
-/// Turns `dynamixel2` with its system call into `dynamixel2`.
+/// Subtracts the time of the system call from that of `dynamixel2`.
 fn subtract_system_call(all: &mut Vec<Measured>) {
     let (calls, mut rest): (Vec<_>, Vec<_>) =
         all.drain(..).partition(|measured| measured.who == SYSTEM_CALL);

@@ -42,8 +42,8 @@ fn encode(criterion: &mut Criterion<CpuTime>) {
     group.finish();
 }
 
-/// Writes, which are what was encoded, and status packets with the same data, which are all that
-/// a peer decodes.
+/// Writes, as in the measurements of encoding, and status packets with the same data, as the peers
+/// decode no others.
 fn decode(criterion: &mut Criterion<CpuTime>) {
     let mut group = criterion.benchmark_group("decode");
     group.sampling_mode(SamplingMode::Flat);

@@ -51,7 +51,7 @@ fn fast(algorithm: CrcAlgorithm, message: &[u8]) -> u16 {
     low(crc_fast::checksum(algorithm, message))
 }
 
-/// The 16 bits that a CRC of 16 bits has.
+/// The lower 16 bits, which hold a 16-bit CRC.
 #[expect(clippy::cast_possible_truncation, reason = "the others are zero")]
 #[inline]
 const fn low(crc: u64) -> u16 {

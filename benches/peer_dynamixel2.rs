@@ -1,9 +1,9 @@
-//! `dynamixel2`, which talks to terminals and nothing else.
+//! `dynamixel2`, which works with terminals only.
 //!
-//! Its packets have no public functions. So encoding is measured with a terminal whose other end
-//! is closed: the packet is complete when the system call before sending fails, and what that
-//! call takes is measured by itself and subtracted. Streams are read from a file that takes the
-//! terminal's place after the crate has looked at it.
+//! The crate has no public functions for packets. So encoding is measured with a terminal whose
+//! other end is closed: the packet is complete when the system call before sending fails. The time
+//! of that call is measured separately and subtracted. Streams are read from a file, which replaces
+//! the terminal after the crate has inspected it.
 
 use std::fs::File;
 use std::io::{self, Seek, Write as _};
@@ -15,7 +15,7 @@ use serial2::SerialPort;
 
 use crate::input::Write;
 
-/// Twice the longest packet of any stream. Every packet moves what is behind it in the buffer.
+/// Twice the longest packet of any stream. For every packet the crate moves the bytes after it.
 const BUFFER: usize = 2048;
 
 type Buffered = Bus<Vec<u8>, Vec<u8>>;
@@ -31,28 +31,28 @@ pub struct Encoder(Buffered);
 
 impl Encoder {
     /// # Errors
-    /// If there is no terminal to be had.
+    /// If no terminal is available.
     pub fn new() -> io::Result<Self> {
         Ok(Self(bus()?.0))
     }
 
-    /// The packet, which nobody gets; always false.
+    /// Encodes a packet, which is never sent; always returns false.
     #[inline]
     pub fn encode(&mut self, write: &Write) -> bool {
         send(&mut self.0, write).is_ok()
     }
 
-    /// The system call at which [`Encoder::encode`] fails; always false.
+    /// Makes the system call at which [`Encoder::encode`] fails; always returns false.
     #[must_use]
     #[inline]
     pub fn system_call(&self) -> bool {
         self.0.serial_port().discard_input_buffer().is_ok()
     }
 
-    /// The packet, as it comes out of a terminal.
+    /// The packet, as a terminal receives it.
     ///
     /// # Errors
-    /// If there is no terminal to be had, or it breaks.
+    /// If no terminal is available, or it fails.
     pub fn packet(write: &Write) -> io::Result<Vec<u8>> {
         let (mut bus, other) = bus()?;
         send(&mut bus, write).map_err(io::Error::other)?;
@@ -80,7 +80,7 @@ fn send(
 pub struct Decoder {
     bus: Buffered,
     file: File,
-    /// How often to ask for a packet: until the stream ends, or the crate goes no further.
+    /// How often to ask for a packet, until the stream ends or the crate makes no progress.
     calls: usize,
 }
 
@@ -88,7 +88,7 @@ impl Decoder {
     /// A decoder of `stream`.
     ///
     /// # Errors
-    /// If there is no terminal or no file to be had.
+    /// If no terminal or file is available.
     pub fn new(stream: &[u8]) -> io::Result<Self> {
         let path = std::env::temp_dir().join(format!("actucheck-stream-{}", std::process::id()));
         let mut file =
@@ -109,7 +109,7 @@ impl Decoder {
         Ok(decoder)
     }
 
-    /// How many status packets it finds.
+    /// The number of status packets that it finds.
     ///
     /// # Errors
     /// If the file can't be read again.
@@ -118,7 +118,7 @@ impl Decoder {
     }
 
     fn run(&mut self, patience: Duration) -> io::Result<Run> {
-        // This fails, as the file is no terminal, but has emptied the buffer then.
+        // This fails, as the file is not a terminal, but only after it has emptied the buffer.
         let _ = self.bus.write_instruction(0, 1, 0, |_| ());
         self.file.rewind()?;
         let deadline = Instant::now() + patience;
@@ -140,7 +140,7 @@ struct Run {
     packets: usize,
 }
 
-/// A packet counts if its parameters can be used.
+/// A packet counts if its parameters are usable.
 fn uses(packet: &StatusPacket) -> bool {
     std::hint::black_box(packet.parameters()).len() < BUFFER
 }

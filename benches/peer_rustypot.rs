@@ -1,8 +1,9 @@
-//! `rustypot`, which talks to any port: here to one in memory.
+//! `rustypot`, which works with any port; here with one in memory.
 //!
-//! Its packets have no public functions. So encoding is measured by Sync Writes to one device,
-//! which wait for no answer and are three bytes longer than Writes; decoding by Sync Reads, one
-//! request to 252 devices; and streams by broadcast Pings, which take whatever comes.
+//! The crate has no public functions for packets. So encoding is measured with Sync Writes to one
+//! device, which wait for no answer and are three bytes longer than Writes. Decoding is measured
+//! with Sync Reads of 252 devices, and streams with broadcast Pings, which accept all packets that
+//! arrive.
 
 use std::io::{self, Read, Write};
 use std::time::Duration;
@@ -10,7 +11,7 @@ use std::time::Duration;
 use rustypot::DynamixelProtocolHandler;
 use serialport::{ClearBuffer, DataBits, FlowControl, Parity, SerialPort, StopBits};
 
-/// How many devices one Sync Read may ask.
+/// The maximum number of devices of one Sync Read.
 pub const DEVICES: u8 = 252;
 
 /// The crate and its port.
@@ -26,7 +27,7 @@ impl Default for Rustypot {
 }
 
 impl Rustypot {
-    /// A Sync Write to one device; its packet.
+    /// Sends a Sync Write to one device. Returns the packet.
     ///
     /// # Errors
     /// The crate's own, as text.
@@ -36,7 +37,7 @@ impl Rustypot {
         Ok(&self.port.written)
     }
 
-    /// The data in the status packets of the first so many devices.
+    /// The data in the status packets of the first `count` devices.
     ///
     /// # Errors
     /// The crate's own, as text.
@@ -47,7 +48,7 @@ impl Rustypot {
         read.map_err(|error| error.to_string())
     }
 
-    /// How many status packets it finds in a stream.
+    /// The number of status packets that it finds in a stream.
     ///
     /// # Errors
     /// The crate's own, as text.
@@ -58,7 +59,7 @@ impl Rustypot {
     }
 }
 
-/// A port that reads from memory and keeps what was written last.
+/// A port that reads from memory and keeps the last write.
 #[derive(Default)]
 struct MemoryPort {
     incoming: io::Cursor<Vec<u8>>,
@@ -89,7 +90,7 @@ impl SerialPort for MemoryPort {
     }
 
     fn baud_rate(&self) -> serialport::Result<u32> {
-        // As slow as can be, so that a broadcast Ping waits for all that comes.
+        // As slow as possible, so that a broadcast Ping waits for all bytes.
         Ok(1)
     }
 
@@ -162,7 +163,7 @@ impl SerialPort for MemoryPort {
     }
 
     fn bytes_to_read(&self) -> serialport::Result<u32> {
-        // Nothing that would have to be thrown away before a request.
+        // No bytes to discard before a request.
         Ok(0)
     }
 

@@ -1,5 +1,5 @@
-//! What the benchmarks rest on: inputs that are what they claim, peers that do the same work, and
-//! a table that follows from the measurements.
+//! Tests of what the benchmarks rely on: right inputs, peers that do the same work, and a table
+//! that follows from the measurements.
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 

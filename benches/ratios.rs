@@ -1,8 +1,8 @@
-//! Makes `RESULTS.md` and `crc.svg` of what criterion measured.
+//! Makes `RESULTS.md` and `crc.svg` from criterion's measurements.
 //!
-//! `cargo run --release -p actucheck-benches [FOLDER]`, right after `cargo bench`. The folder is
-//! `target/criterion` if nothing else is said. Of `RESULTS.md` it replaces what stands between
-//! the two marks; the rest is written by hand.
+//! `cargo run --release -p actucheck-benches [FOLDER]`, right after `cargo bench`. The default
+//! folder is `target/criterion`. In `RESULTS.md` it replaces the text between the two marks; the
+//! rest is written by hand.
 
 use std::io;
 use std::path::{Path, PathBuf};

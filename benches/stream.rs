@@ -36,7 +36,7 @@ fn stream(criterion: &mut Criterion<CpuTime>) {
     group.finish();
 }
 
-/// Measures what finds so many packets, and makes sure that it does.
+/// Measures a parser, and asserts that it finds this many packets.
 fn measure(
     group: &mut BenchmarkGroup<CpuTime>,
     who: &str,
@@ -58,7 +58,7 @@ mod peers {
 
     use super::{BenchmarkGroup, CpuTime};
 
-    /// The peers, which need not find everything: what they find first is what they must find.
+    /// The peers, which need not find all packets: every round must find as many as the first.
     pub(super) fn measure(group: &mut BenchmarkGroup<CpuTime>, case: &str, stream: &[u8]) {
         if let Ok(mut decoder) = Decoder::new(stream) {
             let mut count = || decoder.count().unwrap_or(0);

@@ -16,7 +16,7 @@ use criterion::{
 const SIZES: [usize; 4] = [8, 32, 256, 4096];
 const CONTENTS: [(&str, Content); 2] = [("plain", Content::Plain), ("rich", Content::Rich)];
 
-/// The length of what `work` makes of each body, as criterion measures it.
+/// Measures `work` on each body, which returns a length.
 fn measure(
     criterion: &mut Criterion<CpuTime>,
     name: &str,

@@ -6,21 +6,22 @@ use crate::contender::{OURS, PORTABLE, READ};
 use crate::goals::{GROWTH, OF_READING, goal};
 use crate::measured::Measured;
 
-/// One case: ours, the best peer, and what was hoped for.
+/// One case: the codec, the best peer, and the goal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row<'a> {
     /// The codec's measurement.
     pub ours: &'a Measured,
-    /// The codec's without instructions that only some processors have, where that matters.
+    /// The codec's measurement without instructions that only some processors have, if they make a
+    /// difference.
     pub portable: Option<&'a Measured>,
-    /// The fastest peer's, if there is a peer.
+    /// The fastest peer's measurement, if there is a peer.
     pub peer: Option<&'a Measured>,
-    /// How many times as fast as the peer the codec is to be.
+    /// The goal: the factor by which the codec must be faster than the peer.
     pub goal: Option<f64>,
 }
 
 impl Row<'_> {
-    /// How many times as fast as the best peer the codec is.
+    /// The factor by which the codec is faster than the best peer.
     #[must_use]
     pub fn ratio(&self) -> Option<f64> {
         self.peer.map(|peer| peer.per_unit() / self.ours.per_unit())
@@ -33,7 +34,7 @@ impl Row<'_> {
     }
 }
 
-/// A row for each case that the codec was measured in.
+/// One row per case of the codec.
 #[must_use]
 pub fn rows(all: &[Measured]) -> Vec<Row<'_>> {
     let ours = all.iter().filter(|measured| measured.who == OURS);
@@ -52,7 +53,7 @@ pub fn rows(all: &[Measured]) -> Vec<Row<'_>> {
     rows.collect()
 }
 
-/// The whole of it.
+/// The whole table.
 #[must_use]
 pub fn markdown(all: &[Measured]) -> String {
     let rows = rows(all);
@@ -61,7 +62,7 @@ pub fn markdown(all: &[Measured]) -> String {
     groups.dedup();
     for group in groups {
         let rows: Vec<_> = rows.iter().filter(|row| row.ours.group == group).collect();
-        // A String takes whatever is written to it.
+        // Writing to a string can't fail.
         let _ = write!(text, "\n### {group}\n\n{}", table(&rows));
     }
     text + &limits(all)
@@ -108,7 +109,7 @@ fn bytes(measured: &Measured) -> Option<f64> {
     measured.case.parse().ok().filter(|_| !measured.group.contains("code"))
 }
 
-/// The part of the packets that a peer finds, if it is not all of them.
+/// The fraction of the packets that a peer finds, if not all.
 fn share(ours: &Measured, peer: &Measured) -> String {
     let share = peer.units / ours.units;
     if ours.group == "stream" && share < 1.0 {
@@ -118,7 +119,7 @@ fn share(ours: &Measured, peer: &Measured) -> String {
     }
 }
 
-/// What is not held against a peer.
+/// The goals that have no peer.
 fn limits(all: &[Measured]) -> String {
     let find = |group: &str, case: &str, who: &str| {
         let wanted = |measured: &&Measured| {

@@ -1,4 +1,5 @@
-//! Streams of status packets, from seeds, and what surrounds packets on a bad bus.
+//! Streams of status packets, generated from seeds, with the bytes that surround packets on a bad
+//! bus.
 
 use std::hint::black_box;
 
@@ -9,7 +10,7 @@ use actucheck_codec::dynamixel2::stream::{DEFAULT_MAX_PACKET, Event, Parser};
 
 use crate::input::{Content, Random};
 
-/// Bytes and the packets in them.
+/// A stream, and the number of packets in it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Traffic {
     /// The stream.
@@ -18,11 +19,11 @@ pub struct Traffic {
     pub packets: usize,
 }
 
-/// Makes the next piece of a stream, which ends with its one packet.
+/// Makes the next piece of a stream, which ends with the only packet in it.
 type Piece = fn(&mut Random, &mut Vec<u8>) -> Result<(), EncodeError>;
 
 impl Traffic {
-    /// So many bytes, or a few more.
+    /// This many bytes, or a few more.
     fn new(size: usize, piece: Piece) -> Result<Self, EncodeError> {
         let mut random = Random::new(6);
         let mut traffic = Self { bytes: Vec::with_capacity(size + 4096), packets: 0 };
@@ -33,10 +34,10 @@ impl Traffic {
         Ok(traffic)
     }
 
-    /// Packets of 14 to 30 bytes, one behind the other.
+    /// Packets of 14 to 30 bytes, one directly after the other.
     ///
     /// # Errors
-    /// None; a packet that can't be built would be one.
+    /// Never in practice; only if a packet could not be built.
     pub fn clean(size: usize) -> Result<Self, EncodeError> {
         Self::new(size, packet)
     }
@@ -53,8 +54,8 @@ impl Traffic {
         })
     }
 
-    /// As much noise as packets; a third of the noise has a false header, which claims up to the
-    /// longest packet.
+    /// As much noise as packets. A third of the noise has a false header, with a length of up to
+    /// the longest packet.
     ///
     /// # Errors
     /// As [`Traffic::clean`].
@@ -74,8 +75,8 @@ impl Traffic {
         })
     }
 
-    /// The trap: false headers that each claim the longest packet, and a packet behind every
-    /// sixteenth.
+    /// The trap: false headers that each have the length of the longest packet, and a packet after
+    /// every sixteenth.
     ///
     /// # Errors
     /// As [`Traffic::clean`].
@@ -89,8 +90,8 @@ impl Traffic {
         })
     }
 
-    /// The trap with status packets from the broadcast ID, which are not stuffed: nothing but
-    /// their CRC proves them false.
+    /// The trap with status packets from the broadcast ID, which are not stuffed: only their CRC
+    /// shows that they are false.
     ///
     /// # Errors
     /// As [`Traffic::clean`].
@@ -124,14 +125,14 @@ fn device(random: &mut Random) -> u8 {
     byte % 252
 }
 
-/// The first seven bytes of a packet of which so many follow.
+/// The first seven bytes of a packet with this many bytes after them.
 fn prefix(random: &mut Random, claim: usize) -> [u8; 7] {
     let [first, second, third, reserved] = HEADER;
     let [low, high, ..] = claim.to_le_bytes();
     [first, second, third, reserved, device(random), low, high]
 }
 
-/// How many packets the codec finds, their parameters ready to be used.
+/// The number of packets that the codec finds and whose parameters it copies.
 #[must_use]
 pub fn count(stream: &[u8]) -> usize {
     let mut parser = Parser::new();

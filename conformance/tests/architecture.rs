@@ -1,4 +1,4 @@
-//! The one way that data takes, as `ARCHITECTURE.md` draws it, held against the manifests.
+//! The direction of dependencies in `ARCHITECTURE.md`, compared with the manifests.
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
@@ -10,7 +10,7 @@ use serde_json::Value;
 /// A member's dependencies of one kind, by name.
 type Dependencies = BTreeMap<String, BTreeSet<String>>;
 
-/// What cargo says of each member.
+/// Cargo's metadata of each member.
 fn packages() -> Vec<Value> {
     let output = Command::new(env!("CARGO"))
         .args(["metadata", "--format-version", "1", "--no-deps", "--offline"])

@@ -1,5 +1,5 @@
-//! The golden checks pass on the built-in codec, and each kind of check fails on an
-//! implementation that is wrong in just that.
+//! The golden checks pass on the built-in codec, and each kind of check fails on a subject that is
+//! wrong in exactly that.
 
 #![allow(clippy::unwrap_used)] // in what the tests share
 
@@ -21,7 +21,7 @@ fn checks() -> Vec<Check> {
     suite::plan(&Spec::embedded().unwrap(), &options).checks().collect()
 }
 
-/// The built-in codec with its answers to one op bent.
+/// The built-in codec with wrong answers to one op.
 struct Bent<F> {
     codec: Builtin,
     bend: F,

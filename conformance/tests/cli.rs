@@ -1,4 +1,4 @@
-//! The program as a user meets it: what it prints and how it exits.
+//! The program as a user sees it: its output and exit status.
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
@@ -17,7 +17,7 @@ fn actucheck(arguments: &[&str]) -> (i32, String, String) {
 
 const WRITE: &str = "FF FF FD 00 01 09 00 03 34 02 D0 07 00 00 1E C9";
 
-/// Options of the command line are the program's: whoever uses the library needs no `clap`.
+/// The command line belongs to the program: the library must not need `clap`.
 #[test]
 fn the_library_does_not_name_clap() {
     let mut folders = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("src")];
@@ -44,7 +44,7 @@ fn the_main_job_passes_on_the_builtin_codec() {
     assert!(stdout.contains("\npassed  "), "{stdout}");
 }
 
-/// Half a million checks more are not asked unless somebody wants to, but each can be replayed.
+/// The half million checks of longer bodies are asked only on request, but each can be replayed.
 #[test]
 fn bodies_inside_packets_are_as_long_as_asked_for() {
     let id = "dynamixel2.stuffing.in-sync-write.fffffffdfd/encode";

@@ -1,4 +1,4 @@
-//! A plan is the same whole or in parts, and no subject gets far ahead of another.
+//! A plan yields the same checks as a whole and in parts, and no subject gets far ahead of another.
 
 #![allow(clippy::unwrap_used)] // tests may stop at a surprise
 
@@ -48,7 +48,7 @@ fn a_check_is_the_same_alone() {
     let spec = Spec::embedded().unwrap();
     for options in WIRES {
         let plan = suite::plan(&spec, &options);
-        // A prime, so that all kinds of checks have their turn.
+        // A prime, so that all kinds of checks occur.
         for check in plan.checks().step_by(53) {
             assert_eq!(plan.find(&check.id).as_ref(), Some(&check));
             let alone = restricted(&spec, &options, &check.id, &[]);
@@ -98,7 +98,7 @@ fn what_a_check_requires_stands_before_it() {
     }
 }
 
-/// The built-in codec, which does not answer before it may.
+/// The built-in codec, which answers only when it is allowed to.
 struct Waiting {
     codec: Builtin,
     asked: Arc<AtomicUsize>,
@@ -119,7 +119,7 @@ impl Subject for Waiting {
     }
 }
 
-/// Outcomes are held back until those before them are there.
+/// Outcomes are held back until the earlier ones have arrived.
 #[test]
 fn nobody_gets_far_ahead_and_the_order_stays() {
     const MOST: usize = 8000;
@@ -143,7 +143,7 @@ fn nobody_gets_far_ahead_and_the_order_stays() {
             before = now;
         }
     });
-    // The first subject is also asked something that is no check.
+    // The first subject is also asked a question that is not a check.
     let mut subjects: [Box<dyn Subject + Send>; 2] = [Box::new(fast), Box::new(slow)];
     let outcomes = run::outcomes(&mut subjects, &plan);
     let ahead = watch.join().unwrap();

@@ -1,4 +1,4 @@
-//! The reference model as an implementation: it passes every check of the suite.
+//! The reference model as a subject: it passes every check of the suite.
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
@@ -13,7 +13,7 @@ use actucheck_spec::model::Fault;
 use actucheck_spec::wire::dynamixel2::reference;
 use actucheck_spec::wire::innfos::reference as innfos;
 
-/// What is demanded of a stream is what every receiver finds that keeps to the documents.
+/// The checks of streams expect the packets that every receiver finds that follows the documents.
 #[test]
 fn no_check_judges_where_a_search_goes_on() {
     let spec = Spec::embedded().unwrap();

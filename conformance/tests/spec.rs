@@ -1,4 +1,4 @@
-//! `actucheck spec` as a user meets it.
+//! `actucheck spec` as a user sees it.
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 

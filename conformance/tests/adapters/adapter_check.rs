@@ -1,4 +1,4 @@
-//! `actucheck adapter check`: each way to be a bad adapter is found by the point that is for it.
+//! `actucheck adapter check`: each kind of bad adapter fails at the right point.
 
 use std::process::Command;
 
@@ -15,7 +15,7 @@ while read -r line; do
 done
 "#;
 
-/// The exit status and what was printed.
+/// The exit status and the output.
 fn check(script: &str) -> (i32, String) {
     let output = Command::new(env!("CARGO_BIN_EXE_actucheck"))
         .args(["adapter", "check", "--timeout", "1.5", "--start-timeout", "2"])
@@ -69,16 +69,16 @@ fn a_wrong_answer_in_the_right_form_is_left_to_the_suite() {
     assert!(text.contains("answers crc on dynamixel2 (another answer than the document has"));
 }
 
-/// How the good one says what it offers, answers a CRC, skips, and ends.
+/// The parts of the good adapter: what it offers, a CRC, a skip, and its end.
 const OPS: &str = r#""ops":["crc"]"#;
 const ANSWER: &str = r#"printf '{"id":%s,"ok":{"crc":35274}}\n' "$id""#;
 const SKIP: &str = r#"printf '{"id":%s,"skip":{"reason":"unknown"}}\n' "$id""#;
 const BYE: &str = "exit ;;";
 
-/// What is changed in the good one; the exit status, and the first point that is wrong.
+/// A change of the good adapter, the exit status, and the first wrong point.
 type Bad<'a> = (&'a [(&'a str, &'a str)], i32, &'static str);
 
-/// Checks that each bad one is found by the point that is for it. Most of that is waiting.
+/// Checks that each bad adapter fails at the right point. Most of the time is waiting.
 fn found(bad: &[Bad<'_>]) {
     std::thread::scope(|scope| {
         for (changes, status, point) in bad {
@@ -187,7 +187,7 @@ fn bytes_in_capitals_are_found() {
 fn one_that_tells_requests_apart_wrongly_is_found() {
     let twice = format!("{ANSWER}; {ANSWER}");
     let counting = r#"n=$((n + 1)); printf '{"id":%s,"ok":{"crc":%s}}\n' "$id" "$n""#;
-    // The first four come one at a time.
+    // The first four requests are sent one at a time.
     let losing = format!("n=$((n + 1)); [ $n = 5 ] || {ANSWER}");
     found(&[
         (

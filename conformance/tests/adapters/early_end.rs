@@ -1,4 +1,4 @@
-//! Runs that end before everything was asked, and the record of what was.
+//! Runs that end early, and their reports.
 
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
@@ -28,7 +28,7 @@ fn expected_failures_do_not_count_towards_the_end() {
     assert!(run.report["stopped"].is_null(), "{}", run.report["stopped"]);
 }
 
-/// The CRC of every packet is said to be that of a Ping to device 1, which is so for a few.
+/// Answers every CRC with that of a Ping to device 1, which is right for a few packets.
 #[test]
 fn two_rows_may_name_the_same_failures() {
     let folder = tempfile::tempdir().unwrap();

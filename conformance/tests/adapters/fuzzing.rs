@@ -1,4 +1,4 @@
-//! `actucheck fuzz` at the command line, and what becomes of what it finds.
+//! `actucheck fuzz` at the command line, and the use of its findings.
 
 use std::path::Path;
 use std::process::{Command, Output};

@@ -1,4 +1,4 @@
-//! What an adapter does over its pipes, right and wrong, and what the run makes of it.
+//! Right and wrong behaviour of adapters, and the result of a run.
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 #![cfg(unix)]

@@ -136,7 +136,7 @@ fn its_children_end_with_it() {
     let run = answering(&answer);
     assert_eq!(run.exit(), 3);
     let pid = std::fs::read_to_string(pid_file).unwrap();
-    // A killed process that nobody waits for stays as a zombie, which is as good as gone.
+    // A killed process that nobody waits for stays as a zombie, which counts as ended.
     let ended = || {
         let state = Command::new("ps").args(["-o", "stat=", "-p", pid.trim()]).output().unwrap();
         let state = String::from_utf8_lossy(&state.stdout).into_owned();

@@ -11,7 +11,7 @@ const WRONG: &str = r#"printf '{"id":%s,"ok":{"crc":1}}\n' "$id""#;
 
 #[test]
 fn replies_may_come_in_any_order() {
-    // Every other one comes late, so that others overtake it.
+    // Every other reply is late, so that other replies overtake it.
     let answer = format!(r"case $id in *[13579]) (sleep 0.05; {WRONG}) & ;; *) {WRONG} ;; esac");
     let run = check_with(&[], &taking_eight(&answer));
     assert_eq!((run.exit(), run.total("fail")), (1, run.sum()), "{}", run.report["totals"]);
@@ -19,7 +19,7 @@ fn replies_may_come_in_any_order() {
 
 #[test]
 fn questions_are_outstanding_together() {
-    // Nothing is answered before four questions are there; those left over at the end wait in vain.
+    // Nothing is answered before four questions have arrived; the last few questions get no answer.
     let answer = r#"printf '%s\n' "$id" >>"$IDS"
         if [ "$(wc -l <"$IDS")" -ge 4 ]; then
             while read -r id; do printf '{"id":%s,"ok":{"crc":1}}\n' "$id"; done <"$IDS"; : >"$IDS"

@@ -1,9 +1,9 @@
-//! The templates: a new adapter is a good one, and the op that its comment shows gets a verdict.
+//! The templates: a new adapter passes the check, and the op in its comment gets a verdict.
 
 use std::path::Path;
 use std::process::Command;
 
-/// CRC-16/UMTS a bit at a time, as the library in the comments.
+/// CRC-16/UMTS bit by bit, as the library in the comments.
 const PYTHON_LIBRARY: &str = "
 class my_library:
     def crc(data):
@@ -67,7 +67,7 @@ fn the_one_in_c_gets_a_verdict() {
     knows_the_crc(&command);
 }
 
-/// Whether a program is there.
+/// Whether a program is installed.
 fn there_is(program: &str) -> bool {
     let version = Command::new(program).arg("--version").output();
     let found = version.is_ok_and(|output| output.status.success());

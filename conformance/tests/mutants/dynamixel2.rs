@@ -21,7 +21,7 @@ pub(super) static MUTANTS: [Mutant; 14] = [
             let (id, body) = body_of(op)?;
             let (code, params) = body.split_first()?;
             let stuffed = [&[*code], reference::stuff(params).as_slice()].concat();
-            // Only an instruction FF makes a difference.
+            // Only an instruction FF shows the bug.
             (*code == 0xFF).then(|| bytes(reference::frame(id, &stuffed)))
         }),
         found_by: "dynamixel2.stuffing.from-instruction/encode",

@@ -1,4 +1,4 @@
-//! Fuzzing finds the mutants too, without a list of checks, and makes them small.
+//! Fuzzing finds the mutants too, without a list of checks, and shrinks the failures.
 
 use std::ops::ControlFlow;
 
@@ -19,7 +19,7 @@ fn fuzzed(subject: &mut dyn Subject, seed: u64, cases: u64) -> Fuzzed {
     fuzz(&spec, Wire::Dynamixel2, seed, cases, subject, |_, _| ControlFlow::Continue(()))
 }
 
-/// How large a question is.
+/// The size of a question.
 fn size(op: &Question) -> usize {
     serde_json::to_string(op).unwrap().len()
 }

@@ -87,7 +87,7 @@ pub(super) static MUTANTS: [Mutant; 7] = [
     },
 ];
 
-/// What is to be encoded.
+/// The packet to encode.
 fn packet(op: &Question) -> Option<&Packet> {
     match op {
         Question::Encode { packet, .. } => Some(&packet.packet),

@@ -1,4 +1,4 @@
-//! Every mutant is found, and every check finds one.
+//! Every mutant is found, and every check finds a mutant.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,7 +10,7 @@ use actucheck_spec::model::Level;
 
 use super::{Mutant, Mutated, checks, dynamixel2, innfos, outcomes, stubs};
 
-/// The mutants of a wire that a good check tells from a right implementation.
+/// The mutants of a wire that a good check distinguishes from a right implementation.
 fn mutants(wire: Wire) -> &'static [Mutant] {
     match wire {
         Wire::Dynamixel2 => &dynamixel2::MUTANTS,
@@ -18,7 +18,7 @@ fn mutants(wire: Wire) -> &'static [Mutant] {
     }
 }
 
-/// Whether a check shows that something is wrong, or not as it should be.
+/// Whether a check reports an error or a warning.
 fn is_found(outcome: &Outcome) -> bool {
     let warned = outcome.verdict == Verdict::Warn && outcome.level == Level::Should;
     outcome.verdict.is_failure() || warned
@@ -26,7 +26,7 @@ fn is_found(outcome: &Outcome) -> bool {
 
 #[test]
 fn every_mutant_is_found_by_its_check() {
-    // The packets of the documents, beside those that are made of their rules.
+    // The packets of the documents, apart from those derived from their rules.
     let spec = Spec::embedded().unwrap();
     let printed: BTreeSet<_> = spec
         .vectors()

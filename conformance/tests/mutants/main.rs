@@ -31,7 +31,7 @@ struct Mutant {
 
 /// What it does wrong.
 enum Wrong {
-    /// It answers this instead, where it is something.
+    /// It gives this answer instead, if there is one.
     Answers(fn(&Question) -> Option<Output>),
     /// It rejects what it should accept.
     Rejects(fn(&Question) -> bool),

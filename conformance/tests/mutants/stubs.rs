@@ -1,5 +1,4 @@
-//! Implementations that are hardly there: a check that passes on all of them, and on every other
-//! mutant, could not fail.
+//! Trivial implementations: a check that passes on all of them and on every mutant could not fail.
 
 use actucheck::adapter::{Output, Question, Wire};
 use actucheck_spec::model::{HexBytes, Packet};

@@ -1,12 +1,12 @@
-//! The pages as a browser lays them out, where there is one.
+//! The layout of the pages in a browser, if there is one.
 
 use std::fs;
 use std::process::Command;
 
 use super::{html, sample};
 
-/// Opens whatever is folded in each frame, then notes how wide the frame, its page and its page's
-/// background are. A window itself can't be as narrow as a phone.
+/// Opens every folded part in each frame, then notes the width of the frame and of its page, and
+/// the page's background. Frames are used because a window can't be as narrow as a phone.
 const MEASURE: &str = "<script>
 addEventListener('load', () => {
   const measured = [...document.querySelectorAll('iframe')].map(frame => {
@@ -30,7 +30,8 @@ struct Layout {
     dark: bool,
 }
 
-/// The layout of each page in a frame of its width; `None`, visibly, if there is no browser.
+/// The layout of each page in a frame of its width. If there is no browser, prints a note and
+/// returns `None`.
 fn layouts(pages: &[(String, u32)], options: &[&str]) -> Option<Vec<Layout>> {
     let known = ["chromium", "chromium-browser", "google-chrome"];
     let browser = known.into_iter().find(|name| {

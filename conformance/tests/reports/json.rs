@@ -113,7 +113,7 @@ fn what_did_not_pass_is_counted_and_the_smallest_few_are_kept() {
     assert!(report.not_passed.iter().any(|row| row.count > 5));
 }
 
-/// An outcome whose request has `size` bytes.
+/// An outcome with a request of `size` bytes.
 fn failure(place: usize, size: usize, detail: &str) -> Outcome {
     Outcome {
         id: format!("dynamixel2.some.{place}/crc"),
@@ -206,7 +206,7 @@ fn a_report_can_be_read_back() {
     }
 }
 
-/// As version 3 was written, of an implementation that does not stuff.
+/// A report of version 3, of an implementation that does not stuff.
 const VERSION_3: &str = include_str!("version-3.json");
 
 #[test]

@@ -1,4 +1,4 @@
-//! The reports, as those who read them meet them: people, programs and browsers.
+//! The reports, as people, programs and browsers see them.
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 

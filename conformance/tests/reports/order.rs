@@ -1,9 +1,10 @@
-//! The modules of `report` stand in an order: none imports one that comes after it.
+//! The modules of `report` are in an order: no module imports a later one.
 
 use std::fs;
 use std::path::Path;
 
-/// Each module after those that it may import. Those of one row do not import each other.
+/// Each module is after the modules that it may import. Modules of one row do not import each
+/// other.
 const REPORT: &[&[&str]] = &[
     &["model"],
     &["result"],
@@ -18,7 +19,7 @@ const REPORT: &[&[&str]] = &[
 ];
 const COMPARE: &[&[&str]] = &[&["model"], &["words"], &["text", "markdown", "html"]];
 
-/// What of the modules behind `path` a source names, as in `path::one` or `path::{one, two::Type}`.
+/// The modules after `path` that a source names, as in `path::one` or `path::{one, two::Type}`.
 fn named<'a>(source: &'a str, path: &str) -> Vec<&'a str> {
     let word = |text: &'a str| text.split(|it: char| !it.is_alphanumeric() && it != '_').next();
     let mut found = Vec::new();

@@ -1,4 +1,4 @@
-//! `--report` and `actucheck report`, as a user meets them.
+//! `--report` and `actucheck report`, as a user sees them.
 
 use std::fs;
 use std::path::Path;

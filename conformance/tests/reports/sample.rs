@@ -1,4 +1,4 @@
-//! Reports to look at.
+//! Sample reports.
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -14,7 +14,7 @@ use actucheck_spec::Spec;
 use actucheck_spec::model::{Fault, Level, Packet};
 use actucheck_spec::wire::dynamixel2::reference;
 
-/// A name that must stay one.
+/// A name that must be escaped.
 pub(crate) const NAME: &str = "<script>alert('odd')</script> & |co|";
 
 /// The built-in codec under another name, with other answers.
@@ -67,7 +67,7 @@ fn odd(op: &Question, answer: Answer) -> Answer {
     }
 }
 
-/// What every sample is taken from; it takes a while to make.
+/// The run that all samples are taken from, as a run takes a while.
 static SPEC: LazyLock<Spec> = LazyLock::new(|| Spec::embedded().unwrap());
 static COMMAND: LazyLock<[String; 2]> =
     LazyLock::new(|| ["./adapter", "two words"].map(str::to_owned));
@@ -126,36 +126,36 @@ pub(crate) fn run(implementation: &Implementation) -> Run<'_> {
     }
 }
 
-/// Of an implementation with a hostile name that meets every verdict.
+/// A report with a hostile name and every verdict.
 pub(crate) fn every_verdict() -> Report {
     let expect = "[{ids: [dynamixel2.stuffing.twice/encode], reason: '<i>known</i>'}, \
                    {ids: [ja40.ping.instruction/encode], reason: none}]";
     Report { log: "the last <em>words</em>".to_owned(), ..report(NAME, "*", odd, expect) }
 }
 
-/// Of one that does not stuff, and was asked little.
+/// A short report of an implementation that does not stuff.
 pub(crate) fn small() -> Report {
     report("unstuffed", "*stuffing.goal-position/{encode,stuff,unstuff}", unstuffed, "[]")
 }
 
-/// Of one that does nothing wrong.
+/// A report without failures.
 pub(crate) fn right() -> Report {
     report("right", "*", |_, answer| answer, "[]")
 }
 
-/// Of one that was interrupted.
+/// A report of an interrupted run.
 pub(crate) fn interrupted() -> Report {
     let small = small();
     let summary = Summary { stopped: Some(Stopped::Interrupted), left: 7, ..small.summary };
     Report { summary, ..small }
 }
 
-/// Of one that was asked little and does nothing wrong.
+/// A short report without failures.
 pub(crate) fn small_right() -> Report {
     report("right", "*stuffing.goal-position/{encode,stuff,unstuff}", |_, answer| answer, "[]")
 }
 
-/// Of one that reads the byte stuffing as data.
+/// A report of an implementation that reads byte stuffing as data.
 pub(crate) fn leaves_stuffing_in() -> Report {
     report("left in", "*stuffing.*/decode", left_in, "[]")
 }

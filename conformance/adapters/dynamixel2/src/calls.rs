@@ -10,10 +10,10 @@ use dynamixel2::{TransferError, WriteError};
 
 use crate::line::{Buffered, broken};
 
-/// The one thing that `clear_revolution_counter` can send.
+/// The parameters that `clear_revolution_counter` sends.
 const CLEAR_REVOLUTIONS: [u8; 5] = [0x01, 0x44, 0x58, 0x4C, 0x22];
 
-/// Calls the function that is made for the instruction; `None` if there is none.
+/// Calls the function for the instruction; `None` if there is none.
 pub(crate) fn send(bus: &mut Buffered, id: u8, call: &Call) -> Option<Result<(), Refusal>> {
     if for_several(call) && id != BROADCAST {
         return Some(Err(Refusal::skipped("the library sends it to the broadcast ID only")));
@@ -52,7 +52,7 @@ pub(crate) fn send(bus: &mut Buffered, id: u8, call: &Call) -> Option<Result<(),
             let reads: Vec<_> = reads.collect();
             match catch_unwind(AssertUnwindSafe(|| bus.bulk_read(&reads))) {
                 Ok(result) => transferred(result),
-                // So it refuses a repeated ID, as its documentation says.
+                // The library refuses a repeated ID with a panic, as its documentation says.
                 Err(_) if repeats(devices) => {
                     Err(Refusal::rejected("parameter", "panicked on an ID that is there twice"))
                 }
@@ -103,7 +103,7 @@ fn kind(option: Option<u8>) -> Option<FactoryResetKind> {
     }
 }
 
-/// The answer that the function waits for does not come: only sending counts.
+/// The answer that the function waits for does not arrive: only sending counts.
 fn transferred<T>(result: Result<T, TransferError>) -> Result<(), Refusal> {
     match result {
         Ok(_) | Err(TransferError::ReadError(_)) => Ok(()),

@@ -1,7 +1,8 @@
-//! A line with the library at one end and the adapter, as a device, at the other.
+//! A line with the library at one end and the adapter, in the role of a device, at the other.
 //!
-//! The library's end is a terminal's master. Once the other end is closed, it reads what is still
-//! there and then fails at once, so that no request waits for bytes that never come.
+//! The library's end is the master of a pseudo-terminal. After the other end is closed, a read
+//! returns the remaining bytes and then fails at once, so no request waits for bytes that never
+//! arrive.
 
 use std::io;
 use std::thread;
@@ -11,14 +12,14 @@ use actucheck_adapter::Refusal;
 use dynamixel2::{Bus, ReadError, StatusPacket};
 use serial2::SerialPort;
 
-/// Bytes of the library's buffers, one of which holds a whole packet.
+/// Size of the library's buffers in bytes; one buffer holds a whole packet.
 pub(crate) const BUFFER: usize = 4096;
 
-/// How long the library waits for what has arrived already.
+/// How long the library waits for bytes that have already arrived.
 const ARRIVED: Duration = Duration::from_millis(1);
 /// How long either end may wait for the other.
 const PATIENCE: Duration = Duration::from_millis(500);
-/// How long a line is quiet behind a packet.
+/// How long a line is quiet after a packet.
 const QUIET: Duration = Duration::from_millis(1);
 
 /// The library's bus.
@@ -37,7 +38,7 @@ impl Line {
         Ok(Self { bus, device: Some(device) })
     }
 
-    /// Lets bytes arrive, the last ones or not.
+    /// Lets bytes arrive; they may be the last ones.
     pub(crate) fn arrive(&mut self, bytes: &[u8], last: bool) -> Result<(), Refusal> {
         if let Some(device) = &self.device {
             device.write_all(bytes).map_err(broken)?;
@@ -48,7 +49,7 @@ impl Line {
         Ok(())
     }
 
-    /// Lets the library read one packet out of what has arrived.
+    /// Lets the library read one packet from the bytes that have arrived.
     pub(crate) fn read<T>(
         &mut self,
         use_it: impl Fn(StatusPacket<'_>) -> T,
@@ -58,7 +59,8 @@ impl Line {
     }
 }
 
-/// What the library sends in a call. The answer that the call may wait for does not come.
+/// The bytes that the library sends in a call. The answer that the call may wait for does not
+/// arrive.
 pub(crate) fn sent(
     call: impl FnOnce(&mut Buffered) -> Result<(), Refusal>,
 ) -> Result<Vec<u8>, Refusal> {
@@ -69,8 +71,8 @@ pub(crate) fn sent(
     heard.map_err(broken)
 }
 
-/// Hears one packet, then hangs up. A packet may come in pieces, and on a busy machine they come far
-/// from each other: only when all is there that its length tells, quiet is the end.
+/// Receives one packet, then closes the line. A packet may arrive in pieces with long pauses on a
+/// busy machine, so quiet means the end only after as many bytes as its length states.
 fn listen(mut device: SerialPort) -> io::Result<Vec<u8>> {
     let mut heard = Vec::new();
     let mut chunk = [0; BUFFER];
@@ -84,7 +86,7 @@ fn listen(mut device: SerialPort) -> io::Result<Vec<u8>> {
     }
 }
 
-/// Whether as many bytes are there as the length tells.
+/// Whether as many bytes have arrived as the length states.
 fn is_whole(packet: &[u8]) -> bool {
     let [_, _, _, _, _, low, high, rest @ ..] = packet else { return false };
     rest.len() >= usize::from(u16::from_le_bytes([*low, *high]))

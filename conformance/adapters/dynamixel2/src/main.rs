@@ -1,5 +1,5 @@
 //! Adapter for the crate `dynamixel2`, used as published. Every byte sent and every packet reported
-//! is its work, its mistakes included.
+//! comes from the library, including its mistakes.
 
 #![forbid(unsafe_code)]
 
@@ -39,7 +39,8 @@ impl Library for Dynamixel2 {
             {
                 return sent;
             }
-            // Public, and stuffs: it does for an instruction that has no function of its own.
+            // The function is public and stuffs, so it serves for instructions that have no
+            // function of their own.
             calls::send_raw(bus, *id, *instruction, params)
         })
     }
@@ -61,8 +62,8 @@ impl Library for Dynamixel2 {
             loop {
                 match line.read(|packet| status(&packet)) {
                     Ok(packet) => packets.push(packet),
-                    // All read that has arrived; or stuck, as only the next instruction that is
-                    // sent empties the buffer.
+                    // Either all bytes are read, or the library is stuck, as it empties the buffer
+                    // only when it sends the next instruction.
                     Err(ReadError::Io(_) | ReadError::BufferFull(_)) => break,
                     Err(error) => {
                         if let refusal @ Refusal::Skipped(_) = refusal(error) {

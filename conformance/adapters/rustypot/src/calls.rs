@@ -8,8 +8,8 @@ use crate::refusal;
 
 const BROADCAST: u8 = 0xFE;
 
-/// What the library sends in the call that is made for the instruction. The answer that it may wait
-/// for does not come.
+/// The bytes that the library sends in the call for the instruction. The answer that it may wait
+/// for does not arrive.
 pub(crate) fn sent(id: u8, call: &Call) -> Result<Vec<u8>, Refusal> {
     let handler = DynamixelProtocolHandler::v2();
     let port = &mut MemoryPort::default();
@@ -63,12 +63,12 @@ fn address_of(address: u16) -> Result<u8, Refusal> {
     u8::try_from(address).map_err(|_| Refusal::skipped("the library takes addresses up to 255"))
 }
 
-/// A number of bytes to read, as the library takes it.
+/// A number of bytes to read, in the library's type.
 pub(crate) fn length_of(length: u16) -> Result<u8, Refusal> {
     u8::try_from(length).map_err(|_| Refusal::skipped("the library reads up to 255 bytes"))
 }
 
-/// What a factory reset keeps: the ID alone, the ID and the baud rate.
+/// The settings that a factory reset keeps: the ID alone, or the ID and the baud rate.
 fn kept(option: Option<u8>) -> Result<(bool, bool), Refusal> {
     match option {
         Some(0xFF) => Ok((false, false)),

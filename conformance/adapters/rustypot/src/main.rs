@@ -1,5 +1,5 @@
 //! Adapter for the crate `rustypot`, used as published, over a port in memory. Every byte sent and
-//! every packet reported is its work, its mistakes included.
+//! every packet reported comes from the library, including its mistakes.
 
 #![forbid(unsafe_code)]
 
@@ -16,7 +16,7 @@ use actucheck_adapter::{
 use memory_port::MemoryPort;
 use rustypot::{CommunicationErrorKind, DynamixelProtocolHandler, SyncReadError};
 
-/// Where a frame's ID and instruction stand, the instruction of a status packet, and the header.
+/// Offsets of a frame's ID and instruction, the instruction of a status packet, and the header.
 const ID: usize = 4;
 const INSTRUCTION: usize = 7;
 const STATUS: u8 = 0x55;
@@ -50,8 +50,8 @@ impl Library for Rustypot {
     }
 }
 
-/// What a Read yields. The library takes the answer of the device that it asked and no other, and
-/// does not say whose it was: the one is asked that the frame names.
+/// The result of a Read. The library accepts only the answer of the device that it asked and does
+/// not return the ID, so the adapter asks the device that the frame names.
 fn status(frame: &[u8]) -> Result<Packet, Refusal> {
     let id = frame.get(ID).copied().unwrap_or_default();
     let handler = DynamixelProtocolHandler::v2();
@@ -92,7 +92,7 @@ fn refusal(error: &(dyn Error + 'static)) -> Refusal {
         Some(CommunicationErrorKind::ChecksumError) => "crc",
         Some(CommunicationErrorKind::IncorrectId(..)) => "id",
         Some(CommunicationErrorKind::TimeoutError) => "truncated",
-        // Its one word for a wrong header, length or instruction.
+        // The library has one error for a wrong header, length or instruction.
         Some(CommunicationErrorKind::ParsingError) => "header",
         Some(CommunicationErrorKind::Unsupported) => "instruction",
         None if cause.is::<io::Error>() => "truncated",

@@ -5,8 +5,8 @@ use std::time::Duration;
 
 use serialport::{ClearBuffer, DataBits, FlowControl, Parity, SerialPort, StopBits};
 
-/// Hands out what has been received and keeps what is written. No time passes: when everything has
-/// been read, that is the end.
+/// Returns the received bytes and keeps the written ones. Reading ends at once when all bytes were
+/// read.
 #[derive(Default)]
 pub(crate) struct MemoryPort {
     incoming: io::Cursor<Vec<u8>>,
@@ -14,7 +14,7 @@ pub(crate) struct MemoryPort {
 }
 
 impl MemoryPort {
-    /// A port at which these bytes arrive.
+    /// A port that receives these bytes.
     pub(crate) fn holding(bytes: &[u8]) -> Self {
         Self { incoming: io::Cursor::new(bytes.to_vec()), written: Vec::new() }
     }
@@ -43,7 +43,7 @@ impl SerialPort for MemoryPort {
     }
 
     fn baud_rate(&self) -> serialport::Result<u32> {
-        // A broadcast Ping works out from it how long to wait; the end comes sooner.
+        // A broadcast Ping computes its waiting time from this; the end of the bytes comes earlier.
         Ok(1_000_000)
     }
 
@@ -116,7 +116,7 @@ impl SerialPort for MemoryPort {
     }
 
     fn bytes_to_read(&self) -> serialport::Result<u32> {
-        // The answer comes after the request: nothing is there yet that would be thrown away.
+        // The answer arrives after the request, so there are no bytes to discard yet.
         Ok(0)
     }
 

@@ -1,17 +1,17 @@
-//! What an adapter says of the library that it wraps.
+//! What an adapter states about its library in `hello`.
 
 use serde_json::{Value, json};
 
-/// What an adapter says of the library that it wraps.
+/// What an adapter states about its library in `hello`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Identity {
-    /// Its name where it is published.
+    /// Its published name.
     pub name: &'static str,
     /// Its version: see [`locked_version`].
     pub version: String,
-    /// Where its source is.
+    /// A link to its source.
     pub url: &'static str,
-    /// The ops that the adapter implements, as the adapter protocol names them.
+    /// The ops that the adapter implements, by their names in the adapter protocol.
     pub ops: &'static [&'static str],
     /// Bytes of the longest frame that it builds or reads; `None` if it sets no limit.
     pub max_packet: Option<usize>,
@@ -36,8 +36,8 @@ impl Identity {
     }
 }
 
-/// The version of a package in a lock file, which is the one that was built; empty if it is not
-/// there.
+/// The version of a package in a lock file, which is the one that was built; empty if there is
+/// none.
 #[must_use]
 pub fn locked_version(lock: &str, package: &str) -> String {
     let name = format!("name = \"{package}\"");

@@ -1,5 +1,5 @@
-//! What the adapters in Rust share. An adapter implements [`Library`] for what it wraps, as far as
-//! that goes, and hands it to [`serve`].
+//! The common parts of the adapters in Rust. An adapter implements [`Library`] for the library that
+//! it wraps, and passes it to [`serve`].
 
 #![forbid(unsafe_code)]
 
@@ -15,12 +15,13 @@ pub use identity::{Identity, locked_version};
 pub use packet::{Block, Call, Device, Fast, Packet};
 pub use serve::serve;
 
-/// A library under test, as far as it speaks the `dynamixel2` wire.
+/// A library under test, on the wire `dynamixel2`.
 ///
-/// What an adapter does not implement is skipped; [`Identity::ops`] names what it does. Each call
-/// begins afresh, and a panic in it is told as a finding.
+/// Ops that an adapter does not implement are skipped; [`Identity::ops`] names those that it
+/// implements. Calls are independent of each other, and a panic is reported as the error class
+/// `internal`.
 pub trait Library {
-    /// What the adapter says of the library.
+    /// The adapter's statement about the library.
     fn identity() -> Identity;
 
     /// The CRC of some bytes.
@@ -34,12 +35,12 @@ pub trait Library {
     /// The frame of a packet.
     ///
     /// # Errors
-    /// If the library rejects the packet, or has nothing that sends it.
+    /// If the library rejects the packet, or has no function that sends it.
     fn encode(_packet: &Packet) -> Result<Vec<u8>, Refusal> {
         Err(Refusal::no_function())
     }
 
-    /// The packet that a frame is. `fast` tells what a fast status packet answers.
+    /// The packet in a frame. `fast` is the request that a fast status packet answers.
     ///
     /// # Errors
     /// If the library rejects the frame, or does not read such packets.
@@ -47,7 +48,7 @@ pub trait Library {
         Err(Refusal::no_function())
     }
 
-    /// The good packets of a stream that arrives in these chunks.
+    /// The valid packets of a stream that arrives in these chunks.
     ///
     /// # Errors
     /// If the library does not read streams, or not this one.
@@ -63,7 +64,7 @@ pub enum Refusal {
     Rejected {
         /// One of the adapter protocol's error classes.
         class: &'static str,
-        /// What the library says.
+        /// The library's message.
         detail: String,
     },
     /// The library does not offer it, for this reason.
@@ -71,7 +72,7 @@ pub enum Refusal {
 }
 
 impl Refusal {
-    /// The library rejects the bytes or the packet, and says this.
+    /// A rejection of the bytes or the packet, with the library's message.
     pub fn rejected(class: &'static str, detail: impl Display) -> Self {
         Self::Rejected { class, detail: detail.to_string() }
     }

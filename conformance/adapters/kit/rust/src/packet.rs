@@ -4,34 +4,34 @@ use serde::{Deserialize, Serialize};
 
 use crate::Hex;
 
-/// A packet by its fields.
+/// A packet as its fields.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Packet {
-    /// What a host sends.
+    /// An instruction packet, which a host sends.
     Instruction {
-        /// Whom it is for.
+        /// The ID of the device that it is for.
         id: u8,
         /// The instruction's code.
         instruction: u8,
         /// Everything between the instruction and the CRC, before stuffing.
         params: Hex,
-        /// The same request in words; `None` if no instruction has such parameters.
+        /// The same request as a call; `None` if no instruction has such parameters.
         #[serde(skip_serializing_if = "Option::is_none")]
         call: Option<Call>,
     },
-    /// What a device answers.
+    /// A status packet, which a device answers.
     Status {
-        /// Who answers.
+        /// The ID of the device that answers.
         id: u8,
         /// The whole error byte, alert bit included.
         error: u8,
         /// Everything between the error and the CRC, before stuffing.
         params: Hex,
     },
-    /// What several devices answer together.
+    /// A fast status packet, with which several devices answer together.
     FastStatus {
-        /// One block a device, in the order asked for.
+        /// One block per device, in the order of the request.
         blocks: Vec<Block>,
     },
 }
@@ -41,13 +41,13 @@ pub enum Packet {
 pub struct Block {
     /// The whole error byte.
     pub error: u8,
-    /// Who answers.
+    /// The ID of the device that answers.
     pub id: u8,
-    /// What was read.
+    /// The data that was read.
     pub data: Hex,
 }
 
-/// An instruction in words. The names of its fields are those of the documents.
+/// An instruction as a call. Its fields have the names of the documents.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(tag = "name", rename_all = "snake_case")]
 #[allow(missing_docs)] // the variants are the instructions, the fields their parameters
@@ -69,28 +69,28 @@ pub enum Call {
     BulkWrite { devices: Vec<Device> },
 }
 
-/// One device of a call for several. Which fields there are depends on the instruction; the others
-/// are 0 or empty.
+/// One device in a call for several devices. The instruction determines the fields in use; the
+/// others are 0 or empty.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize)]
 pub struct Device {
-    /// Which device.
+    /// The device's ID.
     pub id: u8,
-    /// Where to read or write.
+    /// The address to read or write.
     #[serde(default)]
     pub address: u16,
     /// How many bytes to read.
     #[serde(default)]
     pub length: u16,
-    /// What to write.
+    /// The data to write.
     #[serde(default)]
     pub data: Hex,
 }
 
-/// What a fast status packet answers.
+/// The request that a fast status packet answers.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 pub struct Fast {
     /// Bytes of data a block; 0 for Fast Sync Write.
     pub length: u16,
-    /// The devices in the order asked for.
+    /// The devices in the order of the request.
     pub ids: Vec<u8>,
 }

@@ -22,7 +22,7 @@ struct Request {
 /// Answers the requests on standard input until `bye` or its end.
 ///
 /// # Errors
-/// If a line is no request, so that nothing can be answered; or if a pipe breaks.
+/// If a line is not a request, so that no answer is possible, or if a pipe breaks.
 pub fn serve<L: Library>() -> io::Result<()> {
     let mut replies = io::stdout().lock();
     for line in io::stdin().lock().lines() {
@@ -31,7 +31,7 @@ pub fn serve<L: Library>() -> io::Result<()> {
             break;
         }
         let id = request.id;
-        // What a library does after a panic is no matter: the next request begins afresh.
+        // The library's state after a panic does not matter, as the next request starts anew.
         let answer = catch_unwind(AssertUnwindSafe(|| answer::<L>(request)))
             .unwrap_or_else(|panic| Err(Refusal::rejected("internal", told(panic.as_ref()))));
         let reply = match answer {
@@ -89,13 +89,13 @@ fn answer<L: Library>(Request { op, fields, .. }: Request) -> Result<Value, Refu
     }
 }
 
-/// An op's fields.
+/// The fields of an op.
 fn read<T: DeserializeOwned>(fields: Map<String, Value>) -> Result<T, Refusal> {
     serde_json::from_value(Value::Object(fields))
         .map_err(|error| Refusal::rejected("parameter", format!("bad request: {error}")))
 }
 
-/// What a panic says.
+/// The message of a panic.
 fn told(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(ToString::to_string);
     let text = text.or_else(|| panic.downcast_ref::<String>().cloned());
