@@ -41,6 +41,10 @@ fn each_rule_has_its_error() {
         (status_with(5, 7), Trailing { end: 14, available: 15 }),
         (status_with(14, 0xC1), Crc { at: 13, found: 0xC18C, expected: 0xC08C }),
         (Frame::parse(&STATUS[..3]).map(drop), Truncated { available: 3, needed: 7 }),
+        (
+            Frame::parse(&[0xFF, 0xFF, 0xFD, 0, 0xFF]).map(drop),
+            Truncated { available: 5, needed: 7 },
+        ),
         (Frame::parse(&[]).map(drop), Truncated { available: 0, needed: 7 }),
     ];
     for (found, expected) in cases {

@@ -2,6 +2,9 @@
 
 use core::fmt;
 
+use super::HEADER;
+use super::header::PREFIX;
+
 /// Why bytes are no frame. Offsets count from the first byte of the frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FrameError {
@@ -79,9 +82,9 @@ impl FrameError {
             | Self::Crc { at, .. }
             | Self::Stuffing { at }
             | Self::BlockId { at, .. } => at,
-            Self::Id { .. } => 4,
-            Self::Length { .. } => 5,
-            Self::Instruction { .. } => 7,
+            Self::Id { .. } => HEADER.len(),
+            Self::Length { .. } => HEADER.len() + size_of::<u8>(),
+            Self::Instruction { .. } => PREFIX,
             Self::Truncated { available, .. } => available,
             Self::Trailing { end, .. } => end,
         }

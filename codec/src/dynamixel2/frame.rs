@@ -168,7 +168,12 @@ impl<'a> Parts<'a> {
     pub(crate) fn split(bytes: &'a [u8]) -> Result<Self, FrameError> {
         let available = bytes.len();
         let truncated = |needed| FrameError::Truncated { available, needed };
-        let header = Header::check(bytes)?.ok_or(truncated(PREFIX))?;
+        let header = Header::check(bytes);
+        // What ends within its prefix is truncated, whatever its ID.
+        if available < PREFIX && !matches!(header, Err(FrameError::Header { .. })) {
+            return Err(truncated(PREFIX));
+        }
+        let header = header?.ok_or(truncated(PREFIX))?;
         let end = header.packet_len();
         if available > end {
             return Err(FrameError::Trailing { end, available });

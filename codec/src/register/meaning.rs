@@ -5,9 +5,9 @@ use super::{Range, Row, Unit};
 pub struct Meaning {
     /// When it holds.
     pub when: Condition,
-    /// The values that the register then may have; as else if `None`.
+    /// The values that the register then may have; the usual ones if `None`.
     pub range: Option<Range>,
-    /// What one count then is; as else if `None`.
+    /// What one count then is; the usual one if `None`.
     pub unit: Option<Unit>,
 }
 
