@@ -10,24 +10,29 @@ use actucheck_codec::innfos::{
 };
 use actucheck_codec::{BufferTooSmall, EncodeError};
 use actucheck_spec::Spec;
-use actucheck_spec::model::{self, Fault, FrameKind, Outcome, Packet, Vector};
+use actucheck_spec::model::{Fault, Outcome, Vector};
+use actucheck_spec::wire::innfos as model;
+use actucheck_spec::wire::{self, Packet};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
 static SPEC: LazyLock<Spec> = LazyLock::new(|| Spec::embedded().unwrap());
 
 fn vectors() -> impl Iterator<Item = &'static Vector> {
-    SPEC.vectors().filter(|(file, _)| file.wire == "innfos").map(|(_, vector)| vector)
+    SPEC.vectors().filter(|(file, _)| file.wire == model::WIRE).map(|(_, vector)| vector)
 }
 
 /// Way, address, command and data.
 fn parts(vector: &Vector) -> Option<(Kind, u8, u8, &[u8])> {
-    match vector.packet.as_ref()? {
-        Packet::Request { address, command, data } => {
-            Some((Kind::Request, *address, *command, data))
-        }
-        Packet::Reply { address, command, data } => Some((Kind::Reply, *address, *command, data)),
-        _ => panic!("{}", vector.id),
+    let Packet::Innfos(packet) = vector.packet.as_ref()? else { panic!("{}", vector.id) };
+    let model::Packet { direction, address, command, data } = packet;
+    Some((of(*direction), *address, *command, data))
+}
+
+fn of(direction: wire::Direction) -> Kind {
+    match direction {
+        wire::Direction::Request => Kind::Request,
+        wire::Direction::Reply => Kind::Reply,
     }
 }
 
@@ -48,11 +53,7 @@ fn every_vector_is_built_and_read_or_refused() {
         count += 1;
         let id = &vector.id;
         let Some((kind, address, command, data)) = parts(vector) else {
-            let kind = match vector.kind.unwrap() {
-                FrameKind::Request => Kind::Request,
-                FrameKind::Reply => Kind::Reply,
-            };
-            let error = Frame::parse(kind, vector.frame()).unwrap_err();
+            let error = Frame::parse(of(vector.direction.unwrap()), vector.frame()).unwrap_err();
             assert_eq!(Some(fault(error)), vector.fault, "{id}: {error}");
             assert!(error.offset() <= vector.frame().len(), "{id}");
             continue;
@@ -81,14 +82,14 @@ fn every_vector_is_built_and_read_or_refused() {
 
 #[test]
 fn every_command_is_that_of_the_yaml() {
-    let said = &SPEC.innfos.content;
+    let said = &SPEC.wires.innfos.content;
     assert_eq!(Command::ALL.len(), said.commands.len());
     for said_row in &said.commands {
         let command = Command::from_code(said_row.code);
         let row = command.row().unwrap();
         assert_eq!(command.code(), said_row.code);
         assert!(command.name().ends_with(&said_row.name), "{}", command.name());
-        assert_eq!(said_row.direction == model::Direction::Read, row.direction == Direction::Read);
+        assert_eq!(said_row.direction == model::Operation::Read, row.direction == Direction::Read);
         assert_eq!((said_row.request, said_row.reply.as_slice()), (row.request, row.reply));
         assert_eq!(said_row.unit.as_deref(), row.unit);
         let full_scale = row.full_scale.map(|scale| match scale {
@@ -124,7 +125,7 @@ fn said_format(format: Format) -> model::Format {
 
 #[test]
 fn modes_alarms_and_models_are_those_of_the_yaml() {
-    let said = &SPEC.innfos.content;
+    let said = &SPEC.wires.innfos.content;
     for code in 0..=u8::MAX {
         assert_eq!(Mode::from_code(code).code(), code);
         let row = said.modes.rows.iter().find(|row| row.code == code);
@@ -227,7 +228,7 @@ fn value(format: Format, bits: i32, six: [u8; 6]) -> Value {
 
 /// The full scale by the YAML.
 fn said_scale(code: u8, actuator: &Actuator) -> f64 {
-    match SPEC.innfos.content.command(code).unwrap().full_scale {
+    match SPEC.wires.innfos.content.command(code).unwrap().full_scale {
         None => 1.0,
         Some(model::FullScale::Current) => actuator.current,
         Some(model::FullScale::MotorSpeed) => actuator.motor_speed,

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use actucheck_spec::model::{HexBytes, Level, Packet};
+use actucheck_spec::model::{HexBytes, Level};
 use schemars::JsonSchema;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -174,18 +174,10 @@ fn bytes_of(output: &Output) -> Vec<&HexBytes> {
     match output {
         Output::Crc(_) => Vec::new(),
         Output::Bytes(bytes) => vec![bytes],
-        Output::Packet(packet) => parameters(packet),
-        Output::Packets(packets) => packets.iter().flat_map(parameters).collect(),
-    }
-}
-
-fn parameters(packet: &Packet) -> Vec<&HexBytes> {
-    match packet {
-        Packet::Instruction { params: data, .. }
-        | Packet::Status { params: data, .. }
-        | Packet::Request { data, .. }
-        | Packet::Reply { data, .. } => vec![data],
-        Packet::FastStatus { blocks } => blocks.iter().map(|block| &block.data).collect(),
+        Output::Packet(packet) => packet.wire().payload(packet),
+        Output::Packets(packets) => {
+            packets.iter().flat_map(|packet| packet.wire().payload(packet)).collect()
+        }
     }
 }
 

@@ -14,10 +14,13 @@ use actucheck::suite::plan::Plan;
 use actucheck::verdict::{Outcome, Totals, Verdict};
 use actucheck_spec::Spec;
 use actucheck_spec::coverage::{self, CheckName, Cover};
-use actucheck_spec::model::{CheckedBy, Fault, Packet, Role};
+use actucheck_spec::model::{CheckedBy, Fault, Role};
+use actucheck_spec::wire::Packet;
+use actucheck_spec::wire::dynamixel2;
+use actucheck_spec::wire::dynamixel2::Packet::Status;
 
 fn checks() -> Vec<Check> {
-    let options = suite::Options { cases: 100, ..suite::Options::new(Wire::Dynamixel2) };
+    let options = suite::Options { cases: 100, ..suite::Options::new(dynamixel2::WIRE) };
     suite::plan(&Spec::embedded().unwrap(), &options).checks().collect()
 }
 
@@ -106,8 +109,8 @@ fn stuffing_that_is_left_in_fails_unstuff() {
 #[test]
 fn a_wrong_field_fails_decode() {
     let outcomes = outcomes(|_, answer| match answer {
-        Answer::Ok(Output::Packet(Packet::Status { id, error, params })) => {
-            Answer::Ok(Output::Packet(Packet::Status { id, error: error ^ 0x80, params }))
+        Answer::Ok(Output::Packet(Packet::Dynamixel2(Status { id, error, params }))) => {
+            Answer::Ok(Output::Packet(Status { id, error: error ^ 0x80, params }.into()))
         }
         answer => answer,
     });
@@ -116,8 +119,7 @@ fn a_wrong_field_fails_decode() {
 
 #[test]
 fn accepting_damaged_packets_fails_each_negative_check() {
-    let accepted =
-        Packet::Status { id: 1, error: 0, params: actucheck_spec::model::HexBytes::default() };
+    let accepted = Packet::from(Status { id: 1, error: 0, params: vec![].into() });
     let outcomes = outcomes(move |_, answer| match answer {
         Answer::Rejected(_) => Answer::Ok(Output::Packet(accepted.clone())),
         answer => answer,

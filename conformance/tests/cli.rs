@@ -288,7 +288,7 @@ fn a_packet_that_goes_the_other_way_is_refused() {
     // The option's old name.
     let (status, _, stderr) = actucheck(&["decode", "--kind", "reply", WRITE]);
     assert_eq!(status, 1);
-    insta::assert_snapshot!(stderr, @"actucheck: no valid reply: byte 7, the instruction, makes it a request");
+    insta::assert_snapshot!(stderr, @"actucheck: no valid reply: the packet is a request");
 }
 
 #[test]

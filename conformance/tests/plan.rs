@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread;
 use std::time::Duration;
 
-use actucheck::adapter::{Hello, Question, Wire};
+use actucheck::adapter::{Hello, Question};
 use actucheck::run;
 use actucheck::subject::{Answer, Builtin, Subject};
 use actucheck::suite::check::Check;
@@ -17,10 +17,11 @@ use actucheck::suite::select::Patterns;
 use actucheck::suite::{self, Options};
 use actucheck_spec::Spec;
 use actucheck_spec::model::Level;
+use actucheck_spec::wire::{dynamixel2, innfos};
 
 const WIRES: [Options; 2] = [
-    Options { cases: 30, max_packet: Some(600), ..Options::new(Wire::Dynamixel2).with_bodies(3) },
-    Options { max_packet: Some(600), ..Options::new(Wire::Innfos) },
+    Options { cases: 30, max_packet: Some(600), ..Options::new(dynamixel2::WIRE).with_bodies(3) },
+    Options { max_packet: Some(600), ..Options::new(innfos::WIRE) },
 ];
 
 fn restricted<'a>(spec: &'a Spec, options: &Options, only: &str, not: &[&str]) -> Plan<'a> {
@@ -124,7 +125,7 @@ impl Subject for Waiting {
 fn nobody_gets_far_ahead_and_the_order_stays() {
     const MOST: usize = 8000;
     let spec = Spec::embedded().unwrap();
-    let plan = suite::plan(&spec, &Options { cases: 10, ..Options::new(Wire::Dynamixel2) });
+    let plan = suite::plan(&spec, &Options { cases: 10, ..Options::new(dynamixel2::WIRE) });
     let [slow, fast] = [false, true].map(|may| Waiting {
         codec: Builtin::default(),
         asked: Arc::new(AtomicUsize::new(0)),

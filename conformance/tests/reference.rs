@@ -10,14 +10,14 @@ use actucheck::suite::check::Demand;
 use actucheck::verdict::Verdict;
 use actucheck_spec::Spec;
 use actucheck_spec::model::Fault;
-use actucheck_spec::wire::dynamixel2::reference;
-use actucheck_spec::wire::innfos::reference as innfos;
+use actucheck_spec::wire::Context;
+use actucheck_spec::wire::dynamixel2::{WIRE, reference};
 
 /// The checks of streams expect the packets that every receiver finds that follows the documents.
 #[test]
 fn no_check_judges_where_a_search_goes_on() {
     let spec = Spec::embedded().unwrap();
-    let options = suite::Options { cases: 1000, ..suite::Options::new(Wire::Dynamixel2) };
+    let options = suite::Options { cases: 1000, ..suite::Options::new(WIRE) };
     let mut streams = 0;
     for check in suite::plan(&spec, &options).checks() {
         let (Question::Stream { chunks, .. }, Demand::Yield(_)) = (&check.question, &check.demand)
@@ -41,36 +41,21 @@ impl Subject for Model {
 
     fn ask(&mut self, op: &Question) -> Answer {
         let bytes = |bytes: Vec<u8>| Ok(Output::Bytes(bytes.into()));
+        let wire = op.wire();
         let answer = match op {
-            Question::Crc { wire: Wire::Dynamixel2, bytes } => {
-                Ok(Output::Crc(reference::crc(bytes).into()))
+            Question::Crc { bytes, .. } => Ok(Output::Crc(wire.checksum(bytes)[0])),
+            Question::Stuff { bytes: body, .. } => bytes(wire.stuff(body).unwrap()),
+            Question::Unstuff { bytes: body, .. } => wire.unstuff(body).unwrap().and_then(bytes),
+            Question::Encode { packet, .. } => {
+                wire.encode(&packet.packet).ok_or(Fault::Length).and_then(bytes)
             }
-            Question::Crc { wire: Wire::Innfos, bytes } => {
-                Ok(Output::Crc(innfos::crc(bytes).into()))
+            Question::Decode { bytes, fast, kind, .. } => {
+                let context = Context { fast: fast.clone(), direction: *kind };
+                wire.decode(bytes, &context).map(Output::Packet)
             }
-            Question::Stuff { bytes: body, .. } => bytes(reference::stuff(body)),
-            Question::Unstuff { bytes: body, .. } => reference::unstuff(body).and_then(bytes),
-            Question::Encode { wire, packet } => match wire {
-                Wire::Dynamixel2 => reference::encode(&packet.packet),
-                Wire::Innfos => innfos::encode(&packet.packet),
+            Question::Stream { chunks, kind, .. } => {
+                Ok(Output::Packets(wire.stream(chunks, *kind)))
             }
-            .ok_or(Fault::Length)
-            .and_then(bytes),
-            Question::Decode { bytes, fast: Some(fast), .. } => {
-                reference::decode_fast(bytes, fast).map(Output::Packet)
-            }
-            Question::Decode { bytes, kind: Some(kind), .. } => {
-                innfos::decode(*kind, bytes).map(Output::Packet)
-            }
-            Question::Decode { bytes, .. } => reference::decode(bytes).map(Output::Packet),
-            Question::Stream { chunks, kind, .. } => Ok(Output::Packets(match kind {
-                Some(kind) => {
-                    chunks.iter().flat_map(|chunk| innfos::packets(*kind, chunk)).collect()
-                }
-                None => {
-                    reference::packets(&chunks.iter().flat_map(|c| c.0.clone()).collect::<Vec<_>>())
-                }
-            })),
         };
         answer.map_or_else(
             |class| Answer::Rejected(Rejection { class, detail: String::new() }),

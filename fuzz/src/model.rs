@@ -2,7 +2,8 @@
 
 use actucheck_codec::dynamixel2::stream::{self, Reason};
 use actucheck_codec::dynamixel2::{Frame, FrameError};
-use actucheck_spec::model::{Fault, Packet};
+use actucheck_spec::model::Fault;
+use actucheck_spec::wire::dynamixel2::Packet;
 use actucheck_spec::wire::dynamixel2::reference::{Event, encode};
 
 /// The packet of a frame.

@@ -49,7 +49,7 @@ fn seeds(spec: &Spec, seeds: Seeds) -> Vec<(String, Vec<u8>)> {
         };
         return spec_yaml::BASE.iter().map(file).chain(cases()).collect();
     }
-    let vectors = spec.vectors().filter(|(file, _)| file.wire == seeds.name());
+    let vectors = spec.vectors().filter(|(file, _)| file.wire.id() == seeds.name());
     vectors.map(|(_, vector)| (vector.id.clone(), vector.frame().to_vec())).collect()
 }
 
@@ -104,19 +104,18 @@ type Tokens = BTreeSet<Vec<u8>>;
 /// lies just outside.
 fn packets(spec: &Spec) -> Tokens {
     let mut tokens = Tokens::new();
-    for protocol in spec.protocols.iter().map(|file| &file.content) {
-        let (framing, stuffing) = (&protocol.framing, &protocol.stuffing);
-        tokens.insert(framing.header.clone());
-        tokens.insert(stuffing.pattern.clone());
-        tokens.insert([&stuffing.pattern[..], &[stuffing.insert]].concat());
-        for id in [framing.id.min, framing.id.max, framing.id.broadcast] {
-            tokens.insert(vec![id]);
-            tokens.insert([&framing.header[..], &[id]].concat());
-        }
-        tokens.insert(framing.length.minimum.to_le_bytes().to_vec());
-        tokens.insert(vec![protocol.status.instruction]);
-        tokens.extend(protocol.instructions.iter().map(|row| vec![row.code]));
+    let wire = &spec.wires.dynamixel2.content;
+    let (framing, stuffing) = (&wire.framing, &wire.stuffing);
+    tokens.insert(framing.header.clone());
+    tokens.insert(stuffing.pattern.clone());
+    tokens.insert([&stuffing.pattern[..], &[stuffing.insert]].concat());
+    for id in [framing.id.min, framing.id.max, framing.id.broadcast] {
+        tokens.insert(vec![id]);
+        tokens.insert([&framing.header[..], &[id]].concat());
     }
+    tokens.insert(framing.length.minimum.to_le_bytes().to_vec());
+    tokens.insert(vec![wire.status.instruction]);
+    tokens.extend(wire.instructions.iter().map(|row| vec![row.code]));
     for register in spec.devices.iter().flat_map(|file| &file.content.registers) {
         tokens.insert(register.address.to_le_bytes().to_vec());
         tokens.extend(values(register));
@@ -141,7 +140,7 @@ fn values(register: &Register) -> impl Iterator<Item = Vec<u8>> {
 
 /// Header and end, codes, commands with the length of their data, and how a frame of each begins.
 fn frames(spec: &Spec) -> Tokens {
-    let innfos = &spec.innfos.content;
+    let innfos = &spec.wires.innfos.content;
     let (header, tail) = (innfos.framing.header, innfos.framing.tail);
     let mut tokens = Tokens::from([vec![header], vec![tail], vec![tail, header]]);
     for command in &innfos.commands {

@@ -68,7 +68,7 @@ fn repair_gives_the_right_crc() {
     let valid = |(_, vector): &(&VectorsFile, &Vector)| vector.result == Outcome::Valid;
     let mut repaired = 0;
     for (file, vector) in spec.vectors().filter(valid) {
-        let (repairs, behind_crc) = match file.wire.as_str() {
+        let (repairs, behind_crc) = match file.wire.id() {
             "dynamixel2" => (vec![packet::repair, stream_raw::repair], 0),
             // Behind the CRC stands the end byte. A shorter frame may have none.
             _ if vector.frame().len() > 9 => (vec![innfos_stream::repair as fn(&mut [u8])], 1),

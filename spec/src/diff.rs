@@ -151,7 +151,7 @@ fn differences<K: Ord + fmt::Display>(
 /// A fact about a device, in the order in which it is told.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum DeviceFact {
-    Protocol,
+    Wire,
     ModelNumber,
     EepromLock,
     Instruction(String),
@@ -163,7 +163,7 @@ enum DeviceFact {
 impl fmt::Display for DeviceFact {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Protocol => f.write_str("protocol"),
+            Self::Wire => f.write_str("wire"),
             Self::ModelNumber => f.write_str("model number"),
             Self::EepromLock => f.write_str("EEPROM lock"),
             Self::Instruction(name) => write!(f, "instruction {name}"),
@@ -180,7 +180,7 @@ impl DeviceFact {
         match self {
             Self::Instruction(_) => true,
             Self::Backup(_) => !device.backup.is_empty(),
-            Self::Protocol
+            Self::Wire
             | Self::ModelNumber
             | Self::EepromLock
             | Self::Alarm(_)
@@ -191,7 +191,7 @@ impl DeviceFact {
 
 fn device_facts(device: &Device) -> Facts<DeviceFact> {
     let yes = || "yes".to_owned();
-    let mut facts = Facts::from([(DeviceFact::Protocol, device.protocol.clone())]);
+    let mut facts = Facts::from([(DeviceFact::Wire, device.wire.to_string())]);
     facts.extend(device.model_number.map(|number| (DeviceFact::ModelNumber, number.to_string())));
     facts.extend(device.eeprom_lock.clone().map(|name| (DeviceFact::EepromLock, name)));
     let instructions = device.instructions.iter().cloned();
@@ -286,7 +286,7 @@ mod tests {
     const LEFT: &str = "
 device: left
 title: Left
-protocol: wire
+wire: dynamixel2
 source: []
 instructions: [Ping, Clear]
 alarms: [{bit: Hot, register: Heat, above: Limit}]

@@ -7,7 +7,6 @@
 
 #![forbid(unsafe_code)]
 
-pub mod check;
 pub mod coverage;
 pub mod diagnostic;
 pub mod diff;
@@ -17,6 +16,7 @@ pub mod load;
 pub mod model;
 pub mod rests;
 pub mod schema;
+pub mod validate;
 pub mod wire;
 
 pub use diagnostic::Diagnostic;

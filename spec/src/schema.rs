@@ -1,15 +1,16 @@
 //! JSON Schemas, derived from the model: of the YAML files, so that editors complete and check
 //! them, and of the exports, for whoever reads those.
 
-use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
+use schemars::{JsonSchema, SchemaGenerator};
+use serde_json::Value;
 
 use crate::export::json::Export;
 use crate::export::vectors::VectorsExport;
 use crate::model::{
-    Device, DocumentsFile, ErrataFile, Innfos, Protocol, RequirementsFile, SentencesFile,
-    VectorsFile,
+    Device, DocumentsFile, ErrataFile, RequirementsFile, SentencesFile, VectorsFile,
 };
+use crate::wire::Wire;
 
 /// A schema as a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -23,10 +24,10 @@ pub struct SchemaFile {
 /// Every schema, in a fixed order.
 #[must_use]
 pub fn all() -> Vec<SchemaFile> {
-    vec![
+    let wires = Wire::ALL
+        .map(|wire| SchemaFile { path: file_name(&format!("wires/{wire}")), text: wire.schema() });
+    let others = [
         source::<DocumentsFile>("documents"),
-        source::<Protocol>("protocol"),
-        source::<Innfos>("innfos"),
         source::<Device>("device"),
         source::<VectorsFile>("vectors"),
         source::<RequirementsFile>("requirements"),
@@ -34,7 +35,8 @@ pub fn all() -> Vec<SchemaFile> {
         source::<SentencesFile>("sentences"),
         export::<Export<'_>>("spec"),
         export::<VectorsExport<'_>>("vectors"),
-    ]
+    ];
+    wires.into_iter().chain(others).collect()
 }
 
 /// The path below the spec folder of the schema that a YAML file has to fit; `path` is below the
@@ -42,9 +44,7 @@ pub fn all() -> Vec<SchemaFile> {
 #[must_use]
 pub fn of_source(path: &str) -> Option<String> {
     let name = match path.split_once('/') {
-        None => path.strip_suffix(".yaml")?,
-        Some(("protocols", "innfos.yaml")) => "innfos",
-        Some(("protocols", _)) => "protocol",
+        None | Some(("wires", _)) => path.strip_suffix(".yaml")?,
         Some(("devices", _)) => "device",
         Some((folder, _)) => folder,
     };
@@ -57,12 +57,27 @@ fn file_name(name: &str) -> String {
 
 /// The schema of what is read.
 fn source<T: JsonSchema>(name: &str) -> SchemaFile {
-    SchemaFile { path: file_name(name), text: text::<T>(SchemaSettings::draft2020_12()) }
+    SchemaFile { path: file_name(name), text: of_read::<T>() }
 }
 
 /// The schema of what is written.
 fn export<T: JsonSchema>(name: &str) -> SchemaFile {
     SchemaFile { path: file_name(&format!("export/{name}")), text: of_written::<T>() }
+}
+
+/// The text of the schema of what is read.
+#[must_use]
+pub fn of_read<T: JsonSchema>() -> String {
+    text::<T>(SchemaSettings::draft2020_12())
+}
+
+/// The schemas between which an enum's schema lets choose; else the one that there is.
+pub(crate) fn variants<T: JsonSchema>(generator: &mut SchemaGenerator) -> Vec<Value> {
+    let mut schema = T::json_schema(generator);
+    match schema.remove("oneOf") {
+        Some(Value::Array(variants)) => variants,
+        _ => vec![schema.into()],
+    }
 }
 
 /// The text of the schema of what is written: every field is there, if only with `null`.

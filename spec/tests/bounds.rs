@@ -22,8 +22,8 @@ fn defects(device: &str) -> Vec<Diagnostic> {
     let mut sources = [
         "documents.yaml",
         "errata.yaml",
-        "protocols/wire.yaml",
-        "protocols/innfos.yaml",
+        "wires/dynamixel2.yaml",
+        "wires/innfos.yaml",
         "vectors/ping.yaml",
         "requirements/book.yaml",
     ]
@@ -74,7 +74,7 @@ fn a_long_file_is_refused() {
 #[test]
 fn many_defects_are_told_soon() {
     let head =
-        "device: motor\ntitle: Motor\nprotocol: wire\nsource: [book §2]\ninstructions: [Ping]\n";
+        "device: motor\ntitle: Motor\nwire: dynamixel2\nsource: [book §2]\ninstructions: [Ping]\n";
     let row = "  - {address: 0, name: A, type: u16, area: ram, access: rw, source: [book §2]}\n";
     let found = defects(&format!("{head}registers:\n{}", row.repeat(2000)));
     assert!(found.len() >= 2000, "{}", found.len());

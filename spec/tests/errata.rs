@@ -15,13 +15,13 @@ mod support;
 use std::collections::{BTreeMap, BTreeSet};
 
 use actucheck_spec::Spec;
-use actucheck_spec::model::{Device, Erratum, HexBytes, ProofKind, Protocol};
+use actucheck_spec::model::{Device, Erratum, HexBytes, ProofKind};
+use actucheck_spec::wire::dynamixel2::{Dynamixel2, WIRE};
 
 use support::document::{self, Document};
 use support::{Finding, numbers, packets, ranges, references, rows};
 
 /// The wire of the documents whose examples are tables.
-const WIRE: &str = "dynamixel2";
 /// Those documents, and the device that each is about.
 const DOCUMENTS: [(&str, &str); 3] =
     [("ja40", "ja40"), ("ja-variant", "ja-variant"), ("dynamixel2", "xm430-w210")];
@@ -30,8 +30,8 @@ fn spec() -> Spec {
     Spec::embedded().expect("the spec is free of defects")
 }
 
-fn protocol(spec: &Spec) -> &Protocol {
-    spec.protocol(WIRE).unwrap()
+fn wire(spec: &Spec) -> &Dynamixel2 {
+    &spec.wires.dynamixel2.content
 }
 
 /// Each document with the device that it is about; empty where the documents are not there.
@@ -71,7 +71,7 @@ fn defective_vectors_and_errata_about_packets_name_each_other() {
             continue;
         };
         let ids = named(&spec, ProofKind::Packet, &vector.errata);
-        match (packets::is_intact(protocol(&spec), printed), ids.is_empty()) {
+        match (packets::is_intact(wire(&spec), printed), ids.is_empty()) {
             (false, true) => faults.push(format!(
                 "{} of {}: the printed bytes are wrong; name an erratum with proof kind packet",
                 vector.id, file.source
@@ -120,7 +120,7 @@ fn every_example_packet_is_a_vector_and_every_printed_vector_an_example() {
                 (source.document == document.id).then_some((source, &vector.id, printed))
             })
             .collect();
-        let examples = packets::examples(protocol(&spec), &document);
+        let examples = packets::examples(wire(&spec), &document);
         println!("{}: {} example packets", document.id, examples.len());
         for example in examples {
             let found = vectors.iter().position(|(source, _, printed)| {
@@ -158,7 +158,7 @@ fn the_printed_table_is_that_of_the_crc() {
         .flat_map(|text| text.split(','))
         .filter_map(|entry| u16::from_str_radix(entry.trim().strip_prefix("0x")?, 16).ok())
         .collect();
-    let right: Vec<_> = (0..=u8::MAX).map(|byte| protocol(&spec).crc.compute(&[byte])).collect();
+    let right: Vec<_> = (0..=u8::MAX).map(|byte| wire(&spec).crc.compute(&[byte])).collect();
     assert_eq!(printed, right);
 }
 
@@ -218,7 +218,7 @@ fn every_defect_found_is_an_erratum_and_every_erratum_with_a_proof_is_found() {
 }
 
 fn findings(spec: &Spec, document: &Document, device: &Device) -> Vec<Finding> {
-    let mut all = packets::findings(protocol(spec), document);
+    let mut all = packets::findings(wire(spec), document);
     all.extend(numbers::findings(document));
     all.extend(references::findings(device, document));
     all.extend(rows::findings(device, document));

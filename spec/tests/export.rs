@@ -8,7 +8,9 @@ use std::path::Path;
 use std::process::Command;
 use std::{env, fs};
 
-use actucheck_spec::model::{Bound, Device, Innfos, Protocol};
+use actucheck_spec::model::{Bound, Device};
+use actucheck_spec::wire::dynamixel2::Dynamixel2;
+use actucheck_spec::wire::innfos::Innfos;
 use actucheck_spec::{Spec, export};
 use serde_json::Value;
 
@@ -36,16 +38,16 @@ fn the_json_has_what_the_documents_print() {
     let row = |list: &Value, key: &str, wanted: &Value| -> Value {
         list.as_array().unwrap().iter().find(|row| row[key] == *wanted).unwrap().clone()
     };
-    assert_eq!(json["version"], 1);
+    assert_eq!(json["version"], 2);
     let ja40 = row(&json["devices"], "device", &"ja40".into());
     assert_eq!(ja40["registers"].as_array().unwrap().len(), 40);
     let goal = row(&ja40["registers"], "name", &"Goal Position".into());
     assert_eq!((&goal["address"], &goal["type"]), (&564.into(), &"i32".into()));
-    let wire = row(&json["protocols"], "protocol", &"dynamixel2".into());
+    let wire = &json["wires"]["dynamixel2"];
     let write = row(&wire["instructions"], "name", &"Write".into());
     assert_eq!((&write["code"], &write["parameters"][1]["size"]), (&3.into(), &"rest".into()));
     assert_eq!(row(&wire["status"]["errors"], "number", &7.into())["name"], "Access Error");
-    let position = row(&json["innfos"]["commands"], "code", &0x06.into());
+    let position = row(&json["wires"]["innfos"]["commands"], "code", &0x06.into());
     assert_eq!((&position["name"], &position["format"]), (&"Position".into(), &"iq24".into()));
 }
 
@@ -84,7 +86,7 @@ fn the_markdown_has_a_row_for_each_register_and_command() {
     };
     let registers = spec.device("ja40").unwrap().registers.len();
     assert_eq!(rows("### Control table of JA40\n", "\n### "), registers);
-    assert_eq!(rows("### Commands\n", "\n### "), spec.innfos.content.commands.len());
+    assert_eq!(rows("### Commands\n", "\n### "), spec.wires.innfos.content.commands.len());
     let goal = "| 564 | Goal Position | i32 | RAM | RW |  | Min Position Limit to Max Position Limit | 1 count | ja40 §2.3, ja40 §2.4.22 |";
     assert!(text.contains(goal), "{text}");
     for line in text.lines().filter(|line| line.starts_with('|')) {
@@ -148,10 +150,9 @@ impl Facts {
         }
     }
 
-    fn protocol(&mut self, protocol: &Protocol) {
-        let prefix = c_name(&protocol.protocol);
-        for row in &protocol.instructions {
-            self.add(&format!("{prefix}_INSTRUCTION_{}", c_name(&row.name)), row.code.into());
+    fn dynamixel2(&mut self, wire: &Dynamixel2) {
+        for row in &wire.instructions {
+            self.add(&format!("DYNAMIXEL2_INSTRUCTION_{}", c_name(&row.name)), row.code.into());
         }
     }
 
@@ -189,8 +190,8 @@ fn a_c_program_prints_what_the_yaml_says() {
     facts.add("sizeof((const unsigned char[])DYNAMIXEL2_CONTROL_TABLE_BACKUP_KEY)", 4);
     facts.add("INNFOS_ALARM_EQUIPMENT_ERROR_MASK", 0xF800);
     spec.devices.iter().for_each(|file| facts.device(&file.content));
-    spec.protocols.iter().for_each(|file| facts.protocol(&file.content));
-    facts.innfos(&spec.innfos.content);
+    facts.dynamixel2(&spec.wires.dynamixel2.content);
+    facts.innfos(&spec.wires.innfos.content);
 
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("c-header");
     fs::create_dir_all(&folder).unwrap();

@@ -5,67 +5,34 @@
 use std::collections::BTreeSet;
 
 use actucheck_spec::Spec;
-use actucheck_spec::model::{FrameKind, HexBytes, Outcome, Packet};
-use actucheck_spec::wire::dynamixel2::reference::{self, Call, Fast};
-use actucheck_spec::wire::innfos::reference as innfos;
+use actucheck_spec::model::{HexBytes, Outcome};
+use actucheck_spec::wire::dynamixel2::{Packet, reference};
+use actucheck_spec::wire::{self, Wire};
 
 #[test]
 fn every_golden_vector_is_built_read_or_rejected_as_it_says() {
     let spec = Spec::embedded().unwrap();
-    let mut seen = 0;
-    for (_, vector) in spec.vectors().filter(|(file, _)| file.wire == "dynamixel2") {
-        let id = &vector.id;
-        let decoded = match &vector.packet {
-            Some(Packet::FastStatus { blocks }) => {
-                let length = u16::try_from(blocks[0].data.len()).unwrap();
-                let ids = blocks.iter().map(|block| block.id).collect();
-                reference::decode_fast(vector.frame(), &Fast { length, ids })
+    for wire in Wire::ALL {
+        let mut seen = 0;
+        for (_, vector) in spec.vectors().filter(|(file, _)| file.wire == wire) {
+            let id = &vector.id;
+            let decoded = wire.decode(vector.frame(), &vector.context());
+            if let Some(packet) = &vector.packet {
+                if vector.result == Outcome::Valid {
+                    assert_eq!(wire.encode(packet).as_deref(), Some(vector.frame()), "{id}");
+                }
+                assert_eq!(decoded.as_ref(), Ok(packet), "{id}");
+            } else {
+                assert_eq!(decoded.err(), vector.fault, "{id}");
             }
-            _ => reference::decode(vector.frame()),
-        };
-        if let Some(packet) = &vector.packet {
-            assert_eq!(reference::encode(packet).as_deref(), Some(vector.frame()), "{id}");
-            assert_eq!(decoded.as_ref(), Ok(packet), "{id}");
-        } else {
-            assert_eq!(decoded.err(), vector.fault, "{id}");
-        }
-        if let (Some(printed), Some(fault)) = (vector.defective(), vector.printed_fault)
-            && !matches!(vector.packet, Some(Packet::FastStatus { .. }))
-        {
-            assert_eq!(reference::decode(printed), Err(fault), "{id}");
-        }
-        seen += 1;
-    }
-    assert!(seen > 70, "{seen} vectors");
-}
-
-#[test]
-fn every_innfos_vector_is_built_read_or_rejected_as_it_says() {
-    let spec = Spec::embedded().unwrap();
-    let mut seen = 0;
-    for (_, vector) in spec.vectors().filter(|(file, _)| file.wire == "innfos") {
-        let id = &vector.id;
-        let kind = match &vector.packet {
-            Some(Packet::Reply { .. }) => FrameKind::Reply,
-            Some(_) => FrameKind::Request,
-            None => vector.kind.unwrap(),
-        };
-        let decoded = innfos::decode(kind, vector.frame());
-        if let Some(packet) = &vector.packet {
-            if vector.result == Outcome::Valid {
-                let built = innfos::encode(packet);
-                assert_eq!(built.as_deref(), Some(vector.frame()), "{id}");
+            if let Some(printed) = vector.defective() {
+                let decoded = wire.decode(printed, &vector.context());
+                assert_eq!(decoded.err(), vector.printed_fault, "{id}");
             }
-            assert_eq!(decoded.as_ref(), Ok(packet), "{id}");
-        } else {
-            assert_eq!(decoded.err(), vector.fault, "{id}");
+            seen += 1;
         }
-        if let Some(printed) = vector.defective() {
-            assert_eq!(innfos::decode(kind, printed).err(), vector.printed_fault, "{id}");
-        }
-        seen += 1;
+        assert!(seen > 0, "no vectors of {wire}");
     }
-    assert!(seen > 70, "{seen} vectors");
 }
 
 #[test]
@@ -144,13 +111,13 @@ fn a_call_asks_what_the_printed_packet_does() {
     for (id, expected) in CALLS {
         let (_, vector) = spec.vectors().find(|(_, vector)| vector.id == id).unwrap();
         let packet = vector.packet.as_ref().unwrap();
-        assert_eq!(serde_json::to_string(&Call::of(packet)).unwrap(), expected, "{id}");
-        if let Packet::Instruction { instruction, .. } = packet {
+        let call = packet.wire().call(packet);
+        assert_eq!(serde_json::to_string(&call).unwrap(), expected, "{id}");
+        if let wire::Packet::Dynamixel2(Packet::Instruction { instruction, .. }) = packet {
             codes.insert(*instruction);
         }
     }
-    let protocol = spec.protocol("dynamixel2").unwrap();
-    let all = protocol.instructions.iter().map(|instruction| instruction.code);
+    let all = spec.wires.dynamixel2.content.instructions.iter().map(|instruction| instruction.code);
     assert_eq!(codes, all.collect(), "a call for each instruction");
 }
 
@@ -172,6 +139,6 @@ fn parameters_that_do_not_fit_have_no_call() {
     ] {
         let bytes = HexBytes::parse(params).unwrap();
         let packet = Packet::Instruction { id: 1, instruction, params: bytes };
-        assert_eq!(Call::of(&packet), None, "{instruction:#04X} {params}");
+        assert_eq!(reference::call(&packet), None, "{instruction:#04X} {params}");
     }
 }

@@ -2,7 +2,8 @@
 
 use actucheck_codec::dynamixel2::stream::{self, Parser, Reason};
 use actucheck_codec::dynamixel2::{Frame, frame};
-use actucheck_spec::model::{Fault, Packet};
+use actucheck_spec::model::Fault;
+use actucheck_spec::wire::dynamixel2::Packet;
 use actucheck_spec::wire::dynamixel2::reference::{Event, events};
 
 /// The event as the reference tells it; a frame's bytes are those that encoding it gives.

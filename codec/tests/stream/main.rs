@@ -4,7 +4,8 @@
 #![allow(clippy::indexing_slicing, clippy::unwrap_used)]
 
 use actucheck_codec::dynamixel2::stream::{self, Parser};
-use actucheck_spec::model::{Fault, Packet};
+use actucheck_spec::model::Fault;
+use actucheck_spec::wire::dynamixel2::Packet;
 use actucheck_spec::wire::dynamixel2::reference::{self, Event, frame};
 use drive::{drain, expected, owned, parse};
 use proptest::collection::vec;

@@ -3,8 +3,8 @@
 
 use std::fmt;
 
-use actucheck_spec::model::{Fault, FrameKind, HexBytes, Packet};
-use actucheck_spec::wire::dynamixel2::reference::{Call, Fast};
+use actucheck_spec::model::{Fault, HexBytes};
+use actucheck_spec::wire::{Call, Direction, Fast, Packet};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -12,38 +12,7 @@ use serde_json::Value;
 /// The version of the adapter protocol that this suite speaks.
 pub const VERSION: u32 = 1;
 
-/// A wire whose packets are checked.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Wire {
-    /// DYNAMIXEL Protocol 2.0 and its JA dialect.
-    Dynamixel2,
-    /// The INNFOS Ethernet protocol.
-    Innfos,
-}
-
-impl Wire {
-    /// Every wire.
-    pub const ALL: [Self; 2] = [Self::Dynamixel2, Self::Innfos];
-
-    /// Its id in the spec and in the adapter protocol.
-    #[must_use]
-    pub const fn id(self) -> &'static str {
-        match self {
-            Self::Dynamixel2 => "dynamixel2",
-            Self::Innfos => "innfos",
-        }
-    }
-
-    /// Its name for people.
-    #[must_use]
-    pub const fn title(self) -> &'static str {
-        match self {
-            Self::Dynamixel2 => "DYNAMIXEL Protocol 2.0 and its JA dialect",
-            Self::Innfos => "The INNFOS Ethernet protocol",
-        }
-    }
-}
+pub use actucheck_spec::wire::Wire;
 
 /// What the suite says to an adapter, as it is sent over the pipe, without its id.
 #[derive(Clone, Debug, Serialize)]
@@ -105,19 +74,19 @@ pub enum Question {
         /// For a fast status packet: the request that it answers.
         #[serde(skip_serializing_if = "Option::is_none")]
         fast: Option<Fast>,
-        /// For INNFOS: the direction of the frame.
+        /// Where a frame does not tell its direction: the direction of the frame.
         #[serde(skip_serializing_if = "Option::is_none")]
-        kind: Option<FrameKind>,
+        kind: Option<Direction>,
     },
     /// The valid packets of a stream.
     Stream {
         /// The wire.
         wire: Wire,
-        /// The stream in chunks; for INNFOS each chunk is a datagram.
+        /// The stream in chunks; on a wire of datagrams each chunk is one.
         chunks: Vec<HexBytes>,
-        /// For INNFOS: the direction of the frames.
+        /// Where a frame does not tell its direction: the direction of the frames.
         #[serde(skip_serializing_if = "Option::is_none")]
-        kind: Option<FrameKind>,
+        kind: Option<Direction>,
     },
 }
 
@@ -174,8 +143,15 @@ impl<'de> Deserialize<'de> for Called {
         let called = fields.remove("call").is_some();
         let packet: Packet =
             serde_json::from_value(Value::Object(fields)).map_err(serde::de::Error::custom)?;
-        let call = called.then(|| Call::of(&packet)).flatten();
+        let call = called.then(|| packet.wire().call(&packet)).flatten();
         Ok(Self { packet, call })
+    }
+}
+
+impl<P: Into<Packet>> From<P> for Called {
+    fn from(packet: P) -> Self {
+        let packet = packet.into();
+        Self { call: packet.wire().call(&packet), packet }
     }
 }
 
@@ -248,6 +224,11 @@ pub enum Output {
 }
 
 impl Output {
+    /// Of `stream`, the packets of one wire.
+    pub fn packets<P: Into<Packet>>(packets: impl IntoIterator<Item = P>) -> Self {
+        Self::Packets(packets.into_iter().map(Into::into).collect())
+    }
+
     /// Reads the `ok` object of a reply to `op`.
     ///
     /// # Errors

@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use actucheck_spec::model::{Fault, Packet};
+use actucheck_spec::model::Fault;
+use actucheck_spec::wire::Packet;
 
 use crate::adapter::Output;
 use crate::subject::Answer;
@@ -130,34 +131,9 @@ fn difference(expected: Option<&Output>, actual: Option<&Output>) -> &'static st
 
 /// The first field in which two packets differ.
 fn field(expected: &Packet, actual: &Packet) -> &'static str {
-    match (expected, actual) {
-        (
-            Packet::Instruction { id, instruction, .. },
-            Packet::Instruction { id: other_id, instruction: other, .. },
-        ) => match (id == other_id, instruction == other) {
-            (false, _) => "ID",
-            (_, false) => "instruction",
-            _ => "parameters",
-        },
-        (Packet::Status { id, error, .. }, Packet::Status { id: other_id, error: other, .. }) => {
-            match (id == other_id, error == other) {
-                (false, _) => "ID",
-                (_, false) => "error",
-                _ => "parameters",
-            }
-        }
-        (
-            Packet::Request { address, command, .. },
-            Packet::Request { address: other_address, command: other, .. },
-        )
-        | (
-            Packet::Reply { address, command, .. },
-            Packet::Reply { address: other_address, command: other, .. },
-        ) => match (address == other_address, command == other) {
-            (false, _) => "address",
-            (_, false) => "command",
-            _ => "data",
-        },
-        _ => "kind of packet",
+    if expected.wire() == actual.wire() {
+        expected.wire().difference(expected, actual)
+    } else {
+        "kind of packet"
     }
 }

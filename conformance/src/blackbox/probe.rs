@@ -1,18 +1,20 @@
 //! Probes: questions that proptest generates and shrinks.
 
-use actucheck_spec::model::{HexBytes, Packet};
-use actucheck_spec::wire::dynamixel2::reference;
-use actucheck_spec::wire::innfos::reference as innfos;
+use actucheck_spec::model::HexBytes;
+use actucheck_spec::wire::{Packet, Wire};
 use proptest::collection::vec;
 use proptest::prelude::{BoxedStrategy, Just, Strategy, any};
 use proptest::prop_oneof;
 use proptest::strategy::Union;
 
-use crate::adapter::{Hello, Wire};
-use crate::suite::codec::dynamixel2::generated::{data, instruction, status};
+use super::wire::{self, Probes};
+use crate::adapter::Hello;
+use crate::suite::Author;
+use crate::suite::check::Check;
+use crate::suite::codec::dynamixel2::generated::data;
 
 /// The longest data of a probe, in bytes.
-const LONGEST: usize = 48;
+pub(super) const LONGEST: usize = 48;
 
 /// A question before it becomes a check.
 #[derive(Clone, Debug)]
@@ -51,20 +53,21 @@ pub(super) fn strategy(wire: Wire, hello: &Hello) -> Option<BoxedStrategy<Probe>
     if !hello.wires.iter().any(|offered| offered == wire.id()) {
         return None;
     }
-    let packet = || packet(wire);
+    let probes = wire::of(wire)?;
+    let packet = probes.packet;
     let all = [
         ("crc", 1, data(0..LONGEST).prop_map(Probe::Crc).boxed()),
         ("stuff", 2, data(0..LONGEST).prop_map(Probe::Stuff).boxed()),
         ("unstuff", 2, data(0..LONGEST).prop_map(Probe::Unstuff).boxed()),
         ("encode", 4, packet().prop_map(Probe::Encode).boxed()),
         ("decode", 4, (packet(), vec(damage(), 0..3)).prop_map(decode).boxed()),
-        ("stream", 3, (vec(part(wire), 1..5), vec(any::<u16>(), 0..6)).prop_map(stream).boxed()),
+        ("stream", 3, (vec(part(probes), 1..5), vec(any::<u16>(), 0..6)).prop_map(stream).boxed()),
     ];
-    let stuffed = |op: &str| wire == Wire::Dynamixel2 || !op.ends_with("stuff");
+    let exists = |op: &str| wire.has_stuffing() || !op.ends_with("stuff");
     let offered = |op: &str| hello.ops.iter().any(|other| other == op);
     let asked: Vec<_> = all
         .into_iter()
-        .filter(|(op, _, _)| stuffed(op) && offered(op))
+        .filter(|(op, _, _)| exists(op) && offered(op))
         .map(|(_, weight, strategy)| (weight, strategy))
         .collect();
     (!asked.is_empty()).then(|| Union::new_weighted(asked).boxed())
@@ -78,53 +81,9 @@ fn stream((parts, cuts): (Vec<Part>, Vec<u16>)) -> Probe {
     Probe::Stream(parts, cuts)
 }
 
-fn packet(wire: Wire) -> BoxedStrategy<Named> {
-    match wire {
-        Wire::Dynamixel2 => prop_oneof![
-            8 => status().prop_map(|packet| ("status", packet)),
-            8 => instruction(),
-            1 => any_instruction(),
-            1 => long_status(),
-        ]
-        .boxed(),
-        Wire::Innfos => (any::<bool>(), any::<u8>(), any::<u8>(), data(0..LONGEST))
-            .prop_map(|(request, address, command, data)| {
-                let data = data.into();
-                if request {
-                    ("request", Packet::Request { address, command, data })
-                } else {
-                    ("reply", Packet::Reply { address, command, data })
-                }
-            })
-            .boxed(),
-    }
-}
-
-/// Any code, with parameters that may not fit it.
-fn any_instruction() -> impl Strategy<Value = Named> {
-    let code = prop_oneof![Just(0xFF_u8), any::<u8>()]
-        .prop_map(|code| if code == reference::STATUS { 0 } else { code });
-    (code, data(0..LONGEST)).prop_map(|(instruction, params)| {
-        let params = params.into();
-        ("", Packet::Instruction { id: 1, instruction, params })
-    })
-}
-
-/// A packet whose length needs both bytes.
-fn long_status() -> impl Strategy<Value = Named> {
-    data(240..600).prop_map(|params| {
-        let params = params.into();
-        ("status", Packet::Status { id: 1, error: 0, params })
-    })
-}
-
-fn part(wire: Wire) -> BoxedStrategy<Part> {
-    let frame = match wire {
-        Wire::Dynamixel2 => status().boxed(),
-        Wire::Innfos => packet(wire).prop_map(|(_, packet)| packet).boxed(),
-    };
+fn part(probes: Probes) -> BoxedStrategy<Part> {
     let damage = prop_oneof![3 => Just(Vec::new()), 1 => vec(damage(), 1..3)];
-    (data(0..6), frame, damage).boxed()
+    (data(0..6), (probes.streamed)(), damage).boxed()
 }
 
 fn damage() -> impl Strategy<Value = Damage> {
@@ -151,24 +110,16 @@ impl Damage {
             }
             Self::Cut(at) => frame.truncate(place(at, frame.len())),
             Self::Insert(at, byte) => frame.insert(place(at, frame.len() + 1), byte),
-            Self::Repair => repair(wire, frame),
+            Self::Repair => wire.repair(frame),
         }
     }
 }
 
-fn repair(wire: Wire, frame: &mut [u8]) {
-    let tail = match wire {
-        Wire::Dynamixel2 => 0,
-        Wire::Innfos => 1,
-    };
-    let Some(end) = frame.len().checked_sub(2 + tail) else { return };
-    let before = frame.get(..end).unwrap_or_default();
-    let crc = match wire {
-        Wire::Dynamixel2 => reference::crc(before),
-        Wire::Innfos => innfos::crc(before.get(5..).unwrap_or_default()),
-    };
-    for (slot, byte) in frame.iter_mut().skip(end).zip(crc.to_le_bytes()) {
-        *slot = byte;
+impl Probe {
+    /// The check that it is; `None` if the documents leave open what is right.
+    pub(super) fn check(&self, author: &Author<'_>, id: String) -> Option<Check> {
+        let (requirement, op, demand) = (wire::of(author.wire)?.question)(author, self)?;
+        Some(author.check(id, &requirement, op, demand))
     }
 }
 
@@ -183,7 +134,7 @@ pub(super) fn joined(wire: Wire, parts: &[Part]) -> Option<Vec<u8>> {
     let mut stream = Vec::new();
     for (noise, packet, damage) in parts {
         stream.extend(noise);
-        stream.extend(damaged(wire, reference::encode(packet)?, damage));
+        stream.extend(damaged(wire, wire.encode(packet)?, damage));
     }
     Some(stream)
 }

@@ -1,18 +1,15 @@
 //! `actucheck decode`.
 
-use std::fmt;
 use std::io::{self, Read as _, Write as _};
 use std::process::ExitCode;
 
 use actucheck::adapter::{Output, Question, Wire};
-use actucheck::explain::frame::{explain, explain_fast};
-use actucheck::explain::{Explanation, innfos};
+use actucheck::explain::{Asked, Explanation, explain};
 use actucheck::subject::{Answer, Builtin, Subject as _};
-use actucheck_codec::dynamixel2::Instruction;
 use actucheck_codec::register::Device;
 use actucheck_codec::{ja_variant, ja40, xm430_w210};
-use actucheck_spec::model::{FrameKind, HexBytes};
-use actucheck_spec::wire::dynamixel2::reference::Fast;
+use actucheck_spec::model::HexBytes;
+use actucheck_spec::wire::{Context, Direction, Fast};
 use clap::Args;
 
 use super::shared::table::{self, BOLD};
@@ -40,9 +37,9 @@ pub(crate) struct Decode {
     /// The packet's wire
     #[arg(long, value_parser = wire(), default_value = "dynamixel2")]
     wire: Wire,
-    /// The packet's direction; an innfos frame does not state it
+    /// The packet's direction, on a wire whose frames do not state it
     #[arg(long, alias = "kind", value_parser = one_of(DIRECTIONS))]
-    direction: Option<FrameKind>,
+    direction: Option<Direction>,
     /// The device whose registers are meant
     #[arg(long, value_name = "DEVICE", value_parser = one_of(DEVICES.map(|device| (device, device.id, device.name))), default_value = "ja40")]
     device: &'static Device,
@@ -58,49 +55,33 @@ pub(crate) struct Decode {
     hex: Vec<String>,
 }
 
-const DIRECTIONS: [(FrameKind, &str, &str); 2] =
-    [(FrameKind::Request, "request", "From the host"), (FrameKind::Reply, "reply", "To the host")];
+const DIRECTIONS: [(Direction, &str, &str); 2] =
+    [(Direction::Request, "request", "From the host"), (Direction::Reply, "reply", "To the host")];
 
 /// The devices whose registers have names here.
 const DEVICES: [&Device; 3] = [&ja40::DEVICE, &ja_variant::DEVICE, &xm430_w210::DEVICE];
 
-/// Offset of the instruction in a packet.
-const INSTRUCTION: usize = 7;
-
 /// Explains the packet, or prints it as an object.
 pub(crate) fn run(options: &Decode) -> Result<ExitCode, Failure> {
     let bytes = bytes(&options.hex)?;
-    let explanation = match options.wire {
-        Wire::Dynamixel2 => dynamixel2(options, &bytes)?,
-        Wire::Innfos => innfos::explain(direction(options)?, &bytes)
-            .map_err(|error| invalid(&error, error.offset()))?,
-    };
+    let (wire, direction) = (options.wire, options.direction);
+    if direction.is_none() && !wire.tells_direction() {
+        let message = format!(
+            "a frame of {wire} does not state its direction; add --direction request or \
+             --direction reply"
+        );
+        return Err(Failure::usage(message));
+    }
+    let context = Context { fast: options.fast.clone(), direction };
+    let (device, address) = (options.device, options.address);
+    let asked = Asked { bytes: &bytes, context, device, address };
+    let explanation = explain(wire, &asked)
+        .map_err(|error| Failure::failed(format!("no valid packet, {error}")))?;
+    check_direction(wire, &asked)?;
     let text = if options.json { json(options, bytes)? } else { table(&explanation) };
     // A closed pipe, as of `| head`, is not an error.
     let _ = write!(anstream::stdout(), "{text}");
     Ok(ExitCode::SUCCESS)
-}
-
-fn dynamixel2(options: &Decode, bytes: &[u8]) -> Result<Explanation, Failure> {
-    let explanation = match &options.fast {
-        Some(fast) => explain_fast(bytes, fast),
-        None => explain(bytes, options.device, options.address),
-    };
-    check_direction(options.direction, bytes)?;
-    explanation.map_err(|error| invalid(&error, error.offset()))
-}
-
-/// The direction of an INNFOS frame, which the frame itself does not state.
-fn direction(options: &Decode) -> Result<actucheck_codec::innfos::Kind, Failure> {
-    match options.direction {
-        Some(FrameKind::Request) => Ok(actucheck_codec::innfos::Kind::Request),
-        Some(FrameKind::Reply) => Ok(actucheck_codec::innfos::Kind::Reply),
-        None => {
-            let message = "an innfos frame does not state its direction; add \
-                           --direction request or --direction reply";
-            Err(Failure::usage(message))
-        }
-    }
 }
 
 fn bytes(arguments: &[String]) -> Result<Vec<u8>, Failure> {
@@ -117,24 +98,14 @@ fn bytes(arguments: &[String]) -> Result<Vec<u8>, Failure> {
 }
 
 /// Refuses a packet whose direction is not the one that the user gave.
-fn check_direction(told: Option<FrameKind>, bytes: &[u8]) -> Result<(), Failure> {
-    let found = match bytes.get(INSTRUCTION) {
-        Some(code) if *code == Instruction::Status.code() => FrameKind::Reply,
-        _ => FrameKind::Request,
-    };
-    match told {
-        Some(told) if told != found => {
-            let message = format!(
-                "no valid {told:?}: byte {INSTRUCTION}, the instruction, makes it a {found:?}"
-            );
-            Err(Failure::failed(message.to_lowercase()))
+fn check_direction(wire: Wire, asked: &Asked<'_>) -> Result<(), Failure> {
+    let found = wire.decode(asked.bytes, &asked.context).map(|packet| packet.direction());
+    match (asked.context.direction, found) {
+        (Some(told), Ok(found)) if told != found => {
+            Err(Failure::failed(format!("no valid {told}: the packet is a {found}")))
         }
         _ => Ok(()),
     }
-}
-
-fn invalid(error: &impl fmt::Display, offset: usize) -> Failure {
-    Failure::failed(format!("no valid packet, from byte {offset} on: {error}"))
 }
 
 /// The packet as the adapter protocol has it.

@@ -73,6 +73,6 @@ fn named(options: &Replay, spec: &Spec, hello: &Hello) -> Result<(Wire, Vec<Chec
         return Ok((wire, vec![check]));
     }
     let checks = saved::read(path).map_err(Failure::usage)?;
-    let wire = checks.first().map_or(Wire::Dynamixel2, |check| check.question.wire());
+    let wire = checks.first().map_or_else(Wire::default, |check| check.question.wire());
     Ok((wire, checks))
 }

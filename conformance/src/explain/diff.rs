@@ -105,19 +105,6 @@ pub fn spaced(bytes: &[u8]) -> String {
     bytes.join(" ")
 }
 
-/// The part of a packet that the byte at `offset` of a whole frame belongs to.
-#[must_use]
-pub fn part_of_frame(frame: &[u8], offset: usize) -> &'static str {
-    match offset {
-        0..4 => "header",
-        4 => "ID",
-        5..7 => "length",
-        7 => "instruction",
-        _ if offset + 2 >= frame.len() => "CRC",
-        _ => "parameters",
-    }
-}
-
 fn differs(bytes: &[u8]) -> Vec<Segment> {
     let (shown, rest) = bytes.split_at_checked(LONGEST).unwrap_or((bytes, &[]));
     let mut segments = Vec::new();
@@ -175,15 +162,5 @@ mod tests {
         assert_eq!((shown.len(), *rest), (LONGEST, 7_000_000 - LONGEST));
         assert_eq!(diff.expected.to_string(), "01 [02] 03");
         assert_eq!(diff.first, Some(1));
-    }
-
-    #[test]
-    fn each_byte_of_a_frame_has_a_part() {
-        let frame = [0xFF, 0xFF, 0xFD, 0x00, 1, 4, 0, 0x55, 0, 0xA1, 0x0C];
-        let parts: Vec<_> = (0..frame.len()).map(|at| part_of_frame(&frame, at)).collect();
-        assert_eq!(
-            parts[4..],
-            ["ID", "length", "length", "instruction", "parameters", "CRC", "CRC"]
-        );
     }
 }

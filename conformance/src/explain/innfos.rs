@@ -1,18 +1,25 @@
 //! One frame of the INNFOS Ethernet protocol, field by field.
 
 use actucheck_codec::innfos::{Frame, FrameError, Kind, Message, MessageError, Value};
+use actucheck_spec::wire::Direction;
 
 use super::table::{Explanation, Table, rounded};
+use super::{Asked, Invalid};
 
 /// Sizes in bytes: header, address, command and length together; the CRC with the end byte.
 const PREFIX: usize = 5;
 const CRC_AND_END: usize = 3;
 
 /// Explains a whole frame.
-///
-/// # Errors
-/// The first rule that the bytes break.
-pub fn explain(kind: Kind, bytes: &[u8]) -> Result<Explanation, FrameError> {
+pub(super) fn explain(asked: &Asked<'_>) -> Result<Explanation, Invalid> {
+    let kind = match asked.context.direction {
+        Some(Direction::Reply) => Kind::Reply,
+        _ => Kind::Request,
+    };
+    frame(kind, asked.bytes).map_err(|error| Invalid::new(error.offset(), &error))
+}
+
+fn frame(kind: Kind, bytes: &[u8]) -> Result<Explanation, FrameError> {
     let frame = Frame::parse(kind, bytes)?;
     let mut table = Table::new(bytes);
     table.take(1, "header", |_| String::new());

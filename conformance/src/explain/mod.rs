@@ -1,8 +1,71 @@
-//! Explains in words what bytes mean and where they differ.
+//! Explains in words what bytes mean and where they differ. A wire has a module of its own, which
+//! [`WIRES`] lists.
 
 pub mod diff;
-pub mod frame;
-pub mod innfos;
+mod dynamixel2;
+mod innfos;
 mod table;
 
-pub use table::{Explanation, Row};
+use std::fmt;
+
+use actucheck_codec::register::Device;
+use actucheck_spec::wire::{self, Context, Wire};
+
+use self::table::Table;
+
+pub use self::table::{Explanation, Row};
+
+/// A frame, with what is known about it.
+#[derive(Clone, Debug)]
+pub struct Asked<'a> {
+    /// The whole frame.
+    pub bytes: &'a [u8],
+    /// What a reader has to know beside the bytes.
+    pub context: Context,
+    /// The device whose registers are meant.
+    pub device: &'a Device,
+    /// The address at which the data of an answer was read, if known.
+    pub address: Option<u16>,
+}
+
+/// The first rule that a frame breaks.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("from byte {offset} on: {reason}")]
+pub struct Invalid {
+    offset: usize,
+    reason: String,
+}
+
+impl Invalid {
+    fn new(offset: usize, reason: &impl fmt::Display) -> Self {
+        Self { offset, reason: reason.to_string() }
+    }
+}
+
+type Explain = fn(&Asked<'_>) -> Result<Explanation, Invalid>;
+
+/// The wires whose frames are explained in detail.
+const WIRES: [(Wire, Explain); 2] =
+    [(wire::dynamixel2::WIRE, dynamixel2::explain), (wire::innfos::WIRE, innfos::explain)];
+
+/// Explains a whole frame.
+///
+/// # Errors
+/// The first rule that the bytes break.
+pub fn explain(wire: Wire, asked: &Asked<'_>) -> Result<Explanation, Invalid> {
+    let own = WIRES.into_iter().find(|(other, _)| *other == wire);
+    own.map_or_else(|| parts(wire, asked), |(_, explain)| explain(asked))
+}
+
+/// Names the parts of a frame, without their meaning.
+fn parts(wire: Wire, asked: &Asked<'_>) -> Result<Explanation, Invalid> {
+    let packet =
+        wire.decode(asked.bytes, &asked.context).map_err(|fault| Invalid::new(0, &fault))?;
+    let mut table = Table::new(asked.bytes);
+    let places: Vec<_> =
+        (0..asked.bytes.len()).map(|offset| wire.part(asked.bytes, offset)).collect();
+    for part in places.chunk_by(|one, other| one == other) {
+        table.take(part.len(), part.first().copied().unwrap_or_default(), |_| String::new());
+    }
+    Ok(Explanation { title: format!("{wire} {}", packet.direction()), rows: table.rows })
+}

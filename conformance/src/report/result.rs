@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use actucheck_spec::Spec;
 
 use super::model::{CheckResult, Header};
-use crate::adapter::{Implementation, Question, Wire};
+use crate::adapter::{Implementation, Question};
 use crate::explain::diff;
 use crate::suite::Options;
 use crate::verdict::Outcome;
@@ -64,11 +64,9 @@ impl Run<'_> {
         let diff = bytes.map(|(expected, actual)| diff::bytes(expected, actual));
         let first = diff.as_ref().and_then(|diff| diff.first);
         let differs_in = match (&outcome.request, bytes, first) {
-            (
-                Some(Question::Encode { wire: Wire::Dynamixel2, .. }),
-                Some((expected, _)),
-                Some(at),
-            ) => Some(diff::part_of_frame(expected, at).to_owned()),
+            (Some(Question::Encode { wire, .. }), Some((expected, _)), Some(at)) => {
+                Some(wire.part(expected, at).to_owned())
+            }
             _ => None,
         };
         let replay = outcome.request.is_some().then(|| self.replay(&outcome.id));

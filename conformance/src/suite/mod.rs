@@ -1,8 +1,8 @@
 //! The checks: their sources, what their answers must be, and files of checks.
 //!
 //! The right answer of a golden check is printed in a document; the right answers of the other
-//! checks come from [`mod@reference`]. Ids are permanent: an id names the question, not its place
-//! in the list.
+//! checks come from the wire's reference model. Ids are permanent: an id names the question, not
+//! its place in the list.
 
 pub mod check;
 pub(crate) mod codec;
@@ -12,8 +12,8 @@ pub mod saved;
 pub mod select;
 
 use actucheck_spec::Spec;
-use actucheck_spec::model::{Citation, Level, Packet};
-use actucheck_spec::wire::dynamixel2::reference::{self, Call};
+use actucheck_spec::model::{Citation, Level};
+use actucheck_spec::wire::{Context, Packet};
 
 use self::check::{Check, Demand};
 use self::plan::Plan;
@@ -92,17 +92,20 @@ impl Author<'_> {
     }
 
     /// Encodes and decodes one packet; the reference model gives the right answers.
-    fn both_ways(&self, id: &str, requirement: &str, packet: &Packet) -> Vec<Check> {
-        let Some(bytes) = reference::encode(packet) else { return Vec::new() };
-        let called = Called { call: Call::of(packet), packet: packet.clone() };
-        let encode = Question::Encode { wire: self.wire, packet: called };
+    fn both_ways<P>(&self, id: &str, requirement: &str, packet: &P) -> Vec<Check>
+    where
+        P: Clone + Into<Packet>,
+    {
+        let packet = packet.clone().into();
+        let Some(bytes) = self.wire.encode(&packet) else { return Vec::new() };
+        let encode = Question::Encode { wire: self.wire, packet: Called::from(packet.clone()) };
         let decode = Question::Decode {
             wire: self.wire,
             bytes: bytes.clone().into(),
             fast: None,
             kind: None,
         };
-        let (bytes, packet) = (Output::Bytes(bytes.into()), Output::Packet(packet.clone()));
+        let (bytes, packet) = (Output::Bytes(bytes.into()), Output::Packet(packet));
         vec![
             self.check(format!("{id}/encode"), requirement, encode, Demand::Yield(bytes)),
             self.check(
@@ -116,7 +119,7 @@ impl Author<'_> {
 
     /// Decodes a frame; the reference model says whether it is a packet.
     fn decoded(&self, id: String, requirement: &str, bytes: Vec<u8>) -> Check {
-        let demand = match reference::decode(&bytes) {
+        let demand = match self.wire.decode(&bytes, &Context::default()) {
             Ok(packet) => Demand::Yield(Output::Packet(packet)),
             Err(fault) => Demand::Reject(fault),
         };
@@ -126,8 +129,8 @@ impl Author<'_> {
 
     /// The packets of a stream that the reference model finds.
     fn streamed(&self, id: String, requirement: &str, chunks: &[Vec<u8>]) -> Check {
-        let packets = reference::packets(&chunks.concat());
-        let chunks = chunks.iter().map(|chunk| chunk.clone().into()).collect();
+        let chunks: Vec<_> = chunks.iter().map(|chunk| chunk.clone().into()).collect();
+        let packets = self.wire.stream(&chunks, None);
         let op = Question::Stream { wire: self.wire, chunks, kind: None };
         self.check(id, requirement, op, Demand::Yield(Output::Packets(packets)))
     }

@@ -1,7 +1,8 @@
 //! Implementations of DYNAMIXEL Protocol 2.0 that are wrong in one way each.
 
 use actucheck::adapter::{Output, Question};
-use actucheck_spec::model::Packet;
+use actucheck_spec::wire;
+use actucheck_spec::wire::dynamixel2::Packet;
 use actucheck_spec::wire::dynamixel2::reference::{self, HEADER};
 
 use super::{Mutant, Wrong, bytes};
@@ -86,7 +87,7 @@ pub(super) static MUTANTS: [Mutant; 14] = [
             Question::Decode { bytes, fast: None, .. } => match reference::decode(bytes).ok()? {
                 Packet::Status { id, error, .. } => {
                     let params = bytes[9..bytes.len() - 2].to_vec().into();
-                    Some(Output::Packet(Packet::Status { id, error, params }))
+                    Some(Output::Packet(Packet::Status { id, error, params }.into()))
                 }
                 _ => None,
             },
@@ -136,7 +137,7 @@ pub(super) static MUTANTS: [Mutant; 14] = [
         name: "reads the length's low byte only",
         wrong: Wrong::Answers(|op| match op {
             Question::Encode { packet, .. } => {
-                let mut frame = reference::encode(&packet.packet)?;
+                let mut frame = packet.packet.wire().encode(&packet.packet)?;
                 frame[6] = 0;
                 Some(bytes(with_crc(frame)))
             }
@@ -150,7 +151,7 @@ pub(super) static MUTANTS: [Mutant; 14] = [
         wrong: Wrong::Answers(|op| match op {
             Question::Decode { bytes, fast: None, .. } => match reference::decode(bytes).ok()? {
                 Packet::Status { id, error, params } => {
-                    Some(Output::Packet(Packet::Status { id, error: error & 0x7F, params }))
+                    Some(Output::Packet(Packet::Status { id, error: error & 0x7F, params }.into()))
                 }
                 _ => None,
             },
@@ -162,9 +163,9 @@ pub(super) static MUTANTS: [Mutant; 14] = [
     Mutant {
         name: "forgets what it has of a packet when a chunk ends",
         wrong: Wrong::Answers(|op| match op {
-            Question::Stream { chunks, .. } => Some(Output::Packets(
-                chunks.iter().flat_map(|chunk| reference::packets(chunk)).collect(),
-            )),
+            Question::Stream { chunks, .. } => {
+                Some(Output::packets(chunks.iter().flat_map(|chunk| reference::packets(chunk))))
+            }
             _ => None,
         }),
         found_by: "dynamixel2.stream.good-good/bytewise",
@@ -191,14 +192,15 @@ pub(super) static MUTANTS: [Mutant; 14] = [
 /// ID and body of a packet that is to be encoded.
 fn body_of(op: &Question) -> Option<(u8, Vec<u8>)> {
     let Question::Encode { packet, .. } = op else { return None };
-    match &packet.packet {
+    let wire::Packet::Dynamixel2(packet) = &packet.packet else { return None };
+    match packet {
         Packet::Instruction { id, instruction, params } => {
             Some((*id, [&[*instruction], params.0.as_slice()].concat()))
         }
         Packet::Status { id, error, params } => {
             Some((*id, [&[0x55, *error], params.0.as_slice()].concat()))
         }
-        _ => None,
+        Packet::FastStatus { .. } => None,
     }
 }
 
@@ -210,5 +212,5 @@ fn with_crc(mut frame: Vec<u8>) -> Vec<u8> {
 }
 
 fn read_leniently(frame: &[u8]) -> Option<Output> {
-    reference::decode(frame).ok().map(Output::Packet)
+    reference::decode(frame).ok().map(|packet| Output::Packet(packet.into()))
 }

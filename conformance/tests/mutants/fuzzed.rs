@@ -10,13 +10,14 @@ use actucheck::suite::plan::Plan;
 use actucheck::suite::saved;
 use actucheck::verdict::Verdict;
 use actucheck_spec::Spec;
+use actucheck_spec::wire::dynamixel2;
 
 use super::Mutated;
 use super::dynamixel2::MUTANTS;
 
 fn fuzzed(subject: &mut dyn Subject, seed: u64, cases: u64) -> Fuzzed {
     let spec = Spec::embedded().unwrap();
-    fuzz(&spec, Wire::Dynamixel2, seed, cases, subject, |_, _| ControlFlow::Continue(()))
+    fuzz(&spec, dynamixel2::WIRE, seed, cases, subject, |_, _| ControlFlow::Continue(()))
 }
 
 /// The size of a question.

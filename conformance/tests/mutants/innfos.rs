@@ -1,8 +1,8 @@
 //! Implementations of the INNFOS Ethernet protocol that are wrong in one way each.
 
 use actucheck::adapter::{Output, Question};
-use actucheck_spec::model::{FrameKind, Packet};
-use actucheck_spec::wire::innfos::reference;
+use actucheck_spec::wire::innfos::{Packet, reference};
+use actucheck_spec::wire::{self, Direction};
 
 use super::{Mutant, Wrong, bytes};
 
@@ -46,7 +46,7 @@ pub(super) static MUTANTS: [Mutant; 7] = [
             let crc = reference::crc(frame.get(5..frame.len().checked_sub(3)?)?).to_le_bytes();
             let at = frame.len() - 3;
             frame[at..at + 2].copy_from_slice(&crc);
-            read(kind.unwrap_or(FrameKind::Reply), &frame)
+            read(kind.unwrap_or(Direction::Reply), &frame)
         }),
         found_by: "innfos.negative.reply.flip-9-0/decode",
         found_by_documents: true,
@@ -57,7 +57,7 @@ pub(super) static MUTANTS: [Mutant; 7] = [
             let Question::Decode { bytes, kind, .. } = op else { return None };
             let mut frame = bytes.0.clone();
             *frame.last_mut()? = 0xED;
-            read(kind.unwrap_or(FrameKind::Reply), &frame)
+            read(kind.unwrap_or(Direction::Reply), &frame)
         }),
         found_by: "innfos.negative.request.flip-11-0/decode",
         found_by_documents: false,
@@ -78,9 +78,9 @@ pub(super) static MUTANTS: [Mutant; 7] = [
         wrong: Wrong::Answers(|op| {
             let Question::Stream { chunks, kind, .. } = op else { return None };
             let found = chunks.iter().filter_map(|chunk| {
-                reference::packets(kind.unwrap_or(FrameKind::Reply), chunk).into_iter().next()
+                reference::packets(kind.unwrap_or(Direction::Reply), chunk).into_iter().next()
             });
-            Some(Output::Packets(found.collect()))
+            Some(Output::packets(found))
         }),
         found_by: "innfos.reply.size.4/stream-twice",
         found_by_documents: false,
@@ -89,12 +89,11 @@ pub(super) static MUTANTS: [Mutant; 7] = [
 
 /// The packet to encode.
 fn packet(op: &Question) -> Option<&Packet> {
-    match op {
-        Question::Encode { packet, .. } => Some(&packet.packet),
-        _ => None,
-    }
+    let Question::Encode { packet, .. } = op else { return None };
+    let wire::Packet::Innfos(packet) = &packet.packet else { return None };
+    Some(packet)
 }
 
-fn read(kind: FrameKind, frame: &[u8]) -> Option<Output> {
-    reference::decode(kind, frame).ok().map(Output::Packet)
+fn read(kind: Direction, frame: &[u8]) -> Option<Output> {
+    reference::decode(kind, frame).ok().map(|packet| Output::Packet(packet.into()))
 }

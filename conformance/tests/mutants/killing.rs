@@ -12,9 +12,10 @@ use super::{Mutant, Mutated, checks, dynamixel2, innfos, outcomes, stubs};
 
 /// The mutants of a wire that a good check distinguishes from a right implementation.
 fn mutants(wire: Wire) -> &'static [Mutant] {
-    match wire {
-        Wire::Dynamixel2 => &dynamixel2::MUTANTS,
-        Wire::Innfos => &innfos::MUTANTS,
+    match wire.id() {
+        "dynamixel2" => &dynamixel2::MUTANTS,
+        "innfos" => &innfos::MUTANTS,
+        _ => &[],
     }
 }
 

@@ -1,8 +1,9 @@
 //! Trivial implementations: a check that passes on all of them and on every mutant could not fail.
 
-use actucheck::adapter::{Output, Question, Wire};
-use actucheck_spec::model::{HexBytes, Packet};
-use actucheck_spec::wire::dynamixel2::reference;
+use actucheck::adapter::{Output, Question};
+use actucheck_spec::model::HexBytes;
+use actucheck_spec::wire::dynamixel2::{self, reference};
+use actucheck_spec::wire::{Direction, Packet, innfos};
 
 use super::{Mutant, Wrong, bytes};
 
@@ -31,18 +32,10 @@ pub(super) static MUTANTS: [Mutant; 8] = [
     stub(
         "accepts whatever it is to read",
         Wrong::Answers(|op| match op {
-            Question::Decode { wire: Wire::Dynamixel2, .. } => {
-                Some(Output::Packet(Packet::Status {
-                    id: 200,
-                    error: 0,
-                    params: HexBytes::default(),
-                }))
+            Question::Decode { wire, .. } if *wire == dynamixel2::WIRE => {
+                Some(Output::Packet(status()))
             }
-            Question::Decode { wire: Wire::Innfos, .. } => Some(Output::Packet(Packet::Reply {
-                address: 200,
-                command: 0,
-                data: HexBytes::default(),
-            })),
+            Question::Decode { .. } => Some(Output::Packet(reply())),
             _ => None,
         }),
     ),
@@ -55,8 +48,7 @@ pub(super) static MUTANTS: [Mutant; 8] = [
     stub(
         "finds a packet in every stream",
         Wrong::Answers(|op| {
-            let packet = Packet::Status { id: 200, error: 0, params: HexBytes::default() };
-            matches!(op, Question::Stream { .. }).then(|| Output::Packets(vec![packet]))
+            matches!(op, Question::Stream { .. }).then(|| Output::Packets(vec![status()]))
         }),
     ),
     stub(
@@ -70,4 +62,13 @@ pub(super) static MUTANTS: [Mutant; 8] = [
 
 const fn stub(name: &'static str, wrong: Wrong) -> Mutant {
     Mutant { name, wrong, found_by: "", found_by_documents: true }
+}
+
+fn status() -> Packet {
+    dynamixel2::Packet::Status { id: 200, error: 0, params: HexBytes::default() }.into()
+}
+
+fn reply() -> Packet {
+    let direction = Direction::Reply;
+    innfos::Packet { direction, address: 200, command: 0, data: HexBytes::default() }.into()
 }

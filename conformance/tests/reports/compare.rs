@@ -1,10 +1,10 @@
-use actucheck::adapter::Wire;
 use actucheck::report::Report;
 use actucheck::report::compare::{Cell, Comparison, Standing};
 use actucheck::report::model::Header;
 use actucheck::verdict::Verdict;
 
 use super::sample;
+use actucheck_spec::wire::innfos;
 
 fn compared() -> Comparison {
     Comparison::of(sample::right(), vec![sample::every_verdict()]).unwrap()
@@ -103,7 +103,7 @@ fn what_only_one_was_asked_stands_there_for_both() {
 #[test]
 fn reports_of_two_wires_are_refused() {
     let right = sample::right();
-    let innfos = Report { header: Header { wire: Wire::Innfos, ..right.header.clone() }, ..right };
+    let innfos = Report { header: Header { wire: innfos::WIRE, ..right.header.clone() }, ..right };
     let error = Comparison::of(sample::small(), vec![innfos]).unwrap_err();
     assert_eq!(
         error.to_string(),

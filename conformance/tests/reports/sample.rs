@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-use actucheck::adapter::{Hello, Implementation, Output, Question, Rejection, Wire};
+use actucheck::adapter::{Hello, Implementation, Output, Question, Rejection};
 use actucheck::report::model::Summary;
 use actucheck::report::{Collector, End, Report, Run, Stopped};
 use actucheck::run::outcomes;
@@ -11,8 +11,10 @@ use actucheck::subject::{Answer, Builtin, Subject};
 use actucheck::suite::expect::Expectations;
 use actucheck::suite::{self, Options};
 use actucheck_spec::Spec;
-use actucheck_spec::model::{Fault, Level, Packet};
-use actucheck_spec::wire::dynamixel2::reference;
+use actucheck_spec::model::{Fault, Level};
+use actucheck_spec::wire::Packet;
+use actucheck_spec::wire::dynamixel2::Packet::{Instruction, Status};
+use actucheck_spec::wire::dynamixel2::{self, reference};
 
 /// A name that must be escaped.
 pub(crate) const NAME: &str = "<script>alert('odd')</script> & |co|";
@@ -38,7 +40,7 @@ impl Subject for Odd {
 fn unstuffed(op: &Question, answer: Answer) -> Answer {
     match op {
         Question::Encode { packet, .. } => match &packet.packet {
-            Packet::Instruction { id, instruction, params } => {
+            Packet::Dynamixel2(Instruction { id, instruction, params }) => {
                 let body = [&[*instruction], params.0.as_slice()].concat();
                 Answer::Ok(Output::Bytes(reference::frame(*id, &body).into()))
             }
@@ -71,17 +73,17 @@ fn odd(op: &Question, answer: Answer) -> Answer {
 static SPEC: LazyLock<Spec> = LazyLock::new(|| Spec::embedded().unwrap());
 static COMMAND: LazyLock<[String; 2]> =
     LazyLock::new(|| ["./adapter", "two words"].map(str::to_owned));
-const OPTIONS: Options = Options { cases: 10, ..Options::new(Wire::Dynamixel2) };
+const OPTIONS: Options = Options { cases: 10, ..Options::new(dynamixel2::WIRE) };
 
 /// Reads without taking the byte stuffing out.
 fn left_in(op: &Question, answer: Answer) -> Answer {
     match (op, answer) {
         (
             Question::Decode { .. },
-            Answer::Ok(Output::Packet(Packet::Status { id, error, params })),
+            Answer::Ok(Output::Packet(Packet::Dynamixel2(Status { id, error, params }))),
         ) => {
             let params = reference::stuff(&params).into();
-            Answer::Ok(Output::Packet(Packet::Status { id, error, params }))
+            Answer::Ok(Output::Packet(Status { id, error, params }.into()))
         }
         (_, answer) => answer,
     }

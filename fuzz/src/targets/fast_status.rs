@@ -5,8 +5,10 @@ use actucheck_codec::dynamixel2::FastStatus;
 use actucheck_codec::dynamixel2::fast_status::{self, Block};
 use actucheck_codec::dynamixel2::status::StatusError;
 use actucheck_codec::{BufferTooSmall, EncodeError};
-use actucheck_spec::model::{self, Fault, Packet};
-use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, Fast, HEADER, PREFIX, STATUS};
+use actucheck_spec::model::Fault;
+use actucheck_spec::wire::Fast;
+use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, HEADER, PREFIX, STATUS};
+use actucheck_spec::wire::dynamixel2::{self as model, Packet};
 use arbitrary::{Result, Unstructured};
 
 use crate::draw::Draw;

@@ -6,21 +6,22 @@ use actucheck_codec::innfos::{
     self, ACTUATORS, Command, Format, Frame, FrameError, Kind, Message, Value,
 };
 use actucheck_codec::{BufferTooSmall, EncodeError};
-use actucheck_spec::model::{Direction, Fault, FrameKind, FullScale, Innfos, Packet};
-use actucheck_spec::wire::innfos::reference;
+use actucheck_spec::model::Fault;
+use actucheck_spec::wire::Direction;
+use actucheck_spec::wire::innfos::{FullScale, Innfos, Operation, Packet, reference};
 use arbitrary::{Result, Unstructured};
 
 use crate::targets::shown;
 use crate::yaml;
 
-static INNFOS: LazyLock<Innfos> = LazyLock::new(|| yaml::read("protocols/innfos.yaml"));
+static INNFOS: LazyLock<Innfos> = LazyLock::new(|| yaml::read("wires/innfos.yaml"));
 /// Of each code and [way](WAYS), the sizes that the data may have; `None` if it does not go this way.
 static SIZES: LazyLock<Vec<[Option<&[u16]>; 2]>> =
     LazyLock::new(|| (0..=0xFF).map(|code| WAYS.map(|(kind, _)| sizes(kind, code))).collect());
 
 /// Both ways that a frame can go.
-pub(super) const WAYS: [(Kind, FrameKind); 2] =
-    [(Kind::Request, FrameKind::Request), (Kind::Reply, FrameKind::Reply)];
+pub(super) const WAYS: [(Kind, Direction); 2] =
+    [(Kind::Request, Direction::Request), (Kind::Reply, Direction::Reply)];
 
 /// The input is a frame, and then what a frame is made of.
 ///
@@ -35,7 +36,7 @@ pub fn check(input: &[u8]) {
 }
 
 /// Bytes are the frame, or have the fault, that the reference finds.
-fn read(kind: Kind, said: FrameKind, bytes: &[u8]) {
+fn read(kind: Kind, said: Direction, bytes: &[u8]) {
     let expected = reference::decode(said, bytes);
     let frame = match Frame::parse(kind, bytes) {
         Ok(frame) => frame,
@@ -54,9 +55,13 @@ fn read(kind: Kind, said: FrameKind, bytes: &[u8]) {
 pub(super) fn packet(frame: &Frame<'_>) -> Packet {
     let (address, command) = (frame.address(), frame.command().code());
     let data = frame.data().to_vec().into();
-    match frame.kind() {
-        Kind::Request => Packet::Request { address, command, data },
-        Kind::Reply => Packet::Reply { address, command, data },
+    Packet { direction: direction(frame.kind()), address, command, data }
+}
+
+const fn direction(kind: Kind) -> Direction {
+    match kind {
+        Kind::Request => Direction::Request,
+        Kind::Reply => Direction::Reply,
     }
 }
 
@@ -92,9 +97,9 @@ fn sizes(kind: Kind, code: u8) -> Option<&'static [u16]> {
     let value = || command.format.map_or(&[0][..], |format| &innfos.format(format).unwrap().sizes);
     match (kind, command.direction) {
         (Kind::Reply, _) if command.reply.is_empty() => None,
-        (Kind::Request, Direction::Read) => Some(&[0]),
-        (Kind::Request, Direction::Write) | (Kind::Reply, Direction::Read) => Some(value()),
-        (Kind::Reply, Direction::Write) => Some(&[1]),
+        (Kind::Request, Operation::Read) => Some(&[0]),
+        (Kind::Request, Operation::Write) | (Kind::Reply, Operation::Read) => Some(value()),
+        (Kind::Reply, Operation::Write) => Some(&[1]),
     }
 }
 
@@ -172,11 +177,8 @@ fn physical(command: Command, value: Value, model: usize) {
 /// read again as the same.
 fn built(kind: Kind, address: u8, command: Command, data: &[u8]) {
     let code = command.code();
-    let data_again = data.to_vec().into();
-    let packet_again = match kind {
-        Kind::Request => Packet::Request { address, command: code, data: data_again },
-        Kind::Reply => Packet::Reply { address, command: code, data: data_again },
-    };
+    let packet_again =
+        Packet { direction: direction(kind), address, command: code, data: data.to_vec().into() };
     let expected = reference::encode(&packet_again).unwrap();
     let mut buffer = vec![0; expected.len()];
     assert_eq!(innfos::encode(kind, address, command, data, &mut buffer), Ok(&expected[..]));

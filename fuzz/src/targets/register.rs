@@ -6,9 +6,9 @@ use std::sync::LazyLock;
 use actucheck_codec::register::{self, Device, Row, Value};
 use actucheck_codec::{ja_variant, ja40, xm430_w210};
 use actucheck_spec::model::{
-    self, Access, Bound, Condition, ErrataFile, Packet, Range, Register, Status, Type,
+    self, Access, Bound, Condition, ErrataFile, Range, Register, Status, Type,
 };
-use actucheck_spec::wire::dynamixel2::reference;
+use actucheck_spec::wire::dynamixel2::{Packet, reference};
 use arbitrary::{Result, Unstructured};
 
 use crate::targets::shown;

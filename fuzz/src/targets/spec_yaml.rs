@@ -3,9 +3,9 @@
 use std::fmt::Debug;
 
 use actucheck_spec::load::Source;
-use actucheck_spec::model::{
-    Device, DocumentsFile, ErrataFile, Innfos, Protocol, RequirementsFile, VectorsFile,
-};
+use actucheck_spec::model::{Device, DocumentsFile, ErrataFile, RequirementsFile, VectorsFile};
+use actucheck_spec::wire::dynamixel2::Dynamixel2;
+use actucheck_spec::wire::innfos::Innfos;
 use actucheck_spec::{Diagnostic, Spec, generate};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -19,8 +19,8 @@ macro_rules! base {
 pub(crate) const BASE: [(&str, &str); 7] = base![
     "documents.yaml",
     "errata.yaml",
-    "protocols/wire.yaml",
-    "protocols/innfos.yaml",
+    "wires/dynamixel2.yaml",
+    "wires/innfos.yaml",
     "devices/motor.yaml",
     "vectors/ping.yaml",
     "requirements/book.yaml"
@@ -58,8 +58,8 @@ fn accepted(spec: &Spec) {
     generate::codec(spec).unwrap_or_else(|error| panic!("{error}"));
     stays::<DocumentsFile>(&spec.documents.content);
     stays::<ErrataFile>(&spec.errata.content);
-    stays::<Innfos>(&spec.innfos.content);
-    spec.protocols.iter().for_each(|file| stays::<Protocol>(&file.content));
+    stays::<Dynamixel2>(&spec.wires.dynamixel2.content);
+    stays::<Innfos>(&spec.wires.innfos.content);
     spec.devices.iter().for_each(|file| stays::<Device>(&file.content));
     spec.vectors.iter().for_each(|file| stays::<VectorsFile>(&file.content));
     spec.requirements.iter().for_each(|file| stays::<RequirementsFile>(&file.content));

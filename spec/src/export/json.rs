@@ -1,4 +1,4 @@
-//! Documents, protocols, devices, requirements and errata as one JSON file. Every field is always there; what
+//! Documents, wires, devices, requirements and errata as one JSON file. Every field is always there; what
 //! the documents do not tell is `null` or an empty list.
 
 use schemars::JsonSchema;
@@ -6,22 +6,21 @@ use serde::Serialize;
 
 use super::{ExportError, to_json};
 use crate::Spec;
-use crate::model::{Device, Document, Erratum, Innfos, Protocol, Requirement};
+use crate::model::{Device, Document, Erratum, Requirement};
+use crate::wire::Wires;
 
 /// Version of the file's form. It changes when a field goes or takes another meaning.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// What `actucheck spec export json` writes.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Export<'a> {
-    /// Version of the file's form; 1. It changes when a field goes or takes another meaning.
+    /// Version of the file's form; 2. It changes when a field goes or takes another meaning.
     pub version: u32,
     /// The documents that citations point to.
     pub documents: Vec<&'a Document>,
-    /// The wires of the DYNAMIXEL kind with their instructions and error numbers.
-    pub protocols: Vec<&'a Protocol>,
-    /// The wire of INNFOS with its commands, formats, modes, alarms and models.
-    pub innfos: &'a Innfos,
+    /// The wires, each under its id.
+    pub wires: &'a Wires,
     /// The control tables.
     pub devices: Vec<&'a Device>,
     /// What the documents demand, and the errata that each demand rests on.
@@ -37,8 +36,7 @@ impl<'a> Export<'a> {
         Self {
             version: VERSION,
             documents: spec.documents.content.documents.iter().collect(),
-            protocols: spec.protocols.iter().map(|file| &file.content).collect(),
-            innfos: &spec.innfos.content,
+            wires: &spec.wires,
             devices: spec.devices.iter().map(|file| &file.content).collect(),
             requirements: spec
                 .requirements

@@ -5,7 +5,8 @@ use serde::Serialize;
 
 use super::{ExportError, to_json};
 use crate::Spec;
-use crate::model::{Citation, Fault, FrameKind, HexBytes, Outcome, Packet, Vector, VectorsFile};
+use crate::model::{Citation, Fault, HexBytes, Outcome, Vector, VectorsFile};
+use crate::wire::{Direction, Packet, Wire};
 
 /// Version of the file's form. It changes when a field goes or takes another meaning.
 pub const VERSION: u32 = 1;
@@ -25,8 +26,8 @@ pub struct VectorsExport<'a> {
 pub struct VectorRow<'a> {
     /// Permanent id.
     pub id: &'a str,
-    /// Id of the protocol.
-    pub wire: &'a str,
+    /// Id of the wire.
+    pub wire: Wire,
     /// The frame's bytes.
     pub input: HexBytes,
     /// What is to happen to the frame: build it and read it (`valid`), reject it (`invalid`), or
@@ -37,7 +38,7 @@ pub struct VectorRow<'a> {
     /// For an invalid frame: what is wrong with it.
     pub fault: Option<Fault>,
     /// For an invalid frame of a wire whose frames do not tell which way they go: the way.
-    pub direction: Option<FrameKind>,
+    pub direction: Option<Direction>,
     /// Where the bytes come from.
     pub origin: Origin,
     /// For a corrected frame: the bytes as the document prints them.
@@ -92,12 +93,12 @@ impl<'a> VectorRow<'a> {
         let Citation { document, section } = vector.source.as_ref().unwrap_or(&file.source);
         Self {
             id: &vector.id,
-            wire: &file.wire,
+            wire: file.wire,
             input: vector.frame().to_vec().into(),
             result: vector.result,
             expected: vector.packet.as_ref(),
             fault: vector.fault,
-            direction: vector.kind,
+            direction: vector.direction,
             origin: Origin::of(vector),
             printed: vector.defective().map(|bytes| bytes.to_vec().into()),
             printed_fault: vector.printed_fault,

@@ -7,7 +7,7 @@ use super::places;
 use super::token::hex16;
 use crate::model::{ByteOrder, Crc, Length};
 
-pub(super) fn crc(crc: &Crc) -> TokenStream {
+pub(crate) fn crc(crc: &Crc) -> TokenStream {
     let (polynomial, initial) = (hex16(crc.polynomial), hex16(crc.initial));
     let (final_xor, check) = (hex16(crc.final_xor), hex16(crc.check));
     let (reflected, low_byte_first) = (crc.reflected, crc.byte_order == ByteOrder::Little);
@@ -32,7 +32,7 @@ pub(super) fn crc(crc: &Crc) -> TokenStream {
 }
 
 /// `source` is where the framing stands.
-pub(super) fn length(length: &Length, source: &str) -> TokenStream {
+pub(crate) fn length(length: &Length, source: &str) -> TokenStream {
     let (size, low_byte_first) = (usize::from(length.size), length.byte_order == ByteOrder::Little);
     let doc = format!(" Bytes of the length field, which counts {}.", length.covers);
     quote! {

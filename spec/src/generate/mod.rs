@@ -1,20 +1,19 @@
 //! Turns the spec into the Rust source of the codec's tables: one file a module, formatted,
 //! sorted as the YAML is, the same from run to run.
 
-mod constants;
+pub(crate) mod constants;
 mod device;
-mod innfos;
 mod own_device;
-mod protocol;
-mod token;
+pub(crate) mod token;
 mod value;
-mod wire_enum;
+pub(crate) mod wire_enum;
 
 use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::Spec;
-use crate::model::{Citation, Device, Innfos, Protocol};
+use crate::model::{Citation, Device};
+use crate::wire::Wire;
 
 pub use own_device::{build_script, device_from_yaml, report};
 pub(crate) use token::words;
@@ -43,36 +42,19 @@ impl std::fmt::Display for GenerateError {
 
 impl std::error::Error for GenerateError {}
 
-/// The modules that the codec includes: one a protocol, and `devices` with a module a device.
+/// The modules that the codec includes: one a wire, and `devices` with a module a device.
 ///
 /// # Errors
 /// If a name of the spec can't be turned into a Rust name.
 pub fn codec(spec: &Spec) -> Result<Vec<Module>, GenerateError> {
     let mut modules = Vec::new();
-    for file in &spec.protocols {
-        modules.push(protocol(&file.content)?);
+    for wire in Wire::ALL {
+        modules.push(format(wire.id(), &wire.generate(spec))?);
     }
-    modules.push(innfos(&spec.innfos.content)?);
     let devices =
         spec.devices.iter().map(|file| device::module(spec, &file.content, &quote!(crate)));
     modules.push(format("devices", &quote!(#(#devices)*))?);
     Ok(modules)
-}
-
-/// The module of one protocol.
-///
-/// # Errors
-/// If a name of the spec can't be turned into a Rust name.
-pub fn protocol(protocol: &Protocol) -> Result<Module, GenerateError> {
-    format(&protocol.protocol, &protocol::module(protocol))
-}
-
-/// The module of the INNFOS protocol.
-///
-/// # Errors
-/// If a name of the spec can't be turned into a Rust name.
-pub fn innfos(innfos: &Innfos) -> Result<Module, GenerateError> {
-    format(&innfos.protocol, &innfos::module(innfos))
 }
 
 /// The module of one device of the spec.

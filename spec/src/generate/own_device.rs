@@ -25,7 +25,7 @@ use crate::{Diagnostic, Spec};
 /// let yaml = "
 /// device: gripper
 /// title: Gripper
-/// protocol: dynamixel2
+/// wire: dynamixel2
 /// source: [manual §1]
 /// instructions: [Ping, Read, Write]
 /// registers:

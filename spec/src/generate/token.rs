@@ -6,7 +6,7 @@ use quote::{ToTokens, quote};
 use crate::model::NamedValue;
 
 /// `Goal Position` as `GoalPosition`.
-pub(super) fn type_name(name: &str) -> Ident {
+pub(crate) fn type_name(name: &str) -> Ident {
     let words = words(name);
     let name: String = words.iter().map(|word| capitalised(word)).collect();
     ident(&name)
@@ -15,7 +15,7 @@ pub(super) fn type_name(name: &str) -> Ident {
 /// The name of a value as a variant: `Torque on, EEPROM area locked` as `TorqueOn`. What stands in
 /// parentheses or behind a comma explains the name; a number in front goes to the end, so
 /// `9,600 bps` becomes `Bps9600`.
-pub(super) fn value_name(name: &str) -> Ident {
+pub(crate) fn value_name(name: &str) -> Ident {
     let name = name.split(" (").next().unwrap_or(name);
     let name = name.split(", ").next().unwrap_or(name).replace(',', "");
     let words = words(&name);
@@ -27,38 +27,38 @@ pub(super) fn value_name(name: &str) -> Ident {
 }
 
 /// `Goal Position` as `GOAL_POSITION`.
-pub(super) fn constant_name(name: &str) -> Ident {
+pub(crate) fn constant_name(name: &str) -> Ident {
     ident(&words(name).join("_").to_uppercase())
 }
 
 /// `ja-variant` as `ja_variant`.
-pub(super) fn module_name(name: &str) -> Ident {
+pub(crate) fn module_name(name: &str) -> Ident {
     ident(&words(name).join("_").to_lowercase())
 }
 
 /// A byte as the documents write it: `0x8A`.
-pub(super) fn hex8(value: u8) -> impl ToTokens {
+pub(crate) fn hex8(value: u8) -> impl ToTokens {
     hex(&format!("{value:#04X}"))
 }
 
 /// Two bytes as the documents write them: `0x8005`.
-pub(super) fn hex16(value: u16) -> impl ToTokens {
+pub(crate) fn hex16(value: u16) -> impl ToTokens {
     hex(&format!("{value:#06X}"))
 }
 
 /// A number that may be negative.
-pub(super) fn number(value: i64) -> TokenStream {
+pub(crate) fn number(value: i64) -> TokenStream {
     let digits = Literal::u64_unsuffixed(value.unsigned_abs());
     if value < 0 { quote!(-#digits) } else { quote!(#digits) }
 }
 
 /// An option of tokens.
-pub(super) fn option(value: Option<impl ToTokens>) -> TokenStream {
+pub(crate) fn option(value: Option<impl ToTokens>) -> TokenStream {
     value.map_or_else(|| quote!(None), |value| quote!(Some(#value)))
 }
 
 /// A list of named values as a slice.
-pub(super) fn named_values(values: &[NamedValue]) -> TokenStream {
+pub(crate) fn named_values(values: &[NamedValue]) -> TokenStream {
     let rows = values.iter().map(|row| {
         let (value, name) = (number(row.value), &row.name);
         quote!(NamedValue { value: #value, name: #name })
@@ -79,7 +79,7 @@ pub(crate) fn words(name: &str) -> Vec<&str> {
 }
 
 /// The same text with a capital letter at its front.
-pub(super) fn capitalised(word: &str) -> String {
+pub(crate) fn capitalised(word: &str) -> String {
     let mut letters = word.chars();
     letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect()
 }

@@ -6,7 +6,7 @@ use quote::quote;
 use super::token::{hex8, type_name};
 
 /// An enum of the bytes that have a name, which keeps the bytes that have none.
-pub(super) fn wire_enum(name: &Ident, doc: &str, rows: &[(u8, &str, String)]) -> TokenStream {
+pub(crate) fn wire_enum(name: &Ident, doc: &str, rows: &[(u8, &str, String)]) -> TokenStream {
     let count = rows.len();
     let variants: Vec<_> = rows.iter().map(|(_, name, _)| type_name(name)).collect();
     let codes: Vec<_> = rows.iter().map(|(code, ..)| hex8(*code)).collect();

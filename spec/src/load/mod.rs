@@ -3,17 +3,21 @@
 mod bounds;
 mod position;
 
+use std::borrow::Cow;
 use std::sync::{Arc, OnceLock};
 
 use position::Places;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::DeserializeOwned;
+use serde::{Serialize, Serializer};
 
 use crate::Diagnostic;
-use crate::check;
 use crate::model::{
-    Citation, Device, Document, DocumentsFile, ErrataFile, Erratum, Innfos, Protocol, Range,
-    Requirement, RequirementsFile, SentencesFile, Status, Vector, VectorsFile,
+    Citation, Device, Document, DocumentsFile, ErrataFile, Erratum, Range, Requirement,
+    RequirementsFile, SentencesFile, Status, Vector, VectorsFile,
 };
+use crate::validate;
+use crate::wire::{Wire, Wires};
 
 /// The text of one YAML file.
 #[derive(Clone, Debug)]
@@ -26,7 +30,7 @@ pub struct Source {
 
 impl Source {
     /// A source from its parts. `path` is relative to the spec folder and tells what the file
-    /// is: `documents.yaml`, `errata.yaml`, or a file in `protocols`, `devices`, `vectors`,
+    /// is: `documents.yaml`, `errata.yaml`, or a file in `wires`, `devices`, `vectors`,
     /// `requirements` or `sentences`.
     #[must_use]
     pub fn new(path: &str, text: &str) -> Self {
@@ -42,9 +46,6 @@ static EMBEDDED: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/sources.r
 pub fn embedded() -> Vec<Source> {
     EMBEDDED.iter().map(|(path, text)| Source::new(path, text)).collect()
 }
-
-/// The one file of `protocols/` that is of a shape of its own.
-const INNFOS: &str = "protocols/innfos.yaml";
 
 /// What one YAML file says, with the text that it was read from.
 #[derive(Clone, Debug)]
@@ -83,6 +84,23 @@ impl<T> File<T> {
     }
 }
 
+/// What the file says.
+impl<T: Serialize> Serialize for File<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.content.serialize(serializer)
+    }
+}
+
+impl<T: JsonSchema> JsonSchema for File<T> {
+    fn schema_name() -> Cow<'static, str> {
+        T::schema_name()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        T::json_schema(generator)
+    }
+}
+
 /// Line and column, both from 1, and what is wrong there.
 type Defect = ((usize, usize), String);
 
@@ -99,10 +117,8 @@ fn defect(error: &serde_yaml::Error) -> Defect {
 pub struct Spec {
     /// The documents that citations point to.
     pub documents: File<DocumentsFile>,
-    /// The wires of the DYNAMIXEL kind, a file a protocol.
-    pub protocols: Vec<File<Protocol>>,
-    /// The wire of INNFOS, which has commands where the others have control tables.
-    pub innfos: File<Innfos>,
+    /// The wires, a file each.
+    pub wires: Wires,
     /// The control tables, a file a device.
     pub devices: Vec<File<Device>>,
     /// The golden packets, a file a document section.
@@ -130,7 +146,7 @@ impl Spec {
     /// Every defect found: of the YAML itself first, then of what it says.
     pub fn read(sources: &[Source]) -> Result<Self, Vec<Diagnostic>> {
         let spec = Self::parse(sources)?;
-        let defects = check::all(&spec);
+        let defects = validate::all(&spec);
         if defects.is_empty() { Ok(spec) } else { Err(defects) }
     }
 
@@ -141,7 +157,7 @@ impl Spec {
     /// Every defect found in `text`.
     pub fn with_own_device(path: &str, text: &str) -> Result<Self, Vec<Diagnostic>> {
         let own = |source: &Source| {
-            ["documents.yaml", "errata.yaml", "protocols/"]
+            ["documents.yaml", "errata.yaml", "wires/"]
                 .iter()
                 .any(|name| source.path.starts_with(&format!("spec/{name}")))
         };
@@ -156,7 +172,7 @@ impl Spec {
             }
         }
         spec.devices = vec![device];
-        let mut defects = check::all(&spec);
+        let mut defects = validate::all(&spec);
         defects.retain(|defect| defect.path == path);
         if defects.is_empty() { Ok(spec) } else { Err(defects) }
     }
@@ -164,25 +180,16 @@ impl Spec {
     fn parse(sources: &[Source]) -> Result<Self, Vec<Diagnostic>> {
         let mut reader = Reader { sources, defects: Vec::new() };
         let documents = reader.one("documents.yaml");
-        let protocols = reader.folder_without("protocols/", INNFOS);
-        let innfos = reader.one(INNFOS);
+        let wires = Wires::read(&mut reader);
+        reader.other_wires();
         let devices = reader.folder("devices/");
         let vectors = reader.folder("vectors/");
         let requirements = reader.folder("requirements/");
         let errata = reader.one("errata.yaml");
         let sentences = reader.folder("sentences/");
-        match (documents, innfos, errata) {
-            (Some(documents), Some(innfos), Some(errata)) if reader.defects.is_empty() => {
-                Ok(Self {
-                    documents,
-                    protocols,
-                    innfos,
-                    devices,
-                    vectors,
-                    requirements,
-                    errata,
-                    sentences,
-                })
+        match (documents, wires, errata) {
+            (Some(documents), Some(wires), Some(errata)) if reader.defects.is_empty() => {
+                Ok(Self { documents, wires, devices, vectors, requirements, errata, sentences })
             }
             _ => Err(reader.defects),
         }
@@ -192,18 +199,6 @@ impl Spec {
     #[must_use]
     pub fn document(&self, id: &str) -> Option<&Document> {
         self.documents.content.documents.iter().find(|document| document.id == id)
-    }
-
-    /// The protocol with this id.
-    #[must_use]
-    pub fn protocol(&self, id: &str) -> Option<&Protocol> {
-        self.protocols.iter().map(|file| &file.content).find(|protocol| protocol.protocol == id)
-    }
-
-    /// Whether there is a wire with this id, of either kind.
-    #[must_use]
-    pub fn has_wire(&self, id: &str) -> bool {
-        self.protocol(id).is_some() || self.innfos.content.protocol == id
     }
 
     /// The device with this id.
@@ -258,7 +253,7 @@ impl Spec {
 }
 
 /// Reads files one after the other and keeps what is wrong with them.
-struct Reader<'a> {
+pub(crate) struct Reader<'a> {
     sources: &'a [Source],
     defects: Vec<Diagnostic>,
 }
@@ -278,21 +273,28 @@ impl Reader<'_> {
         files.into_iter().next()
     }
 
+    /// A file of a wire that there is not.
+    fn other_wires(&mut self) {
+        for source in self.sources {
+            let name = source.path.strip_prefix("spec/wires/");
+            let name = name.and_then(|name| name.strip_suffix(".yaml"));
+            if let Some(Err(message)) = name.map(str::parse::<Wire>) {
+                let text = Arc::from(&source.text[..]);
+                self.defects.push(Diagnostic::new(&source.path, &text, (1, 1), message));
+            }
+        }
+    }
+
+    /// The file of a wire.
+    pub(crate) fn wire<T: DeserializeOwned>(&mut self, wire: Wire) -> Option<File<T>> {
+        self.one(&format!("wires/{wire}.yaml"))
+    }
+
     fn folder<T: DeserializeOwned>(&mut self, prefix: &str) -> Vec<File<T>> {
-        self.read(|name| name.starts_with(prefix))
-    }
-
-    fn folder_without<T: DeserializeOwned>(&mut self, prefix: &str, other: &str) -> Vec<File<T>> {
-        self.read(|name| name.starts_with(prefix) && name != other)
-    }
-
-    fn read<T: DeserializeOwned>(&mut self, wanted: impl Fn(&str) -> bool) -> Vec<File<T>> {
         let mut files = Vec::new();
-        for source in self
-            .sources
-            .iter()
-            .filter(|source| source.path.strip_prefix("spec/").is_some_and(&wanted))
-        {
+        let wanted =
+            |path: &str| path.strip_prefix("spec/").is_some_and(|name| name.starts_with(prefix));
+        for source in self.sources.iter().filter(|source| wanted(&source.path)) {
             match File::read(source) {
                 Ok(file) => files.push(file),
                 Err(defect) => self.defects.push(defect),

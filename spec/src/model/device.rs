@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Citation;
+use crate::wire::Wire;
 
 /// A file of `devices/`: a control table.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
@@ -13,8 +14,8 @@ pub struct Device {
     pub device: String,
     /// Its name.
     pub title: String,
-    /// Id of the protocol that it speaks.
-    pub protocol: String,
+    /// The wire that it speaks.
+    pub wire: Wire,
     /// Where this stands.
     pub source: Vec<Citation>,
     /// What Ping answers; absent where the document names none.

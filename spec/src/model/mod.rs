@@ -1,14 +1,12 @@
-//! What the YAML files may say: one type a row, checked for shape by serde and for sense by
-//! [`crate::check`].
+//! What the YAML files may say that are not a wire's own: one type a row, checked for shape by serde and for sense by
+//! [`crate::validate`].
 
 mod bytes;
 mod citation;
 mod device;
 mod document;
 mod erratum;
-mod innfos;
-mod packet;
-mod protocol;
+mod framing;
 mod requirement;
 mod sentence;
 mod vector;
@@ -21,15 +19,7 @@ pub use device::{
 };
 pub use document::{Document, DocumentsFile};
 pub use erratum::{ErrataFile, Erratum, Proof, ProofKind, Status};
-pub use innfos::{
-    Actuator, Actuators, AlarmBit, Alarms, Command, CrcPresence, Direction, Envelope, Format,
-    FormatRow, FrameKind, FullScale, Innfos, Mode, Modes, Udp,
-};
-pub use packet::{Block, Packet};
-pub use protocol::{
-    ByteOrder, Crc, ErrorNumber, Field, Framing, Id, Instruction, Length, Protocol, Size,
-    StatusFormat, Stuffing,
-};
+pub use framing::{ByteOrder, Crc, Id, Length};
 pub use requirement::{CheckedBy, Level, Requirement, RequirementsFile, Role};
 pub use sentence::{NO_DEMAND, Section, Sentence, SentencesFile};
 pub use vector::{Fault, Outcome, Vector, VectorsFile};

@@ -3,7 +3,8 @@ use std::fmt;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Citation, FrameKind, HexBytes, Packet};
+use super::{Citation, HexBytes};
+use crate::wire::{Context, Direction, Packet, Wire};
 
 /// A file of `vectors/`: the golden packets of one section.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
@@ -11,8 +12,8 @@ use super::{Citation, FrameKind, HexBytes, Packet};
 pub struct VectorsFile {
     /// The section, for every vector that names no other.
     pub source: Citation,
-    /// Id of the protocol.
-    pub wire: String,
+    /// The wire.
+    pub wire: Wire,
     /// One row a packet.
     pub vectors: Vec<Vector>,
 }
@@ -44,17 +45,25 @@ pub struct Vector {
     /// Id of the requirement that it shows, if it is not the wire's general one.
     pub requirement: Option<String>,
     /// For an invalid frame of a wire whose frames do not tell which way they go: the way.
-    pub kind: Option<FrameKind>,
+    #[serde(rename = "kind")]
+    pub direction: Option<Direction>,
     /// What the frame means; absent for an invalid one.
     pub packet: Option<Packet>,
 }
 
 impl Vector {
     /// The bytes that count: those held right, else those printed. Empty if there are neither,
-    /// which [`crate::check`] does not let pass.
+    /// which [`crate::validate`] does not let pass.
     #[must_use]
     pub fn frame(&self) -> &[u8] {
         self.bytes.as_ref().or(self.printed.as_ref()).map_or(&[], |bytes| bytes)
+    }
+
+    /// What a reader has to know beside the bytes.
+    #[must_use]
+    pub fn context(&self) -> Context {
+        let of_packet = self.packet.as_ref().map(Packet::context);
+        of_packet.unwrap_or(Context { direction: self.direction, fast: None })
     }
 
     /// The printed bytes where they are not the right ones.

@@ -1,4 +1,66 @@
-//! What is peculiar to a wire, in a folder a wire.
+//! The wires: what is peculiar to each is in its folder, and this file lists them.
+//!
+//! Whoever does not mean one wire in particular takes a [`Wire`] and asks it; [`Rules`] says what
+//! can be asked. To add a wire, add a folder beside the others and a line to each list here.
 
+mod call;
+mod context;
 pub mod dynamixel2;
+mod handle;
 pub mod innfos;
+mod packet;
+mod rules;
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+pub use call::{Call, Target};
+pub use context::{Context, Direction, Fast};
+pub use handle::Wire;
+pub use packet::Fields;
+pub use rules::{Ask, Cited, Rules};
+
+use crate::load::{File, Reader};
+
+impl Wire {
+    /// Every wire. The first is meant where none is named.
+    pub const ALL: [Self; 2] = [dynamixel2::WIRE, innfos::WIRE];
+}
+
+/// What the files of `wires/` say.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Wires {
+    /// DYNAMIXEL Protocol 2.0 and its JA dialect: instructions, error numbers.
+    pub dynamixel2: File<dynamixel2::Dynamixel2>,
+    /// The INNFOS Ethernet protocol: commands, formats, modes, alarms and models.
+    pub innfos: File<innfos::Innfos>,
+}
+
+impl Wires {
+    pub(crate) fn read(reader: &mut Reader<'_>) -> Option<Self> {
+        let (dynamixel2, innfos) = (reader.wire(dynamixel2::WIRE), reader.wire(innfos::WIRE));
+        Some(Self { dynamixel2: dynamixel2?, innfos: innfos? })
+    }
+}
+
+/// A packet by its fields, before stuffing and CRC. The same object stands in the vectors' YAML
+/// and in the adapter protocol's JSON; its `kind` tells the wire.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[serde(untagged)]
+pub enum Packet {
+    /// Of DYNAMIXEL Protocol 2.0.
+    Dynamixel2(dynamixel2::Packet),
+    /// Of the INNFOS Ethernet protocol.
+    Innfos(innfos::Packet),
+}
+
+impl Packet {
+    /// The wire that it is of.
+    #[must_use]
+    pub const fn wire(&self) -> Wire {
+        match self {
+            Self::Dynamixel2(_) => dynamixel2::WIRE,
+            Self::Innfos(_) => innfos::WIRE,
+        }
+    }
+}

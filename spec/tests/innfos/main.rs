@@ -16,6 +16,7 @@ mod vectors;
 
 use actucheck_spec::Spec;
 use actucheck_spec::model::Vector;
+use actucheck_spec::wire::innfos;
 
 fn spec() -> Spec {
     Spec::embedded().expect("the spec folder has defects")
@@ -23,5 +24,5 @@ fn spec() -> Spec {
 
 /// The vectors of the wire.
 fn vectors(spec: &Spec) -> impl Iterator<Item = &Vector> {
-    spec.vectors().filter(|(file, _)| file.wire == "innfos").map(|(_, vector)| vector)
+    spec.vectors().filter(|(file, _)| file.wire == innfos::WIRE).map(|(_, vector)| vector)
 }

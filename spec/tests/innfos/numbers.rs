@@ -60,7 +60,7 @@ fn the_printed_numbers_of_the_text_compute() {
 #[test]
 fn the_speed_at_the_output_is_the_motors_over_the_gear() {
     let spec = spec();
-    for row in &spec.innfos.content.actuators.rows {
+    for row in &spec.wires.innfos.content.actuators.rows {
         let last = row.name.rsplit('-').next().expect("no name");
         let ratio: f64 =
             if row.name.starts_with("DD") { 1.0 } else { last.parse().expect("no ratio") };
@@ -82,7 +82,7 @@ fn row(index: u8) -> [u8; 2] {
 #[test]
 fn the_crc_tables_and_the_function_are_those_of_modbus() {
     let spec = spec();
-    let held = &spec.innfos.content.crc;
+    let held = &spec.wires.innfos.content.crc;
     assert_eq!(crc(b"123456789"), held.check);
     for data in [&b"\x05\x00\x00\x00"[..], b"\x01", b"\x06", b"\x00\xFF\xEE"] {
         assert_eq!(crc(data), held.compute(data));

@@ -65,9 +65,9 @@ fn a_defect_of_the_protocol_is_found() {
         ("tail: 0xED", "tial: 0xED", "unknown field `tial`"),
     ];
     for (from, to, message) in cases {
-        let found = broken("protocols/innfos.yaml", from, to);
+        let found = broken("wires/innfos.yaml", from, to);
         assert!(found.contains(message), "{from} -> {to}: {found}");
-        assert!(found.starts_with("spec/protocols/innfos.yaml:"), "{found}");
+        assert!(found.starts_with("spec/wires/innfos.yaml:"), "{found}");
     }
 }
 
@@ -92,7 +92,7 @@ fn a_defect_of_a_vector_is_found() {
             "no packets of this kind",
         ),
         ("receive", "    kind: request\n", "", "needs its `kind`"),
-        ("power", "wire: innfos", "wire: infos", "unknown protocol `infos`"),
+        ("power", "wire: innfos", "wire: infos", "unknown wire `infos`"),
         (
             "power",
             "requirement: innfos.crc.request",

@@ -1,6 +1,6 @@
 use std::collections::{BTreeMap, BTreeSet};
 
-use actucheck_spec::model::{Command, Direction, FullScale};
+use actucheck_spec::wire::innfos::{Command, FullScale, Operation};
 
 use crate::{document, spec};
 
@@ -23,7 +23,7 @@ const TABLES: [(&str, usize, u16, &[u16]); 7] = [
 #[test]
 fn every_table_has_its_commands_and_sizes() {
     let spec = spec();
-    let innfos = &spec.innfos.content;
+    let innfos = &spec.wires.innfos.content;
     assert_eq!(innfos.commands.len(), 84 + 2);
     for (table, count, request, reply) in TABLES {
         let rows = innfos.commands.iter().filter(|row| section(row) == table);
@@ -32,7 +32,7 @@ fn every_table_has_its_commands_and_sizes() {
         for row in rows {
             let reply: &[u16] = if [0x08, 0x09, 0x0A].contains(&row.code) { &[] } else { reply };
             assert_eq!((row.request, &*row.reply), (request, reply), "{:#04X}", row.code);
-            let read = row.direction == Direction::Read;
+            let read = row.direction == Operation::Read;
             assert_eq!(read, table.starts_with("A.1"), "{:#04X}", row.code);
         }
     }
@@ -46,7 +46,7 @@ fn the_tables_of_the_document_have_the_same_commands() {
     let Some(text) = document::read(&spec) else {
         return;
     };
-    let commands = &spec.innfos.content.commands;
+    let commands = &spec.wires.innfos.content.commands;
     for (title, count, ..) in TABLES {
         let rows = document::table(&text, title);
         let printed: Vec<_> = rows.iter().filter_map(|row| document::hex(row.first()?)).collect();
@@ -78,7 +78,7 @@ fn units_and_full_scales_are_those_of_the_descriptions() {
             let Some(code) = row.first().and_then(|cell| document::hex(cell)) else {
                 continue;
             };
-            let command = spec.innfos.content.commands.iter();
+            let command = spec.wires.innfos.content.commands.iter();
             let mut command = command.filter(|row| u16::from(row.code) == code);
             let command = command.next().expect("no such command");
             let marked = marks.iter().find(|(mark, _)| row[2].contains(mark));
@@ -110,7 +110,7 @@ fn the_names_of_modes_and_alarms_are_as_many_as_printed() {
     let Some(text) = document::read(&spec) else {
         return;
     };
-    let innfos = &spec.innfos.content;
+    let innfos = &spec.wires.innfos.content;
     let modes = document::table(&text, "Teaching mode");
     let modes = modes.iter().filter_map(|row| row[0].parse().ok());
     let held = innfos.modes.rows.iter().map(|row| row.code);
@@ -137,7 +137,7 @@ fn the_models_are_those_of_the_document() {
         .iter()
         .map(|row| (row[0].clone(), [number(&row[1]), number(&row[2]), number(&row[3])]))
         .collect();
-    let held = spec.innfos.content.actuators.rows.iter();
+    let held = spec.wires.innfos.content.actuators.rows.iter();
     let held: BTreeMap<_, _> = held
         .map(|row| (row.name.clone(), [row.current, row.motor_speed, row.output_speed]))
         .collect();

@@ -1,5 +1,6 @@
-use actucheck_spec::model::{FrameKind, Outcome, Packet, Status, Vector};
-use actucheck_spec::wire::innfos::reference;
+use actucheck_spec::model::{Outcome, Status, Vector};
+use actucheck_spec::wire::innfos::{self, reference};
+use actucheck_spec::wire::{Direction, Packet};
 
 use crate::{document, spec, vectors};
 
@@ -7,13 +8,10 @@ use crate::{document, spec, vectors};
 type Fields = (u8, u8, Vec<u8>);
 
 /// Which way the vector's packet goes, its address, command and data.
-fn packet(vector: &Vector) -> Option<(FrameKind, Fields)> {
-    let (kind, address, command, data) = match vector.packet.as_ref()? {
-        Packet::Request { address, command, data } => (FrameKind::Request, address, command, data),
-        Packet::Reply { address, command, data } => (FrameKind::Reply, address, command, data),
-        _ => return None,
-    };
-    Some((kind, (*address, *command, data.to_vec())))
+fn packet(vector: &Vector) -> Option<(Direction, Fields)> {
+    let Some(Packet::Innfos(packet)) = &vector.packet else { return None };
+    let innfos::Packet { direction, address, command, data } = packet;
+    Some((*direction, (*address, *command, data.to_vec())))
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Example packets, printed as rows of tables.
 
-use actucheck_spec::model::{HexBytes, ProofKind, Protocol};
+use actucheck_spec::model::{HexBytes, ProofKind};
+use actucheck_spec::wire::dynamixel2::Dynamixel2;
 
 use super::Finding;
 use super::document::{Document, Line};
@@ -19,8 +20,8 @@ pub(crate) struct Example<'a> {
 }
 
 /// Every example packet. A row that does not begin with a header continues the row before it.
-pub(crate) fn examples<'a>(protocol: &Protocol, document: &'a Document) -> Vec<Example<'a>> {
-    let header = &protocol.framing.header;
+pub(crate) fn examples<'a>(wire: &Dynamixel2, document: &'a Document) -> Vec<Example<'a>> {
+    let header = &wire.framing.header;
     let mut examples: Vec<Example> = Vec::new();
     for line in &document.lines {
         let Some(bytes) = row(line).filter(|bytes| bytes.len() >= FEWEST) else {
@@ -51,8 +52,8 @@ fn row(line: &Line) -> Option<Vec<u8>> {
 }
 
 /// Whether header, length and CRC hold. In a fast status packet the last CRC covers the others.
-pub(crate) fn is_intact(protocol: &Protocol, bytes: &[u8]) -> bool {
-    let header = protocol.framing.header.len();
+pub(crate) fn is_intact(wire: &Dynamixel2, bytes: &[u8]) -> bool {
+    let header = wire.framing.header.len();
     let Some((covered, crc)) = bytes.split_last_chunk::<2>() else {
         return false;
     };
@@ -60,16 +61,16 @@ pub(crate) fn is_intact(protocol: &Protocol, bytes: &[u8]) -> bool {
         Some([low, high]) => usize::from(u16::from_le_bytes([*low, *high])),
         _ => return false,
     };
-    bytes.starts_with(&protocol.framing.header)
+    bytes.starts_with(&wire.framing.header)
         && bytes.len() == header + 3 + length
-        && protocol.crc.compute(covered) == u16::from_le_bytes(*crc)
+        && wire.crc.compute(covered) == u16::from_le_bytes(*crc)
 }
 
 /// The example packets that are not intact.
-pub(crate) fn findings(protocol: &Protocol, document: &Document) -> Vec<Finding> {
-    examples(protocol, document)
+pub(crate) fn findings(wire: &Dynamixel2, document: &Document) -> Vec<Finding> {
+    examples(wire, document)
         .iter()
-        .filter(|example| !is_intact(protocol, &example.bytes))
+        .filter(|example| !is_intact(wire, &example.bytes))
         .map(|example| Finding {
             document: document.id.clone(),
             line: example.last.number,
@@ -82,15 +83,15 @@ pub(crate) fn findings(protocol: &Protocol, document: &Document) -> Vec<Finding>
 #[test]
 fn split_rows_are_joined_and_a_wrong_crc_is_found() {
     let spec = actucheck_spec::Spec::embedded().unwrap();
-    let protocol = spec.protocol("dynamixel2").unwrap();
+    let wire = &spec.wires.dynamixel2.content;
     let text = "| H1 | H2 |\n|:--:|:--:|\n\
                 | 0xFF | 0xFF | 0xFD | 0x00 | 0x01 | 0x03 |\n\n\
                 | 0x00 | **0x01** | 19 | 4E |\n\
                 | FF FF FD 00 | 01 | 03 00 | 01 | 19 4F |\n";
     let document = Document::parse("x", text);
-    let examples = examples(protocol, &document);
+    let examples = examples(wire, &document);
     assert_eq!(examples.len(), 2);
-    assert!(is_intact(protocol, &examples[0].bytes));
-    let lines: Vec<_> = findings(protocol, &document).iter().map(|f| f.line).collect();
+    assert!(is_intact(wire, &examples[0].bytes));
+    let lines: Vec<_> = findings(wire, &document).iter().map(|f| f.line).collect();
     assert_eq!(lines, [6]);
 }

@@ -1,6 +1,5 @@
 //! Whether an answer has the right form. Its value is the library's responsibility.
 
-use actucheck_spec::model::Packet;
 use serde_json::Value;
 
 use super::Problem;
@@ -24,7 +23,7 @@ pub(super) fn hello(ok: &Value) -> Result<Hello, Problem> {
             "answer with one of the versions that the request offers",
         ));
     }
-    let wires = Wire::ALL.map(Wire::id);
+    let wires = Wire::ALL.map(|wire| wire.id());
     named(&hello.wires, &wires, "wires", "name `dynamixel2`, `innfos` or both in `wires`")?;
     named(
         &hello.ops,
@@ -74,22 +73,16 @@ pub(super) fn output(op: &Question, ok: &Value) -> Result<Output, Problem> {
         Output::Packets(packets) => packets,
         Output::Crc(_) | Output::Bytes(_) => &[],
     };
-    if packets.iter().any(|packet| wire(packet) != op.wire()) {
-        return Err(Problem::new(
-            "the packet is of a kind that this wire has not",
-            "on dynamixel2 `kind` is instruction, status or fast_status, on innfos request or reply",
-        ));
+    if packets.iter().any(|packet| packet.wire() != op.wire()) {
+        return Err(Problem::new("the packet is of a kind that this wire has not", kinds()));
     }
     Ok(output)
 }
 
-fn wire(packet: &Packet) -> Wire {
-    match packet {
-        Packet::Instruction { .. } | Packet::Status { .. } | Packet::FastStatus { .. } => {
-            Wire::Dynamixel2
-        }
-        Packet::Request { .. } | Packet::Reply { .. } => Wire::Innfos,
-    }
+/// What the wires' packets may be.
+fn kinds() -> String {
+    let kinds = Wire::ALL.map(|wire| format!("on {wire} `kind` is {}", wire.kinds().join(" or ")));
+    kinds.join(", ")
 }
 
 /// Whether the bytes in an object are written as the adapter protocol requires.

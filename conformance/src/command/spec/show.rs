@@ -4,10 +4,10 @@ use std::collections::BTreeSet;
 
 use actucheck_spec::Spec;
 use actucheck_spec::model::{
-    Citation, Command, Device, Erratum, Field, Instruction, Protocol, Register, Requirement, Size,
-    Vector, VectorsFile,
+    Citation, Device, Erratum, Register, Requirement, Vector, VectorsFile,
 };
 use actucheck_spec::rests;
+use actucheck_spec::wire::{Ask, Wire};
 use clap::Args;
 
 use crate::command::shared::Failure;
@@ -61,15 +61,11 @@ fn member(spec: &Spec, whole: &str, part: &str) -> Option<String> {
     }
     let digits = part.strip_prefix("0x").or_else(|| part.strip_prefix("0X"));
     let code = digits.and_then(|digits| u8::from_str_radix(digits, 16).ok());
-    if let Some(wire) = spec.protocol(whole) {
-        let mut rows = wire.instructions.iter();
-        let found =
-            rows.find(|row| row.name.eq_ignore_ascii_case(part) || Some(row.code) == code)?;
-        return Some(instruction(spec, wire, found));
-    }
-    let innfos = &spec.innfos.content;
-    let found = innfos.command(code?).filter(|_| innfos.protocol == whole)?;
-    Some(command(spec, found))
+    let wire: Wire = whole.parse().ok()?;
+    let all = wire.asks(spec);
+    let found =
+        all.iter().find(|row| row.word.eq_ignore_ascii_case(part) || Some(row.code) == code)?;
+    Some(ask(spec, wire, found))
 }
 
 /// What to ask instead: ids that hold the words asked for.
@@ -80,11 +76,8 @@ fn unknown(spec: &Spec, id: &str) -> String {
         let device = &file.content;
         device.registers.iter().map(|row| format!("{}/{}", device.device, row.name))
     });
-    let instructions = spec.protocols.iter().flat_map(|file| {
-        let wire = &file.content;
-        wire.instructions.iter().map(|row| format!("{}/{}", wire.protocol, row.name))
-    });
-    let all = rows.map(|row| row.id.clone()).chain(errata).chain(registers).chain(instructions);
+    let asks = Wire::ALL.into_iter().flat_map(|wire| wire.asks(spec)).map(|row| row.id);
+    let all = rows.map(|row| row.id.clone()).chain(errata).chain(registers).chain(asks);
     let wanted = id.to_lowercase();
     let near: BTreeSet<_> =
         all.filter(|known| known.to_lowercase().contains(&wanted)).take(8).collect();
@@ -264,86 +257,22 @@ fn register(spec: &Spec, device: &Device, row: &Register) -> String {
     block.0
 }
 
-fn instruction(spec: &Spec, wire: &Protocol, row: &Instruction) -> String {
-    let id = format!("{}/{}", wire.protocol, row.name);
-    let mut block = Block::new(&id, &format!("{:#04X}", row.code));
-    block.line("does", &row.summary);
-    block.line("parameters", &layout(&row.parameters));
-    block.line(
-        "answer",
-        &row.status.as_ref().map_or_else(String::new, |fields| {
-            if fields.is_empty() {
-                "a status packet without parameters".to_owned()
-            } else {
-                layout(fields)
-            }
-        }),
-    );
-    block.line("blocks", &row.fast_status.as_ref().map_or_else(String::new, |rows| layout(rows)));
-    let facts = [
-        (row.broadcast_only, "goes to the broadcast ID only"),
-        (row.answers_broadcast, "is answered when it goes to the broadcast ID"),
-        (row.always_answered, "is answered at every Status Return Level"),
-    ];
-    block.lines("it", facts.iter().filter(|(holds, _)| *holds).map(|(_, fact)| (*fact).to_owned()));
+fn ask(spec: &Spec, wire: Wire, row: &Ask<'_>) -> String {
+    let mut block = Block::new(&row.id, &row.title);
+    for (label, lines) in &row.facts {
+        block.lines(label, lines.iter().cloned());
+    }
     let devices = spec.devices.iter().map(|file| &file.content);
-    let obey = devices.filter(|device| device.instructions.contains(&row.name));
+    let obey = devices.filter(|device| {
+        device.wire == wire && device.instructions.iter().any(|name| name == row.name)
+    });
     block.line("devices", &joined(&obey.map(|device| &device.device).collect::<Vec<_>>()));
-    block.places(spec, &row.source);
-    block.errata(spec, &row.errata);
-    let rows = wire.instructions.iter().map(|row| &row.source[..]);
-    let (own, shared) = parted(&row.source, &rows, 1);
-    block.requirements(spec, &id, &row.name, [&own, &shared]);
-    block.0
-}
-
-fn layout(fields: &[Field]) -> String {
-    let field = |field: &Field| {
-        let size = match &field.size {
-            Some(Size::Bytes(1)) => "1 byte".to_owned(),
-            Some(Size::Bytes(size)) => format!("{size} bytes"),
-            Some(Size::Named(name)) if name == "rest" => "the rest".to_owned(),
-            Some(Size::Named(name)) => format!("as many bytes as {name}"),
-            None => format!("for each device: {}", layout(&field.each)),
-        };
-        let fixed = field.fixed.as_ref().map_or_else(String::new, |bytes| format!(" = {bytes}"));
-        let values: Vec<_> =
-            field.values.iter().map(|named| format!("{:#04X} {named}", named.value)).collect();
-        let values =
-            if values.is_empty() { String::new() } else { format!(": {}", values.join(", ")) };
-        format!("{} ({size}{fixed}{values})", field.name)
-    };
-    fields.iter().map(field).collect::<Vec<_>>().join(", ")
-}
-
-fn command(spec: &Spec, row: &Command) -> String {
-    let wire = &spec.innfos.content.protocol;
-    let id = format!("{wire}/{:#04X}", row.code);
-    let mut block = Block::new(&id, &format!("{} {}", row.direction, row.name));
-    block.line("request", &format!("{} bytes of data", row.request));
-    let sizes: Vec<_> = row.reply.iter().map(ToString::to_string).collect();
-    let reply = if sizes.is_empty() {
-        "none".to_owned()
-    } else {
-        format!("{} bytes of data", sizes.join(" or "))
-    };
-    block.line("reply", &reply);
-    block.line("format", &row.format.map_or_else(String::new, |format| format.to_string()));
-    block.line("unit", row.unit.as_deref().unwrap_or_default());
-    block.line(
-        "scale",
-        &row.factor.map_or_else(String::new, |factor| {
-            format!("the number on the wire is {factor} times the value")
-        }),
-    );
-    let full_scale = row.full_scale.map(|scale| format!("{scale:?}").to_lowercase());
-    block.line(
-        "fraction of",
-        &full_scale.map_or_else(String::new, |scale| format!("the model's full scale ({scale})")),
-    );
-    block.places(spec, &row.source);
-    block.sentences(spec, &id);
-    block.errata(spec, &row.errata);
-    block.requirements(spec, &id, &format!("{:#04X}", row.code), [&[], &row.source]);
+    block.places(spec, row.source);
+    block.sentences(spec, &row.id);
+    block.errata(spec, row.errata);
+    let all = wire.asks(spec);
+    let sources = all.iter().map(|row| row.source);
+    let (own, shared) = parted(row.source, &sources, 1);
+    block.requirements(spec, &row.id, &row.word, [&own, &shared]);
     block.0
 }

@@ -6,8 +6,9 @@ use actucheck_codec::dynamixel2::status::{self, StatusError};
 use actucheck_codec::dynamixel2::stream::{Event, Parser};
 use actucheck_codec::dynamixel2::stuffing::{self, UnstuffError};
 use actucheck_codec::dynamixel2::{FastStatus, Frame, FrameError, Instruction, frame};
-use actucheck_spec::model::{self, Fault, HexBytes, Packet};
-use actucheck_spec::wire::dynamixel2::reference::Fast;
+use actucheck_spec::model::{Fault, HexBytes};
+use actucheck_spec::wire::dynamixel2::{self, Packet};
+use actucheck_spec::wire::{self, Fast};
 
 use super::{Answer, Result, answer, not_offered, output, rejection, unbuilt};
 use crate::adapter::{Output, Question, Rejection};
@@ -43,7 +44,8 @@ fn unstuff(stuffed: &[u8], buffer: &mut Vec<u8>) -> Result {
     })
 }
 
-fn encode(packet: &Packet, buffer: &mut [u8]) -> Result {
+fn encode(packet: &wire::Packet, buffer: &mut [u8]) -> Result {
+    let wire::Packet::Dynamixel2(packet) = packet else { return Err(not_offered()) };
     let bytes = match packet {
         Packet::Instruction { id, instruction, params } => {
             frame::encode(*id, Instruction::from_code(*instruction), &[params], buffer)
@@ -55,14 +57,13 @@ fn encode(packet: &Packet, buffer: &mut [u8]) -> Result {
             let blocks: Vec<_> = blocks.iter().map(block).collect();
             fast_status::encode(&blocks, buffer)
         }
-        Packet::Request { .. } | Packet::Reply { .. } => return Err(not_offered()),
     };
     bytes.map(output).map_err(|error| unbuilt(&error))
 }
 
 fn decode(bytes: &[u8]) -> Result {
     let frame = Frame::parse(bytes).map_err(frame_rejection)?;
-    Ok(Output::Packet(packet(&frame)))
+    Ok(Output::Packet(packet(&frame).into()))
 }
 
 fn packet(frame: &Frame<'_>) -> Packet {
@@ -84,7 +85,7 @@ fn stream(chunks: &[HexBytes]) -> Output {
     let mut drain = |parser: &mut Parser| {
         while let Some(event) = parser.next_event() {
             if let Event::Frame(frame) = event {
-                packets.push(packet(&frame));
+                packets.push(packet(&frame).into());
             }
         }
     };
@@ -102,15 +103,15 @@ fn stream(chunks: &[HexBytes]) -> Output {
 
 fn decode_fast(bytes: &[u8], fast: &Fast) -> Result {
     let packet = FastStatus::parse(bytes, fast.length, &fast.ids).map_err(frame_rejection)?;
-    let blocks = packet.blocks().map(|block| model::Block {
+    let blocks = packet.blocks().map(|block| dynamixel2::Block {
         error: block.error.0,
         id: block.id,
         data: block.data.to_vec().into(),
     });
-    Ok(Output::Packet(Packet::FastStatus { blocks: blocks.collect() }))
+    Ok(Output::Packet(Packet::FastStatus { blocks: blocks.collect() }.into()))
 }
 
-fn block(block: &model::Block) -> Block<'_> {
+fn block(block: &dynamixel2::Block) -> Block<'_> {
     Block { error: StatusError(block.error), id: block.id, data: &block.data }
 }
 

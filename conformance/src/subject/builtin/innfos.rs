@@ -2,7 +2,9 @@
 
 use actucheck_codec::crc;
 use actucheck_codec::innfos::{self, Command, Frame, FrameError, Kind};
-use actucheck_spec::model::{Fault, FrameKind, HexBytes, Packet};
+use actucheck_spec::model::{Fault, HexBytes};
+use actucheck_spec::wire::innfos::Packet;
+use actucheck_spec::wire::{self, Direction};
 
 use super::{Answer, Result, answer, not_offered, output, rejection, unbuilt};
 use crate::adapter::{Output, Question};
@@ -18,21 +20,18 @@ pub(super) fn ask(question: &Question, buffer: &mut [u8]) -> Answer {
     })
 }
 
-fn encode(packet: &Packet, buffer: &mut [u8]) -> Result {
-    let (kind, address, command, data) = match packet {
-        Packet::Request { address, command, data } => (Kind::Request, address, command, data),
-        Packet::Reply { address, command, data } => (Kind::Reply, address, command, data),
-        _ => return Err(not_offered()),
-    };
+fn encode(packet: &wire::Packet, buffer: &mut [u8]) -> Result {
+    let wire::Packet::Innfos(packet) = packet else { return Err(not_offered()) };
+    let Packet { direction, address, command, data } = packet;
     let command = Command::from_code(*command);
-    innfos::encode(kind, *address, command, data, buffer)
+    innfos::encode(kind(*direction), *address, command, data, buffer)
         .map(output)
         .map_err(|error| unbuilt(&error))
 }
 
-fn decode(kind: FrameKind, bytes: &[u8]) -> Result {
-    let frame = Frame::parse(of(kind), bytes);
-    frame.map(|frame| Output::Packet(packet(&frame))).map_err(|error| {
+fn decode(direction: Direction, bytes: &[u8]) -> Result {
+    let frame = Frame::parse(kind(direction), bytes);
+    frame.map(|frame| Output::Packet(packet(&frame).into())).map_err(|error| {
         let class = match error {
             FrameError::Header { .. } => Fault::Header,
             FrameError::Truncated { .. } => Fault::Truncated,
@@ -45,23 +44,24 @@ fn decode(kind: FrameKind, bytes: &[u8]) -> Result {
 }
 
 /// The good frames of each datagram.
-fn stream(kind: FrameKind, datagrams: &[HexBytes]) -> Output {
-    let frames = datagrams.iter().flat_map(|datagram| innfos::frames(of(kind), datagram));
-    Output::Packets(frames.flatten().map(|frame| packet(&frame)).collect())
+fn stream(direction: Direction, datagrams: &[HexBytes]) -> Output {
+    let frames = datagrams.iter().flat_map(|datagram| innfos::frames(kind(direction), datagram));
+    Output::packets(frames.flatten().map(|frame| packet(&frame)))
 }
 
 fn packet(frame: &Frame<'_>) -> Packet {
     let (address, command) = (frame.address(), frame.command().code());
     let data = frame.data().to_vec().into();
-    match frame.kind() {
-        Kind::Request => Packet::Request { address, command, data },
-        Kind::Reply => Packet::Reply { address, command, data },
-    }
+    let direction = match frame.kind() {
+        Kind::Request => Direction::Request,
+        Kind::Reply => Direction::Reply,
+    };
+    Packet { direction, address, command, data }
 }
 
-fn of(kind: FrameKind) -> Kind {
-    match kind {
-        FrameKind::Request => Kind::Request,
-        FrameKind::Reply => Kind::Reply,
+fn kind(direction: Direction) -> Kind {
+    match direction {
+        Direction::Request => Kind::Request,
+        Direction::Reply => Kind::Reply,
     }
 }

@@ -7,15 +7,25 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use actucheck_codec::EncodeError;
 use actucheck_spec::model::{Fault, HexBytes};
+use actucheck_spec::wire;
 
 use super::{Answer, Subject};
 use crate::adapter::{Hello, Implementation, Limits, Output, Question, Rejection, VERSION, Wire};
 
-/// The largest frame of any wire: 65,535 bytes of data, and the eight bytes that INNFOS adds.
+/// The largest frame of any wire: 65,535 bytes of data with eight bytes around them.
 const MAX_FRAME: usize = 65_535 + 8;
 
 /// The result, or why the input is rejected.
 type Result = std::result::Result<Output, Rejection>;
+
+/// The codec's answer to a question. The buffer has room for any frame.
+type Ask = fn(&Question, &mut Vec<u8>) -> Answer;
+
+/// The wires that the codec has.
+const WIRES: [(Wire, Ask); 2] = [
+    (wire::dynamixel2::WIRE, dynamixel2::ask),
+    (wire::innfos::WIRE, |op, buffer| innfos::ask(op, buffer)),
+];
 
 /// The built-in codec.
 #[derive(Debug)]
@@ -34,7 +44,7 @@ impl Default for Builtin {
                 language: "Rust".to_owned(),
                 url: None,
             },
-            wires: Wire::ALL.map(|wire| wire.id().to_owned()).to_vec(),
+            wires: WIRES.map(|(wire, _)| wire.id().to_owned()).to_vec(),
             ops: ["crc", "stuff", "unstuff", "encode", "decode", "stream"]
                 .map(str::to_owned)
                 .to_vec(),
@@ -52,12 +62,12 @@ impl Subject for Builtin {
 
     fn ask(&mut self, question: &Question) -> Answer {
         let buffer = &mut self.buffer;
-        let ask = || match question.wire() {
-            Wire::Dynamixel2 => dynamixel2::ask(question, buffer),
-            Wire::Innfos => innfos::ask(question, buffer),
+        let offered = WIRES.into_iter().find(|(wire, _)| *wire == question.wire());
+        let Some((_, ask)) = offered else {
+            return Answer::Skipped(format!("the codec has no {}", question.wire()));
         };
         // A panic is a finding among others. The buffer is written before it is read.
-        catch_unwind(AssertUnwindSafe(ask)).unwrap_or_else(|panic| {
+        catch_unwind(AssertUnwindSafe(|| ask(question, buffer))).unwrap_or_else(|panic| {
             let text = panic.downcast_ref::<String>().map(String::as_str);
             let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
             let detail = format!("panicked: {}", text.unwrap_or("it does not say why"));

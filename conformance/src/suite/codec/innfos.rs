@@ -1,14 +1,15 @@
 //! Checks of the INNFOS Ethernet protocol: the test vectors, exhaustive checks of small sets, and
 //! frames that break one rule each.
 
-use actucheck_spec::model::{Citation, Fault, FrameKind, Outcome, Packet, Vector};
-use actucheck_spec::wire::innfos::reference;
+use actucheck_spec::model::{Citation, Fault, Outcome, Vector};
+use actucheck_spec::wire::innfos::{self, reference};
+use actucheck_spec::wire::{Direction, Packet};
 
 use super::dynamixel2::golden::{demand, way};
-use crate::adapter::{Called, Output, Question};
+use crate::adapter::{Output, Question};
 use crate::suite::check::{Check, Demand, Unspecified, Way};
 use crate::suite::plan::{Family, Group};
-use crate::suite::{Author, hex};
+use crate::suite::{Author, Options, hex};
 
 /// Bytes that could be mistaken for the first or last byte of a frame, and two others.
 const ALPHABET: [u8; 4] = [0xEE, 0xED, 0x00, 0x01];
@@ -22,12 +23,12 @@ const AROUND: usize = 8;
 /// What a packet's checks are called.
 const NAMES: [&str; 3] = ["/encode", "/decode", "/stream-twice"];
 
-pub(super) fn families(author: Author<'_>, max_packet: Option<usize>) -> Vec<Family<'_>> {
-    let largest = max_packet.and_then(|limit| limit.checked_sub(AROUND));
+pub(super) fn families<'a>(author: Author<'a>, options: &Options) -> Vec<Family<'a>> {
+    let largest = options.max_packet.and_then(|limit| limit.checked_sub(AROUND));
     let largest = largest.map(|size| size.min(LARGEST)).filter(|size| !SIZES.contains(size));
     let sizes: Vec<_> = SIZES.into_iter().chain(largest).collect();
     let mut families = vec![Family::of("", move || golden(&author))];
-    for kind in [FrameKind::Request, FrameKind::Reply] {
+    for kind in [Direction::Request, Direction::Reply] {
         let sizes = sizes.clone();
         families.extend([
             family(author, kind, "address", || {
@@ -43,11 +44,9 @@ pub(super) fn families(author: Author<'_>, max_packet: Option<usize>) -> Vec<Fam
             family(author, kind, "data", || {
                 (0..=4).flat_map(words).map(|data| (hex(&data), Sent::new(6, 0x0A, &data)))
             }),
-            Family::of(format!("innfos.negative.{}.", word(kind)), move || damaged(&author, kind)),
+            Family::of(format!("innfos.negative.{kind}."), move || damaged(&author, kind)),
             Family::of("innfos.negative.", move || other_way(&author, kind)),
-            Family::of(format!("innfos.open.{}.", word(kind)), move || {
-                behind_damage(&author, kind)
-            }),
+            Family::of(format!("innfos.open.{kind}."), move || behind_damage(&author, kind)),
         ]);
     }
     families
@@ -69,14 +68,14 @@ impl Sent {
 /// Packets that are built, read, and found twice in a datagram, each with its name.
 fn family<'a, I>(
     author: Author<'a>,
-    kind: FrameKind,
+    kind: Direction,
     what: &'static str,
     packets: impl Fn() -> I + Send + Sync + 'a,
 ) -> Family<'a>
 where
     I: Iterator<Item = (String, Sent)> + Send + 'a,
 {
-    let prefix = format!("innfos.{}.{what}.", word(kind));
+    let prefix = format!("innfos.{kind}.{what}.");
     Family::new(prefix.clone(), move || {
         let prefix = prefix.clone();
         packets().map(move |(name, Sent { address, command, data })| {
@@ -84,13 +83,6 @@ where
             Group::new(id, &NAMES, move |id| both_ways(&author, id, kind, address, command, &data))
         })
     })
-}
-
-const fn word(kind: FrameKind) -> &'static str {
-    match kind {
-        FrameKind::Request => "request",
-        FrameKind::Reply => "reply",
-    }
 }
 
 fn words(length: u32) -> impl Iterator<Item = Vec<u8>> {
@@ -101,7 +93,7 @@ fn words(length: u32) -> impl Iterator<Item = Vec<u8>> {
 }
 
 fn golden(author: &Author<'_>) -> Vec<Check> {
-    let vectors = author.spec.vectors().filter(|(file, _)| file.wire == author.wire.id());
+    let vectors = author.spec.vectors().filter(|(file, _)| file.wire == author.wire);
     let vectors: Vec<_> = vectors.map(|(file, vector)| (&file.source, vector)).collect();
     let mut checks = Vec::new();
     for (source, vector) in &vectors {
@@ -119,14 +111,14 @@ fn golden(author: &Author<'_>) -> Vec<Check> {
             let built = demand(author.spec, vector, frame(vector), others);
             add("encode", own, encode(author, packet), built);
             let read = demand(author.spec, vector, Output::Packet(packet.clone()), Vec::new());
-            add("decode", own, decode(author, kind_of(packet), vector.frame()), read);
-        } else if let (Some(kind), Some(fault)) = (vector.kind, vector.fault) {
+            add("decode", own, decode(author, packet.direction(), vector.frame()), read);
+        } else if let (Some(kind), Some(fault)) = (vector.direction, vector.fault) {
             add("decode", own, decode(author, kind, vector.frame()), Demand::Reject(fault));
         }
         if let (Some(printed), Some(fault), Some(packet)) =
             (vector.defective(), vector.printed_fault, &vector.packet)
         {
-            let op = decode(author, kind_of(packet), printed);
+            let op = decode(author, packet.direction(), printed);
             add("decode-printed", "innfos.defects", op, Demand::Reject(fault));
         }
     }
@@ -147,28 +139,19 @@ fn frame(vector: &Vector) -> Output {
     Output::Bytes(vector.frame().to_vec().into())
 }
 
-/// The CRC of a packet's data. The document's function returns the two bytes in the reverse order
-/// of the named CRC; either number is right.
+/// The CRC of a packet's data.
 fn crc(author: &Author<'_>, packet: &Packet) -> Option<(Question, Demand)> {
-    let (Packet::Request { data, .. } | Packet::Reply { data, .. }) = packet else { return None };
-    let crc = reference::crc(data);
+    let Packet::Innfos(innfos::Packet { data, .. }) = packet else { return None };
     let op = Question::Crc { wire: author.wire, bytes: data.clone() };
-    let numbers = [crc, crc.swap_bytes()].map(|number| Output::Crc(number.into()));
-    (!data.is_empty()).then(|| (op, Demand::YieldOneOf(numbers.to_vec())))
-}
-
-fn kind_of(packet: &Packet) -> FrameKind {
-    match packet {
-        Packet::Reply { .. } => FrameKind::Reply,
-        _ => FrameKind::Request,
-    }
+    let numbers = author.wire.checksum(data).into_iter().map(Output::Crc);
+    (!data.is_empty()).then(|| (op, Demand::YieldOneOf(numbers.collect())))
 }
 
 fn encode(author: &Author<'_>, packet: &Packet) -> Question {
-    Question::Encode { wire: author.wire, packet: Called { packet: packet.clone(), call: None } }
+    Question::Encode { wire: author.wire, packet: packet.clone().into() }
 }
 
-fn decode(author: &Author<'_>, kind: FrameKind, bytes: &[u8]) -> Question {
+fn decode(author: &Author<'_>, kind: Direction, bytes: &[u8]) -> Question {
     let bytes = bytes.to_vec().into();
     Question::Decode { wire: author.wire, bytes, fast: None, kind: Some(kind) }
 }
@@ -177,7 +160,7 @@ fn decode(author: &Author<'_>, kind: FrameKind, bytes: &[u8]) -> Question {
 fn both_ways(
     author: &Author<'_>,
     id: &str,
-    kind: FrameKind,
+    kind: Direction,
     address: u8,
     command: u8,
     data: &[u8],
@@ -188,14 +171,12 @@ fn both_ways(
         _ => "innfos.frame.layout",
     };
     let data = data.to_vec().into();
-    let packet = match kind {
-        FrameKind::Request => Packet::Request { address, command, data },
-        FrameKind::Reply => Packet::Reply { address, command, data },
-    };
+    let packet = innfos::Packet { direction: kind, address, command, data };
     let Some(frame) = reference::encode(&packet) else { return Vec::new() };
     let chunk = [frame.as_slice(), &frame].concat();
     let stream =
         Question::Stream { wire: author.wire, kind: Some(kind), chunks: vec![chunk.into()] };
+    let packet = Packet::from(packet);
     let (once, twice) = (Output::Packet(packet.clone()), vec![packet.clone(), packet.clone()]);
     let built = Demand::Yield(Output::Bytes(frame.clone().into()));
     let read = Demand::Yield(once);
@@ -208,8 +189,8 @@ fn both_ways(
 }
 
 /// A frame with a flipped bit, a missing byte or an extra byte.
-fn damaged(author: &Author<'_>, kind: FrameKind) -> Vec<Check> {
-    let (word, packet) = example(kind);
+fn damaged(author: &Author<'_>, kind: Direction) -> Vec<Check> {
+    let packet = example(kind);
     let frame = reference::encode(&packet).unwrap_or_default();
     let mut damaged = Vec::new();
     for at in 0..frame.len() {
@@ -226,10 +207,10 @@ fn damaged(author: &Author<'_>, kind: FrameKind) -> Vec<Check> {
     damaged.push(("byte-before".to_owned(), [&[0x00], frame.as_slice()].concat()));
     let mut checks = Vec::new();
     for (name, bytes) in damaged {
-        let id = format!("innfos.negative.{word}.{name}/decode");
+        let id = format!("innfos.negative.{kind}.{name}/decode");
         let (requirement, demand) = match reference::decode(kind, &bytes) {
             // The CRC covers the data alone: a changed address or command is not noticed.
-            Ok(packet) => ("innfos.frame.layout", Demand::Yield(Output::Packet(packet))),
+            Ok(packet) => ("innfos.frame.layout", Demand::Yield(Output::Packet(packet.into()))),
             Err(fault) => (requirement_of(fault), Demand::Reject(fault)),
         };
         checks.push(author.check(id, requirement, decode(author, kind, &bytes), demand));
@@ -239,23 +220,18 @@ fn damaged(author: &Author<'_>, kind: FrameKind) -> Vec<Check> {
 
 /// A frame read in the other direction: with one byte of data it has an extra CRC or lacks one;
 /// with any other number of bytes it is the same in both directions.
-fn other_way(author: &Author<'_>, kind: FrameKind) -> Vec<Check> {
+fn other_way(author: &Author<'_>, kind: Direction) -> Vec<Check> {
     let (address, command) = (6, 0x0A);
     let check = |size: usize| {
         let data = vec![0x5A; size].into();
-        let (word, requirement, packet) = match kind {
-            FrameKind::Request => {
-                let packet = Packet::Reply { address, command, data };
-                ("reply-as-request", "innfos.crc.request", packet)
-            }
-            FrameKind::Reply => {
-                let packet = Packet::Request { address, command, data };
-                ("request-as-reply", "innfos.crc.reply", packet)
-            }
+        let (word, requirement, direction) = match kind {
+            Direction::Request => ("reply-as-request", "innfos.crc.request", Direction::Reply),
+            Direction::Reply => ("request-as-reply", "innfos.crc.reply", Direction::Request),
         };
+        let packet = innfos::Packet { direction, address, command, data };
         let frame = reference::encode(&packet).unwrap_or_default();
         let demand = match reference::decode(kind, &frame) {
-            Ok(packet) => Demand::Yield(Output::Packet(packet)),
+            Ok(packet) => Demand::Yield(Output::Packet(packet.into())),
             Err(fault) => Demand::Reject(fault),
         };
         let id = format!("innfos.negative.{word}.size-{size}/decode");
@@ -265,8 +241,8 @@ fn other_way(author: &Author<'_>, kind: FrameKind) -> Vec<Check> {
 }
 
 /// A valid frame after other bytes in one datagram, which the document leaves unspecified.
-fn behind_damage(author: &Author<'_>, kind: FrameKind) -> Vec<Check> {
-    let (word, packet) = example(kind);
+fn behind_damage(author: &Author<'_>, kind: Direction) -> Vec<Check> {
+    let packet = example(kind);
     let good = reference::encode(&packet).unwrap_or_default();
     let flipped = |at: usize| {
         let mut frame = good.clone();
@@ -291,13 +267,13 @@ fn behind_damage(author: &Author<'_>, kind: FrameKind) -> Vec<Check> {
             ("the datagram is dropped from the damage on", reference::packets(kind, &datagram)),
         ];
         let ways = ways
-            .map(|(name, packets)| Way { name: name.to_owned(), output: Output::Packets(packets) });
+            .map(|(name, packets)| Way { name: name.to_owned(), output: Output::packets(packets) });
         let question = format!(
             "What becomes of a good frame in a datagram behind {}?",
             name.replace('-', " ")
         );
         let open = Unspecified { question, ways: ways.into() };
-        let id = format!("innfos.open.{word}.behind-{name}/stream");
+        let id = format!("innfos.open.{kind}.behind-{name}/stream");
         let op =
             Question::Stream { wire: author.wire, chunks: vec![datagram.into()], kind: Some(kind) };
         author.check(id, "innfos.frame.layout", op, Demand::Record(open))
@@ -306,12 +282,13 @@ fn behind_damage(author: &Author<'_>, kind: FrameKind) -> Vec<Check> {
 }
 
 /// A packet with data, to be damaged.
-fn example(kind: FrameKind) -> (&'static str, Packet) {
+fn example(direction: Direction) -> innfos::Packet {
     let data = vec![0x01, 0x02, 0x03, 0x04].into();
-    match kind {
-        FrameKind::Request => ("request", Packet::Request { address: 6, command: 0x0A, data }),
-        FrameKind::Reply => ("reply", Packet::Reply { address: 6, command: 0x06, data }),
-    }
+    let command = match direction {
+        Direction::Request => 0x0A,
+        Direction::Reply => 0x06,
+    };
+    innfos::Packet { direction, address: 6, command, data }
 }
 
 fn requirement_of(fault: Fault) -> &'static str {

@@ -2,13 +2,14 @@
 //! range that another register sets, stands in a comment.
 
 mod device;
-mod innfos;
-mod protocol;
 mod writer;
 
 use super::ExportError;
 use crate::Spec;
-use writer::Header;
+use crate::wire::Wire;
+
+pub use writer::Header;
+pub(crate) use writer::{Constant, lower, upper};
 
 /// The whole header.
 ///
@@ -16,10 +17,9 @@ use writer::Header;
 /// If two things in the spec would have the same name in C.
 pub fn export(spec: &Spec) -> Result<String, ExportError> {
     let mut header = Header::new();
-    for file in &spec.protocols {
-        protocol::write(&file.content, &mut header);
+    for wire in Wire::ALL {
+        wire.c_header(spec, &mut header);
     }
-    innfos::write(&spec.innfos.content, &mut header);
     for file in &spec.devices {
         device::write(&file.content, &mut header);
     }

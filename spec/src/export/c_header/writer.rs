@@ -5,21 +5,21 @@ use super::super::ExportError;
 use crate::generate::words;
 
 /// A header as it grows.
-pub(super) struct Header {
+pub struct Header {
     text: String,
     names: BTreeSet<String>,
     clash: Option<String>,
 }
 
 /// A name with its value in C, and what it is.
-pub(super) struct Constant {
-    pub(super) name: String,
-    pub(super) value: String,
-    pub(super) comment: String,
+pub(crate) struct Constant {
+    pub(crate) name: String,
+    pub(crate) value: String,
+    pub(crate) comment: String,
 }
 
 impl Constant {
-    pub(super) fn new(name: String, value: impl Into<String>, comment: impl Into<String>) -> Self {
+    pub(crate) fn new(name: String, value: impl Into<String>, comment: impl Into<String>) -> Self {
         Self { name, value: value.into(), comment: comment.into() }
     }
 }
@@ -36,24 +36,24 @@ const HEAD: &str = "\
 const SIGNIFICANT: usize = 63;
 
 impl Header {
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self { text: HEAD.to_owned(), names: BTreeSet::new(), clash: None }
     }
 
     /// A line above what belongs together.
-    pub(super) fn title(&mut self, text: &str) {
+    pub(crate) fn title(&mut self, text: &str) {
         self.line("");
         self.line(&format!("/* {} */", harmless(text)));
     }
 
-    pub(super) fn define(&mut self, constant: &Constant) {
+    pub(crate) fn define(&mut self, constant: &Constant) {
         let Constant { name, value, comment } = constant;
         self.declare(name);
         let comment = trailing(comment);
         self.line(&format!("#define {name} {value}{comment}"));
     }
 
-    pub(super) fn enumeration(&mut self, tag: &str, constants: &[Constant]) {
+    pub(crate) fn enumeration(&mut self, tag: &str, constants: &[Constant]) {
         // C has no enumeration of nothing.
         if constants.is_empty() {
             return;
@@ -68,12 +68,12 @@ impl Header {
         self.line("};");
     }
 
-    pub(super) fn typedef(&mut self, kind: &str, name: &str) {
+    pub(crate) fn typedef(&mut self, kind: &str, name: &str) {
         self.declare(name);
         self.line(&format!("typedef {kind} {name};"));
     }
 
-    pub(super) fn finish(mut self) -> Result<String, ExportError> {
+    pub(crate) fn finish(mut self) -> Result<String, ExportError> {
         self.line("\n#endif");
         self.clash.map_or(Ok(self.text), |name| Err(ExportError::Name(name)))
     }
@@ -92,13 +92,13 @@ impl Header {
 }
 
 /// `Goal Position` as `GOAL_POSITION`. What stands in brackets is left out.
-pub(super) fn upper(name: &str) -> String {
+pub(crate) fn upper(name: &str) -> String {
     let plain = name.split(" (").next().unwrap_or(name);
     words(plain).join("_").to_uppercase()
 }
 
 /// `Goal Position` as `goal_position`.
-pub(super) fn lower(name: &str) -> String {
+pub(crate) fn lower(name: &str) -> String {
     upper(name).to_lowercase()
 }
 

@@ -1,12 +1,13 @@
 //! The control tables, instructions and commands as tables that a forge shows.
 
 mod device;
-mod innfos;
-mod protocol;
 mod writer;
 
 use crate::Spec;
-use writer::Text;
+use crate::wire::Wire;
+
+pub use writer::Text;
+pub(crate) use writer::or_nothing;
 
 /// The whole text.
 #[must_use]
@@ -21,10 +22,9 @@ pub fn export(spec: &Spec) -> String {
         vec![document.id.clone(), document.title.clone(), document.language.clone()]
     });
     text.table(&["document", "title", "language"], documents);
-    for file in &spec.protocols {
-        protocol::write(&file.content, &mut text);
+    for wire in Wire::ALL {
+        wire.markdown(spec, &mut text);
     }
-    innfos::write(&spec.innfos.content, &mut text);
     for file in &spec.devices {
         device::write(&file.content, &mut text);
     }

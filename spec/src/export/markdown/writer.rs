@@ -1,18 +1,18 @@
 /// A text as it grows.
 #[derive(Default)]
-pub(super) struct Text(String);
+pub struct Text(String);
 
 impl Text {
-    pub(super) fn heading(&mut self, level: usize, words: &str) {
+    pub(crate) fn heading(&mut self, level: usize, words: &str) {
         self.block(&format!("{} {words}", "#".repeat(level)));
     }
 
-    pub(super) fn paragraph(&mut self, words: &str) {
+    pub(crate) fn paragraph(&mut self, words: &str) {
         self.block(words);
     }
 
     /// A table with at least one row; nothing if there is none.
-    pub(super) fn table(&mut self, head: &[&str], rows: impl IntoIterator<Item = Vec<String>>) {
+    pub(crate) fn table(&mut self, head: &[&str], rows: impl IntoIterator<Item = Vec<String>>) {
         let rows: Vec<_> = rows.into_iter().map(|cells| row(&cells)).collect();
         if rows.is_empty() {
             return;
@@ -21,7 +21,7 @@ impl Text {
         self.block(&[&head[..], &rows].concat().join("\n"));
     }
 
-    pub(super) fn finish(self) -> String {
+    pub(crate) fn finish(self) -> String {
         self.0
     }
 
@@ -45,7 +45,7 @@ fn escaped(cell: &str) -> String {
 }
 
 /// What may be there, or nothing.
-pub(super) fn or_nothing(value: Option<impl ToString>) -> String {
+pub(crate) fn or_nothing(value: Option<impl ToString>) -> String {
     value.map(|value| value.to_string()).unwrap_or_default()
 }
 

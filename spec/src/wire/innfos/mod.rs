@@ -1,3 +1,170 @@
 //! The INNFOS Ethernet protocol.
 
+mod asks;
+mod c_header;
+mod generate;
+mod markdown;
+mod model;
+mod packet;
 pub mod reference;
+mod validate;
+
+use proc_macro2::TokenStream;
+use schemars::SchemaGenerator;
+use serde_json::Value;
+
+pub use model::{
+    Actuator, Actuators, AlarmBit, Alarms, Command, CrcPresence, Envelope, Format, FormatRow,
+    FullScale, Innfos, Mode, Modes, Operation, Udp,
+};
+pub use packet::Packet;
+
+use super::{Ask, Cited, Context, Direction, Fields, Rules, Wire};
+use crate::export::c_header::Header;
+use crate::export::markdown::Text;
+use crate::model::{Fault, HexBytes, Requirement};
+use crate::{Diagnostic, Spec, schema};
+
+/// The wire.
+pub const WIRE: Wire = Wire::new(&This);
+
+struct This;
+
+impl Rules for This {
+    fn id(&self) -> &'static str {
+        "innfos"
+    }
+
+    fn title(&self) -> &'static str {
+        "The INNFOS Ethernet protocol"
+    }
+
+    fn kinds(&self) -> &'static [&'static str] {
+        &["request", "reply"]
+    }
+
+    fn packet(&self, fields: Fields) -> Result<super::Packet, serde_json::Error> {
+        serde_json::from_value(Value::Object(fields)).map(super::Packet::Innfos)
+    }
+
+    fn packet_schemas(&self, generator: &mut SchemaGenerator) -> Vec<Value> {
+        schema::variants::<Packet>(generator)
+    }
+
+    fn direction(&self, packet: &super::Packet) -> Direction {
+        own(packet).map_or(Direction::Request, |packet| packet.direction)
+    }
+
+    fn payload<'a>(&self, packet: &'a super::Packet) -> Vec<&'a HexBytes> {
+        own(packet).map(|packet| &packet.data).into_iter().collect()
+    }
+
+    fn difference(&self, expected: &super::Packet, actual: &super::Packet) -> &'static str {
+        match (own(expected), own(actual)) {
+            (Some(left), Some(right)) if left.direction == right.direction => {
+                match (left.address == right.address, left.command == right.command) {
+                    (false, _) => "address",
+                    (_, false) => "command",
+                    _ => "data",
+                }
+            }
+            _ => "kind of packet",
+        }
+    }
+
+    fn context(&self, packet: &super::Packet) -> Context {
+        self.direction(packet).into()
+    }
+
+    fn tells_direction(&self) -> bool {
+        false
+    }
+
+    /// The document's function returns the two bytes the other way round than the CRC's name says;
+    /// either number is right.
+    fn checksum(&self, bytes: &[u8]) -> Vec<u64> {
+        let crc = reference::crc(bytes);
+        vec![crc.into(), crc.swap_bytes().into()]
+    }
+
+    fn encode(&self, packet: &super::Packet) -> Option<Vec<u8>> {
+        reference::encode(own(packet)?)
+    }
+
+    fn decode(&self, bytes: &[u8], context: &Context) -> Result<super::Packet, Fault> {
+        let direction = context.direction.unwrap_or(Direction::Request);
+        reference::decode(direction, bytes).map(Into::into)
+    }
+
+    /// A chunk is a datagram.
+    fn stream(&self, chunks: &[HexBytes], direction: Option<Direction>) -> Vec<super::Packet> {
+        let direction = direction.unwrap_or(Direction::Request);
+        let packets = chunks.iter().flat_map(|chunk| reference::packets(direction, chunk));
+        packets.map(Into::into).collect()
+    }
+
+    fn is_unspecified(&self, bytes: &[u8], context: &Context) -> bool {
+        let packet = reference::decode(context.direction.unwrap_or(Direction::Request), bytes);
+        packet.is_ok_and(|packet| reference::is_unspecified(&packet))
+    }
+
+    fn part(&self, frame: &[u8], offset: usize) -> &'static str {
+        reference::part(frame, offset)
+    }
+
+    fn repair(&self, frame: &mut [u8]) {
+        reference::repair(frame);
+    }
+
+    fn cited<'a>(&self, spec: &'a Spec) -> Vec<Cited<'a>> {
+        validate::cited(&spec.wires.innfos.content)
+    }
+
+    fn validate(&self, spec: &Spec) -> Vec<Diagnostic> {
+        validate::all(&spec.wires.innfos)
+    }
+
+    fn diagnostic(&self, spec: &Spec, node: &str, message: String) -> Diagnostic {
+        spec.wires.innfos.diagnostic(node, message)
+    }
+
+    fn frames(&self, spec: &Spec, packet: &super::Packet) -> Vec<Vec<u8>> {
+        let innfos = &spec.wires.innfos.content;
+        own(packet).map(|packet| validate::frames(innfos, packet)).unwrap_or_default()
+    }
+
+    fn asks<'a>(&self, spec: &'a Spec) -> Vec<Ask<'a>> {
+        asks::all(&spec.wires.innfos.content)
+    }
+
+    fn misquoted(&self, spec: &Spec, requirement: &Requirement) -> Vec<String> {
+        validate::misquoted(&spec.wires.innfos.content, requirement)
+    }
+
+    fn generate(&self, spec: &Spec) -> TokenStream {
+        generate::module(&spec.wires.innfos.content)
+    }
+
+    fn c_header(&self, spec: &Spec, header: &mut Header) {
+        c_header::write(&spec.wires.innfos.content, header);
+    }
+
+    fn markdown(&self, spec: &Spec, text: &mut Text) {
+        markdown::write(&spec.wires.innfos.content, text);
+    }
+
+    fn schema(&self) -> String {
+        schema::of_read::<Innfos>()
+    }
+}
+
+impl From<Packet> for super::Packet {
+    fn from(packet: Packet) -> Self {
+        Self::Innfos(packet)
+    }
+}
+
+fn own(packet: &super::Packet) -> Option<&Packet> {
+    let super::Packet::Innfos(packet) = packet else { return None };
+    Some(packet)
+}

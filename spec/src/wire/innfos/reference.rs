@@ -1,7 +1,9 @@
 //! The slow, obviously right model: CRC and frames as the document describes them, a byte at a time.
 //! It shares no code with the codec and none with the generator.
 
-use crate::model::{Fault, FrameKind, HexBytes, Packet};
+use crate::model::{Fault, HexBytes};
+use crate::wire::Direction;
+use crate::wire::innfos::Packet;
 
 /// The first byte of a frame.
 const HEADER: u8 = 0xEE;
@@ -25,19 +27,15 @@ pub fn crc(bytes: &[u8]) -> u16 {
     crc
 }
 
-/// The bytes of a request or reply; `None` for another wire's packet or too much data.
+/// The bytes of a packet; `None` for one with more data than its length can tell.
 #[must_use]
 pub fn encode(packet: &Packet) -> Option<Vec<u8>> {
-    let (kind, address, command, data) = match packet {
-        Packet::Request { address, command, data } => (FrameKind::Request, address, command, data),
-        Packet::Reply { address, command, data } => (FrameKind::Reply, address, command, data),
-        _ => return None,
-    };
+    let Packet { direction, address, command, data } = packet;
     let length = u16::try_from(data.len()).ok()?;
     let mut frame = vec![HEADER, *address, *command];
     frame.extend(length.to_be_bytes());
     frame.extend(data.iter());
-    if has_crc(kind, data) {
+    if has_crc(*direction, data) {
         // The low byte of CRC-16/MODBUS first, which the document calls the high one.
         frame.extend(crc(data).to_le_bytes());
     }
@@ -46,16 +44,22 @@ pub fn encode(packet: &Packet) -> Option<Vec<u8>> {
 }
 
 /// A request with data has a CRC, a reply only from two bytes of data on.
-fn has_crc(kind: FrameKind, data: &[u8]) -> bool {
-    match kind {
-        FrameKind::Request => !data.is_empty(),
-        FrameKind::Reply => data.len() > 1,
+fn has_crc(direction: Direction, data: &[u8]) -> bool {
+    match direction {
+        Direction::Request => !data.is_empty(),
+        Direction::Reply => data.len() > 1,
     }
 }
 
 /// Whether a reply may come without a CRC, with zeros in its place, or with it.
-fn is_open(kind: FrameKind, command: u8, data: &[u8]) -> bool {
-    kind == FrameKind::Reply && data.len() == 1 && OPEN.contains(&command)
+fn is_open(direction: Direction, command: u8, data: &[u8]) -> bool {
+    direction == Direction::Reply && data.len() == 1 && OPEN.contains(&command)
+}
+
+/// Whether the documents leave open what a frame of this packet is.
+#[must_use]
+pub fn is_unspecified(packet: &Packet) -> bool {
+    is_open(packet.direction, packet.command, &packet.data)
 }
 
 /// Whether zeros or the CRC of the data, and the end, are what stands behind the data: all that
@@ -69,8 +73,8 @@ fn looks_like_crc(data: &[u8], behind: &[u8]) -> bool {
 ///
 /// # Errors
 /// The first rule that they break: header, length, tail, trailing bytes, CRC.
-pub fn decode(kind: FrameKind, bytes: &[u8]) -> Result<Packet, Fault> {
-    let first = first(kind, bytes)?;
+pub fn decode(direction: Direction, bytes: &[u8]) -> Result<Packet, Fault> {
+    let first = first(direction, bytes)?;
     if first.size < bytes.len() {
         return Err(Fault::Trailing);
     }
@@ -79,10 +83,10 @@ pub fn decode(kind: FrameKind, bytes: &[u8]) -> Result<Packet, Fault> {
 
 /// The packets of a datagram: frame behind frame, up to the first byte that begins none.
 #[must_use]
-pub fn packets(kind: FrameKind, datagram: &[u8]) -> Vec<Packet> {
+pub fn packets(direction: Direction, datagram: &[u8]) -> Vec<Packet> {
     let mut packets = Vec::new();
     let mut rest = datagram;
-    while let Some((packet, size)) = whole(kind, rest) {
+    while let Some((packet, size)) = whole(direction, rest) {
         packets.push(packet);
         rest = rest.get(size..).unwrap_or_default();
     }
@@ -92,11 +96,11 @@ pub fn packets(kind: FrameKind, datagram: &[u8]) -> Vec<Packet> {
 /// The packets of a datagram wherever they begin: where none does, the search goes on one byte
 /// further.
 #[must_use]
-pub fn packets_anywhere(kind: FrameKind, datagram: &[u8]) -> Vec<Packet> {
+pub fn packets_anywhere(direction: Direction, datagram: &[u8]) -> Vec<Packet> {
     let mut packets = Vec::new();
     let mut rest = datagram;
     while !rest.is_empty() {
-        let size = match whole(kind, rest) {
+        let size = match whole(direction, rest) {
             Some((packet, size)) => {
                 packets.push(packet);
                 size
@@ -109,8 +113,8 @@ pub fn packets_anywhere(kind: FrameKind, datagram: &[u8]) -> Vec<Packet> {
 }
 
 /// The packet that begins here if everything is right with it, and its size.
-fn whole(kind: FrameKind, bytes: &[u8]) -> Option<(Packet, usize)> {
-    let first = first(kind, bytes).ok().filter(|first| first.crc_matches)?;
+fn whole(direction: Direction, bytes: &[u8]) -> Option<(Packet, usize)> {
+    let first = first(direction, bytes).ok().filter(|first| first.crc_matches)?;
     Some((first.packet, first.size))
 }
 
@@ -123,7 +127,7 @@ struct First {
 }
 
 /// The packet that begins here.
-fn first(kind: FrameKind, bytes: &[u8]) -> Result<First, Fault> {
+fn first(direction: Direction, bytes: &[u8]) -> Result<First, Fault> {
     if bytes.first().is_some_and(|byte| *byte != HEADER) {
         return Err(Fault::Header);
     }
@@ -131,16 +135,10 @@ fn first(kind: FrameKind, bytes: &[u8]) -> Result<First, Fault> {
     let length = usize::from(u16::from_be_bytes([high, low]));
     let rest = bytes.get(PREFIX..).unwrap_or_default();
     let (data, behind) = rest.split_at_checked(length).ok_or(Fault::Truncated)?;
-    let packet = || {
-        let data = HexBytes(data.to_vec());
-        match kind {
-            FrameKind::Request => Packet::Request { address, command, data },
-            FrameKind::Reply => Packet::Reply { address, command, data },
-        }
-    };
+    let packet = || Packet { direction, address, command, data: HexBytes(data.to_vec()) };
     let without_crc = PREFIX + length + 1;
-    let open = is_open(kind, command, data);
-    let with_crc = if open { looks_like_crc(data, behind) } else { has_crc(kind, data) };
+    let open = is_open(direction, command, data);
+    let with_crc = if open { looks_like_crc(data, behind) } else { has_crc(direction, data) };
     if !with_crc {
         return match behind.first() {
             Some(&TAIL) => Ok(First { packet: packet(), size: without_crc, crc_matches: true }),
@@ -154,4 +152,32 @@ fn first(kind: FrameKind, bytes: &[u8]) -> Result<First, Fault> {
         return Err(Fault::Tail);
     }
     Ok(First { packet: packet(), size: without_crc + 2, crc_matches: open || found == crc(data) })
+}
+
+/// The part of a whole frame that the byte at `offset` belongs to.
+#[must_use]
+pub fn part(frame: &[u8], offset: usize) -> &'static str {
+    let length = frame
+        .get(3..PREFIX)
+        .map_or(0, |length| length.iter().fold(0, |length, byte| length << 8 | usize::from(*byte)));
+    match offset {
+        0 => "header",
+        1 => "address",
+        2 => "command",
+        3 | 4 => "length",
+        _ if offset < PREFIX + length => "data",
+        _ if offset + 1 >= frame.len() => "end",
+        _ => "CRC",
+    }
+}
+
+/// Makes the CRC right that stands before the end of a frame.
+pub fn repair(frame: &mut [u8]) {
+    if let Some((_, before)) = frame.split_last()
+        && let Some((start, _)) = before.split_last_chunk::<2>()
+    {
+        let found = crc(start.get(PREFIX..).unwrap_or_default()).to_le_bytes();
+        let at = start.len();
+        frame.iter_mut().skip(at).zip(found).for_each(|(slot, byte)| *slot = byte);
+    }
 }

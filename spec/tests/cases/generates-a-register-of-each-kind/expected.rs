@@ -1,7 +1,7 @@
 // Generated from YAML.
 
 /// Wire.
-pub mod wire {
+pub mod dynamixel2 {
     use crate::layout::{Field, Size};
     use crate::register::NamedValue;
     /// What every packet begins with, the reserved byte included.
@@ -175,7 +175,7 @@ pub mod wire {
 // Generated from YAML.
 
 /// Board.
-pub mod board {
+pub mod innfos {
     use crate::innfos::{Actuator, CommandRow, Direction, Format, FullScale};
     /// The first byte of a frame.
     ///

@@ -1,7 +1,7 @@
 //! Exhaustive checks: all short bodies of the pattern's bytes, every instruction, every error byte,
 //! every ID, and the lengths at which counting goes wrong.
 
-use actucheck_spec::model::Packet;
+use actucheck_spec::wire::dynamixel2::Packet;
 use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, STATUS};
 
 use crate::adapter::{Output, Question};

@@ -3,7 +3,8 @@
 use std::ops::Range;
 
 use actucheck_spec::Spec;
-use actucheck_spec::model::{Access, Bound, Packet, Register};
+use actucheck_spec::model::{Access, Bound, Register};
+use actucheck_spec::wire::dynamixel2::Packet;
 use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, HEADER};
 use proptest::collection::vec;
 use proptest::prelude::{Just, Strategy, any};

@@ -2,10 +2,10 @@
 //! from their rules. Each yields one check per op.
 
 use actucheck_spec::Spec;
-use actucheck_spec::model::{Citation, Fault, HexBytes, Outcome, Packet, Vector, VectorsFile};
-use actucheck_spec::wire::dynamixel2::reference::{Call, Fast};
+use actucheck_spec::model::{Citation, Fault, HexBytes, Outcome, Vector, VectorsFile};
+use actucheck_spec::wire::{Packet, dynamixel2};
 
-use crate::adapter::{Called, Output, Question, Wire};
+use crate::adapter::{Output, Question, Wire};
 use crate::suite::check::{Check, Demand, Unspecified, Way};
 use crate::suite::plan::{Family, by_stem};
 use crate::suite::{Author, of_reading};
@@ -18,7 +18,7 @@ pub(super) fn family(author: Author<'_>) -> Family<'_> {
     let (spec, wire) = (author.spec, author.wire);
     Family::new("", move || {
         spec.vectors()
-            .filter(move |(file, _)| file.wire == wire.id())
+            .filter(move |(file, _)| file.wire == wire)
             .map(move |(file, vector)| Golden { author, wire, file, vector })
             .flat_map(|golden| by_stem(golden.checks()))
     })
@@ -77,19 +77,17 @@ impl Golden<'_> {
         self.check("crc", "dynamixel2.crc.value", op, demand)
     }
 
-    /// Stuffing and unstuffing of the body alone. Fast status packets and INNFOS frames have no
-    /// stuffing.
+    /// The body alone, both ways. A fast status has no stuffing.
     fn stuffing(&self, packet: &Packet, frame: &[u8]) -> Vec<Check> {
+        let Packet::Dynamixel2(packet) = packet else { return Vec::new() };
         let plain: HexBytes = match packet {
-            Packet::Instruction { instruction, params, .. } => {
+            dynamixel2::Packet::Instruction { instruction, params, .. } => {
                 [&[*instruction], params.0.as_slice()].concat().into()
             }
-            Packet::Status { error, params, .. } => {
+            dynamixel2::Packet::Status { error, params, .. } => {
                 [&[0x55, *error], params.0.as_slice()].concat().into()
             }
-            Packet::FastStatus { .. } | Packet::Request { .. } | Packet::Reply { .. } => {
-                return Vec::new();
-            }
+            dynamixel2::Packet::FastStatus { .. } => return Vec::new(),
         };
         let stuffed: HexBytes = frame
             .get(PREFIX..frame.len().saturating_sub(CRC))
@@ -114,8 +112,7 @@ impl Golden<'_> {
     }
 
     fn encode(&self, requirement: &str, packet: &Packet, frame: &[u8]) -> Check {
-        let packet = Called { call: Call::of(packet), packet: packet.clone() };
-        let op = Question::Encode { wire: self.wire, packet };
+        let op = Question::Encode { wire: self.wire, packet: packet.clone().into() };
         let demand = self.demand(Output::Bytes(frame.to_vec().into()));
         self.check("encode", requirement, op, demand)
     }
@@ -124,7 +121,7 @@ impl Golden<'_> {
         let op = Question::Decode {
             wire: self.wire,
             bytes: frame.to_vec().into(),
-            fast: asked_for(packet),
+            fast: packet.context().fast,
             kind: None,
         };
         self.check(
@@ -139,7 +136,7 @@ impl Golden<'_> {
     /// status packet answers, and a packet that may be rejected may be missing.
     fn streams(&self, packet: &Packet, frame: &[u8]) -> Vec<Check> {
         let open = self.vector.result == Outcome::Acceptable;
-        if open || matches!(packet, Packet::FastStatus { .. }) {
+        if open || packet.context().fast.is_some() {
             return Vec::new();
         }
         let whole = vec![frame.to_vec().into()];
@@ -160,11 +157,10 @@ impl Golden<'_> {
     }
 
     fn rejects(&self, name: &str, requirement: &str, bytes: &[u8], fault: Fault) -> Check {
-        let packet_asked = self.vector.packet.as_ref().and_then(asked_for);
         let op = Question::Decode {
             wire: self.wire,
             bytes: bytes.to_vec().into(),
-            fast: packet_asked,
+            fast: self.vector.context().fast,
             kind: None,
         };
         self.check(name, requirement, op, Demand::Reject(fault))
@@ -196,14 +192,4 @@ fn question(spec: &Spec, vector: &Vector) -> String {
     let rows = spec.errata.content.errata.iter().filter(|row| vector.errata.contains(&row.id));
     let open: Vec<_> = rows.map(|row| format!("{} ({})", row.held_right, row.id)).collect();
     format!("{}: {}", vector.id, open.join("; "))
-}
-
-/// The request that a fast status packet answers.
-fn asked_for(packet: &Packet) -> Option<Fast> {
-    let Packet::FastStatus { blocks } = packet else {
-        return None;
-    };
-    let length = blocks.first().map_or(0, |block| block.data.len());
-    let ids = blocks.iter().map(|block| block.id).collect();
-    Some(Fast { length: u16::try_from(length).unwrap_or(u16::MAX), ids })
 }

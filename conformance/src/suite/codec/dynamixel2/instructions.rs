@@ -1,8 +1,10 @@
 //! Checks of single instructions and their answers: for each sentence of the documents, packets
 //! that come out wrong if the sentence is not followed.
 
-use actucheck_spec::model::{Block, Fault, Packet};
-use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, Fast};
+use actucheck_spec::model::Fault;
+use actucheck_spec::wire::Fast;
+use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST};
+use actucheck_spec::wire::dynamixel2::{Block, Packet};
 
 use crate::adapter::{Output, Question};
 use crate::suite::Author;
@@ -110,7 +112,7 @@ fn fast_both_ways(
     } else {
         "ja40.fast-sync-read.broadcast-id"
     };
-    let read = Demand::Yield(Output::Packet(packet.clone()));
+    let read = Demand::Yield(Output::Packet(packet.clone().into()));
     vec![
         author.check(format!("{id}/decode"), requirement, decode(&frame, fast), read),
         author.check(

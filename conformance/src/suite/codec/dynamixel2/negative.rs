@@ -2,8 +2,7 @@
 //!
 //! Behaviour that the documents leave unspecified is in `unspecified.rs`.
 
-use actucheck_spec::model::Packet;
-use actucheck_spec::wire::dynamixel2::reference;
+use actucheck_spec::wire::dynamixel2::{Packet, reference};
 
 use crate::suite::Author;
 use crate::suite::check::Check;

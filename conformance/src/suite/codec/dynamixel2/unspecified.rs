@@ -1,10 +1,11 @@
 //! Questions that the DYNAMIXEL and JA40 documents leave unspecified. The answers are not judged;
 //! they are the subject's profile.
 
-use actucheck_spec::model::{HexBytes, Packet};
-use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, Call, HEADER, STATUS};
+use actucheck_spec::model::HexBytes;
+use actucheck_spec::wire::dynamixel2::Packet;
+use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, HEADER, STATUS};
 
-use crate::adapter::{Called, Output, Question};
+use crate::adapter::{Output, Question};
 use crate::suite::check::{Check, Demand, Unspecified, Way};
 use crate::suite::{Author, hex};
 
@@ -65,7 +66,7 @@ fn bare_patterns(author: &Author<'_>) -> Vec<Check> {
         let body = ways(&|data| Output::Bytes(bytes(data)));
         checks.push(record(author, &name, requirement, op, body));
         let frame = reference::frame(1, &[&[STATUS, 0], data].concat());
-        let packet = ways(&|data| Output::Packet(status(1, data)));
+        let packet = ways(&|data| Output::Packet(status(1, data).into()));
         checks.push(record(author, &name, requirement, decode(author, frame), packet));
     }
     checks
@@ -85,7 +86,7 @@ fn ids(author: &Author<'_>) -> Vec<Check> {
         };
         let packet = status(id, &[0x2A]);
         let frame = reference::frame(id, &[STATUS, 0, 0x2A]);
-        let ways = open(&question, [("accepts it", Output::Packet(packet))]);
+        let ways = open(&question, [("accepts it", Output::Packet(packet.into()))]);
         let name = format!("id.{id}.status");
         checks.push(record(author, &name, requirement, decode(author, frame), ways));
         if id == BROADCAST {
@@ -107,7 +108,7 @@ fn ids(author: &Author<'_>) -> Vec<Check> {
 }
 
 fn encode(author: &Author<'_>, packet: Packet) -> Question {
-    Question::Encode { wire: author.wire, packet: Called { call: Call::of(&packet), packet } }
+    Question::Encode { wire: author.wire, packet: packet.into() }
 }
 
 /// An instruction that names a device twice. A host must not send it; whether a codec refuses to
@@ -183,7 +184,7 @@ pub(super) fn resumed(author: &Author<'_>, id: String, what: &str, chunks: &[Vec
             ("behind the bytes that the length covers", behind),
             ("it finds none of the whole packets behind it", Vec::new()),
         ]
-        .map(|(name, packets)| (name, Output::Packets(packets))),
+        .map(|(name, packets)| (name, Output::packets(packets))),
     );
     let chunks = chunks.iter().map(|chunk| chunk.clone().into()).collect();
     let op = Question::Stream { wire: author.wire, chunks, kind: None };
@@ -193,7 +194,7 @@ pub(super) fn resumed(author: &Author<'_>, id: String, what: &str, chunks: &[Vec
 /// A packet that breaks two rules: the documents do not say which one is reported.
 fn two_faults(author: &Author<'_>) -> Vec<Check> {
     let question = |faults: &str| format!("Which fault is named of a packet with {faults}?");
-    let accepted = |params: &[u8]| [("accepts it", Output::Packet(status(1, params)))];
+    let accepted = |params: &[u8]| [("accepts it", Output::Packet(status(1, params).into()))];
     let bare = reference::frame(1, &[STATUS, 0, 0xFF, 0xFF, 0xFD, 1]);
     let plain = reference::frame(1, &[STATUS, 0, 0x2A]);
     let spoilt = |frame: &[u8], at: usize, value: u8| {

@@ -7,8 +7,10 @@ mod call;
 mod packet;
 mod stream;
 
-pub use call::Call;
-pub use packet::{Fast, crc, decode, decode_fast, encode, frame, stuff, unstuff};
+pub use call::call;
+pub use packet::{
+    crc, decode, decode_fast, encode, frame, is_unspecified, part, repair, stuff, unstuff,
+};
 pub use stream::{Event, events, is_certain, packets, packets_behind_lengths};
 
 /// What every packet begins with.

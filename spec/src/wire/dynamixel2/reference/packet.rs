@@ -1,19 +1,9 @@
 //! CRC, stuffing and packets of DYNAMIXEL Protocol 2.0 and its JA dialect.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use super::{BROADCAST, HEADER, PATTERN, PREFIX, STATUS};
-use crate::model::{Block, Fault, HexBytes, Packet};
-
-/// The request that a fast status packet answers, without which it can't be taken apart.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct Fast {
-    /// Bytes of data a block; 0 for Fast Sync Write.
-    pub length: u16,
-    /// The devices in the order asked for.
-    pub ids: Vec<u8>,
-}
+use crate::model::{Fault, HexBytes};
+use crate::wire::Fast;
+use crate::wire::dynamixel2::{Block, Packet};
 
 /// CRC-16/UMTS: the remainder of the message times x^16 by x^16 + x^15 + x^2 + 1, bit by bit.
 #[must_use]
@@ -72,7 +62,7 @@ pub fn frame(id: u8, body: &[u8]) -> Vec<u8> {
     frame
 }
 
-/// The bytes of a packet; `None` for one of another wire or longer than its length can tell.
+/// The bytes of a packet; `None` for one that is longer than its length can tell.
 #[must_use]
 pub fn encode(packet: &Packet) -> Option<Vec<u8>> {
     let fitting = |id, body: &[u8]| (body.len() + 2 <= 0xFFFF).then(|| frame(id, body));
@@ -84,7 +74,6 @@ pub fn encode(packet: &Packet) -> Option<Vec<u8>> {
             fitting(*id, &stuff(&[&[STATUS, *error], params.0.as_slice()].concat()))
         }
         Packet::FastStatus { blocks } => Some(encode_fast(blocks)),
-        _ => None,
     }
 }
 
@@ -185,4 +174,34 @@ fn body(bytes: &[u8]) -> Result<(u8, &[u8]), Fault> {
         return Err(Fault::Crc);
     }
     Ok((id, before.get(PREFIX..).unwrap_or_default()))
+}
+
+/// Whether the documents leave open what a whole frame is: with a bare pattern, with an ID that no
+/// device may have, or a status packet from the broadcast ID where no fast one is asked for.
+#[must_use]
+pub fn is_unspecified(bytes: &[u8]) -> bool {
+    matches!(
+        decode(bytes),
+        Err(Fault::Stuffing | Fault::Id) | Ok(Packet::Status { id: BROADCAST, .. })
+    )
+}
+
+/// The part of a whole frame that the byte at `offset` belongs to.
+#[must_use]
+pub fn part(frame: &[u8], offset: usize) -> &'static str {
+    match offset {
+        0..4 => "header",
+        4 => "ID",
+        5..PREFIX => "length",
+        PREFIX => "instruction",
+        _ if offset + 2 >= frame.len() => "CRC",
+        _ => "parameters",
+    }
+}
+
+/// Makes the CRC of a frame right.
+pub fn repair(frame: &mut [u8]) {
+    if let Some((before, end)) = frame.split_last_chunk_mut() {
+        *end = crc(before).to_le_bytes();
+    }
 }

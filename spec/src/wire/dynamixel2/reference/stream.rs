@@ -1,7 +1,8 @@
 //! Packets in a stream, found the slow way: at each byte, is what begins here a whole packet?
 
 use super::{BROADCAST, HEADER, PREFIX, STATUS, crc, decode, unstuff};
-use crate::model::{Fault, Packet};
+use crate::model::Fault;
+use crate::wire::dynamixel2::Packet;
 
 /// The shortest status packet. A receiver may take so many bytes before it looks at their length.
 const SHORTEST: usize = 11;

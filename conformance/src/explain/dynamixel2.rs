@@ -1,0 +1,303 @@
+//! One frame of DYNAMIXEL Protocol 2.0, field by field.
+
+use std::fmt::Write as _;
+
+use actucheck_codec::dynamixel2::{
+    BROADCAST_ID, FastStatus, Frame, FrameError, Instruction, StatusError,
+};
+use actucheck_codec::layout::{self, Item};
+use actucheck_codec::register::{Device, NamedValue, Row as Register, Unit};
+use actucheck_spec::wire::Fast;
+
+use super::table::{Explanation, Table, low_first, rounded};
+use super::{Asked, Invalid};
+
+/// Bytes of header, ID and length.
+const PREFIX: usize = 7;
+
+/// Explains a whole frame.
+pub(super) fn explain(asked: &Asked<'_>) -> Result<Explanation, Invalid> {
+    let explanation = match &asked.context.fast {
+        Some(fast) => fast_status(asked.bytes, fast),
+        None => packet(asked.bytes, asked.device, asked.address),
+    };
+    explanation.map_err(|error| Invalid::new(error.offset(), &error))
+}
+
+/// An instruction or status packet. `address` is the address at which a status packet's data was
+/// read, if known.
+fn packet(bytes: &[u8], device: &Device, address: Option<u16>) -> Result<Explanation, FrameError> {
+    let frame = Frame::parse(bytes)?;
+    let mut table = Table::new(bytes);
+    prefix(&mut table, frame.id());
+    let instruction = frame.instruction();
+    let body: Vec<u8> = std::iter::once(instruction.code()).chain(frame.params()).collect();
+    let wire = WireBody::of(frame.stuffed_params(), &body);
+    table.push(PREFIX, wire.text(0, 1), "instruction", instruction.name());
+
+    let params = body.get(1..).unwrap_or_default();
+    let title = if let Some(error) = frame.error() {
+        table.push(wire.place(1), wire.text(1, 2), "error", &error_words(error));
+        status_data(&mut table, &wire, params.get(1..).unwrap_or_default(), device, address);
+        format!("status packet of {}: {}", whom(frame.id()), error_words(error))
+    } else {
+        instruction_params(&mut table, &wire, instruction, params, device);
+        format!("instruction packet: {} to {}", instruction.name(), whom(frame.id()))
+    };
+    crc(&mut table);
+    Ok(Explanation { title, rows: table.rows })
+}
+
+/// A fast status packet that answers a request for `fast`.
+fn fast_status(bytes: &[u8], fast: &Fast) -> Result<Explanation, FrameError> {
+    let packet = FastStatus::parse(bytes, fast.length, &fast.ids)?;
+    let mut table = Table::new(bytes);
+    prefix(&mut table, BROADCAST_ID);
+    table.take(1, "instruction", |_| Instruction::Status.name().to_owned());
+    for block in packet.blocks() {
+        table.take(1, "error", |_| error_words(block.error));
+        table.take(1, "ID", |_| block.id.to_string());
+        if !block.data.is_empty() {
+            table.take(block.data.len(), "data", numbers);
+        }
+        table.take(2, "CRC", |_| "of all bytes before it, right".to_owned());
+    }
+    let ids: Vec<_> = fast.ids.iter().map(u8::to_string).collect();
+    let title = format!("fast status packet of devices {}", ids.join(", "));
+    Ok(Explanation { title, rows: table.rows })
+}
+
+fn prefix(table: &mut Table<'_>, id: u8) {
+    table.take(4, "header", |_| String::new());
+    let whom = if id == BROADCAST_ID { "broadcast".to_owned() } else { id.to_string() };
+    table.take(1, "ID", |_| whom.clone());
+    table.take(2, "length", |bytes| format!("{} bytes follow", low_first(bytes)));
+}
+
+fn crc(table: &mut Table<'_>) {
+    table.take_last(2, "CRC", |bytes| format!("{:#06X}, right", low_first(bytes)));
+}
+
+/// Maps the bytes of an unstuffed body to their places in the frame.
+struct WireBody<'a> {
+    plain: &'a [u8],
+    /// The place in the frame of each byte of `plain`, and of its end.
+    places: Vec<usize>,
+}
+
+impl<'a> WireBody<'a> {
+    fn of(stuffed_params: &[u8], plain: &'a [u8]) -> Self {
+        let end = PREFIX + 1 + stuffed_params.len();
+        let mut places = vec![PREFIX];
+        let mut at = PREFIX + 1;
+        let seen = |count: usize| plain.get(..count).unwrap_or_default();
+        for count in 1..plain.len() {
+            // A stuffing byte follows every pattern.
+            if seen(count).ends_with(&[0xFF, 0xFF, 0xFD]) {
+                at += 1;
+            }
+            places.push(at);
+            at += 1;
+        }
+        places.push(end);
+        Self { plain, places }
+    }
+
+    fn place(&self, index: usize) -> usize {
+        self.places.get(index).or(self.places.last()).copied().unwrap_or(PREFIX)
+    }
+
+    /// The bytes from `start` up to `end` with the stuffing that follows each.
+    fn text(&self, start: usize, end: usize) -> String {
+        let bytes = self.plain.get(start..end).unwrap_or_default();
+        let words: Vec<_> = bytes
+            .iter()
+            .enumerate()
+            .map(|(index, byte)| {
+                let at = start + index;
+                let stuffed = self.place(at + 1) - self.place(at) > 1;
+                format!("{byte:02x}{}", if stuffed { " (fd)" } else { "" })
+            })
+            .collect();
+        words.join(" ")
+    }
+}
+
+fn instruction_params(
+    table: &mut Table<'_>,
+    wire: &WireBody<'_>,
+    instruction: Instruction,
+    params: &[u8],
+    device: &Device,
+) {
+    let Some(layout) = instruction.parameters() else {
+        if !params.is_empty() {
+            let text = wire.text(1, 1 + params.len());
+            table.push(wire.place(1), text, "parameters", "of an unknown instruction");
+        }
+        return;
+    };
+    let mut address = None;
+    for item in layout::fields(layout, params) {
+        match item {
+            Ok(item) => {
+                if item.field.name == "address" {
+                    address = item.number().and_then(|number| u16::try_from(number).ok());
+                }
+                param(table, wire, &item, device, address);
+            }
+            Err(error) => {
+                let (start, end) = (params.len().min(error.offset()), params.len());
+                let text = wire.text(1 + start, 1 + end);
+                let meaning = format!("does not fit {}: {error}", instruction.name());
+                table.push(wire.place(1 + start), text, "parameters", &meaning);
+            }
+        }
+    }
+}
+
+fn param(
+    table: &mut Table<'_>,
+    wire: &WireBody<'_>,
+    item: &Item<'_>,
+    device: &Device,
+    address: Option<u16>,
+) {
+    let start = 1 + item.offset;
+    let name = item.group.map_or_else(
+        || item.field.name.to_owned(),
+        |group| format!("device {} {}", group + 1, item.field.name),
+    );
+    if item.field.name == "data" {
+        data(table, wire, start, &name, item.bytes, device, address);
+    } else {
+        let text = wire.text(start, start + item.bytes.len());
+        table.push(wire.place(start), text, &name, &meaning(item, device));
+    }
+}
+
+fn meaning(item: &Item<'_>, device: &Device) -> String {
+    let Some(value) = item.number() else {
+        return String::new();
+    };
+    if item.field.name == "address" {
+        let register = u16::try_from(value).ok().and_then(|address| device.register(address));
+        return match register {
+            Some(register) => format!("{value} ({}, {})", register.name, device.name),
+            None => format!("{value} (no register of {} begins there)", device.name),
+        };
+    }
+    let named = |row: &&NamedValue| u64::try_from(row.value) == Ok(value);
+    match item.field.values.iter().find(named) {
+        Some(row) => format!("{value} ({})", row.name),
+        None if item.bytes.len() <= 2 => value.to_string(),
+        None => String::new(),
+    }
+}
+
+fn status_data(
+    table: &mut Table<'_>,
+    wire: &WireBody<'_>,
+    bytes: &[u8],
+    device: &Device,
+    address: Option<u16>,
+) {
+    if !bytes.is_empty() {
+        data(table, wire, 2, "data", bytes, device, address);
+    }
+}
+
+/// The data of a control table from `address` on: one row per register, and one for bytes that are
+/// not a whole register.
+fn data(
+    table: &mut Table<'_>,
+    wire: &WireBody<'_>,
+    start: usize,
+    name: &str,
+    bytes: &[u8],
+    device: &Device,
+    address: Option<u16>,
+) {
+    let registers: Vec<_> = match (address, u16::try_from(bytes.len())) {
+        (Some(address), Ok(length)) => device.registers_in(address, length).collect(),
+        _ => Vec::new(),
+    };
+    if registers.is_empty() {
+        let text = wire.text(start, start + bytes.len());
+        table.push(wire.place(start), text, name, &numbers(bytes));
+        return;
+    }
+    let mut next = 0;
+    for register in registers {
+        let from = usize::from(register.address - address.unwrap_or_default());
+        let to = from + usize::from(register.kind.size());
+        if from > next {
+            let text = wire.text(start + next, start + from);
+            table.push(wire.place(start + next), text, name, "no register");
+        }
+        let value = bytes.get(from..to).and_then(|bytes| register.decode(bytes));
+        let meaning = value.map_or_else(String::new, |value| value_words(register, value));
+        let text = wire.text(start + from, start + to);
+        table.push(wire.place(start + from), text, name, &meaning);
+        next = to;
+    }
+    if next < bytes.len() {
+        let text = wire.text(start + next, start + bytes.len());
+        table.push(wire.place(start + next), text, name, "no whole register");
+    }
+}
+
+/// `Goal Position = 2000 (2000 count)`, with the names of the value or of its bits.
+fn value_words(register: &Register, value: i64) -> String {
+    let mut words = format!("{} = {value}", register.name);
+    let mut notes = Vec::new();
+    notes.extend(register.value_name(value).map(str::to_owned));
+    let physical = |unit: Unit| {
+        // Registers have 32 bits at most, which a double holds exactly.
+        #[allow(clippy::cast_precision_loss)]
+        let physical = value as f64 * unit.factor;
+        format!("{} {}", rounded(physical), unit.symbol)
+    };
+    notes.extend(register.unit.map(physical));
+    notes.extend(register.meanings.iter().filter_map(|meaning| {
+        Some(format!("{} while {}", physical(meaning.unit?), meaning.when.words))
+    }));
+    for field in register.bits {
+        let part = field.of(value);
+        let named = field.values.iter().find(|row| row.value == part);
+        match named {
+            Some(row) => notes.push(format!("{}: {}", field.name, row.name)),
+            None if part != 0 => notes.push(field.name.to_owned()),
+            None => {}
+        }
+    }
+    if !notes.is_empty() {
+        // Writing to a string can't fail.
+        let _ = write!(words, " ({})", notes.join(", "));
+    }
+    words
+}
+
+/// 1, 2 or 4 bytes as an unsigned and a signed number.
+fn numbers(bytes: &[u8]) -> String {
+    let (unsigned, signed) = match *bytes {
+        [a] => (u32::from(a), i32::from(i8::from_le_bytes([a]))),
+        [a, b] => (u16::from_le_bytes([a, b]).into(), i16::from_le_bytes([a, b]).into()),
+        [a, b, c, d] => (u32::from_le_bytes([a, b, c, d]), i32::from_le_bytes([a, b, c, d])),
+        _ => return String::new(),
+    };
+    if signed < 0 { format!("{unsigned} or {signed}") } else { unsigned.to_string() }
+}
+
+fn error_words(error: StatusError) -> String {
+    let number = error.number();
+    let name = match number.code() {
+        0 => "no error".to_owned(),
+        code => format!("{} ({code})", number.name()),
+    };
+    if error.alert() { format!("{name}, hardware alert") } else { name }
+}
+
+fn whom(id: u8) -> String {
+    if id == BROADCAST_ID { "all devices".to_owned() } else { format!("device {id}") }
+}

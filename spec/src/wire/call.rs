@@ -1,0 +1,57 @@
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::model::HexBytes;
+
+/// A request in words, for libraries that have a call a request rather than packets. It has the
+/// fields that the documents give the request.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct Call {
+    /// What is asked for: `sync_read`.
+    pub name: &'static str,
+    /// Address of the first byte.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub address: Option<u16>,
+    /// How many bytes, of each device if there are several.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub length: Option<u16>,
+    /// The bytes to write.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub data: Option<HexBytes>,
+    /// Which of its variants.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub option: Option<u8>,
+    /// All of its parameters, where their meaning is a device's own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub params: Option<HexBytes>,
+    /// The devices, where nothing but their IDs differs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ids: Option<Vec<u8>>,
+    /// The devices, each with what is meant for it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub devices: Option<Vec<Target>>,
+}
+
+/// One device of a call for several. The data of a write says its own length; a read has no data.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct Target {
+    /// Its ID.
+    pub id: u8,
+    /// Address of the first byte.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub address: Option<u16>,
+    /// How many bytes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub length: Option<u16>,
+    /// The bytes to write.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub data: Option<HexBytes>,
+}
+
+impl Call {
+    /// A call that has nothing but its name.
+    #[must_use]
+    pub fn named(name: &'static str) -> Self {
+        Self { name, ..Self::default() }
+    }
+}

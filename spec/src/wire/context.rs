@@ -1,0 +1,60 @@
+use std::fmt;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// What a reader of frames knows beside their bytes.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Context {
+    /// For a fast status packet: what was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fast: Option<Fast>,
+    /// On a wire whose frames do not tell which way they go: the way.
+    #[serde(rename = "kind", skip_serializing_if = "Option::is_none")]
+    pub direction: Option<Direction>,
+}
+
+impl From<Direction> for Context {
+    fn from(direction: Direction) -> Self {
+        Self { direction: Some(direction), fast: None }
+    }
+}
+
+impl From<Fast> for Context {
+    fn from(fast: Fast) -> Self {
+        Self { fast: Some(fast), direction: None }
+    }
+}
+
+/// The request that a fast status packet answers, without which it can't be taken apart.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Fast {
+    /// Bytes of data a block; 0 for Fast Sync Write.
+    pub length: u16,
+    /// The devices in the order asked for.
+    pub ids: Vec<u8>,
+}
+
+/// Which way a packet goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Direction {
+    /// From the host.
+    Request,
+    /// To the host.
+    Reply,
+}
+
+impl Direction {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Request, Self::Reply];
+}
+
+impl fmt::Display for Direction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Request => "request",
+            Self::Reply => "reply",
+        })
+    }
+}

@@ -1,0 +1,298 @@
+//! What the wire's file may say.
+
+use std::fmt;
+use std::net::Ipv4Addr;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::model::{Citation, Crc, Id, Length};
+
+/// `wires/innfos.yaml`: the wire and its commands.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Innfos {
+    /// Its name.
+    pub title: String,
+    /// What a frame is made of.
+    pub framing: Envelope,
+    /// What guards the data.
+    pub crc: Crc,
+    /// Which frames carry a CRC.
+    pub crc_presence: CrcPresence,
+    /// How frames travel.
+    pub udp: Udp,
+    /// The ways to write a value into the data, one row a format.
+    pub formats: Vec<FormatRow>,
+    /// What hosts may ask, in the order of the document's tables.
+    pub commands: Vec<Command>,
+    /// The values of the format `mode`.
+    pub modes: Modes,
+    /// The bits of the format `alarms`.
+    pub alarms: Alarms,
+    /// The models, whose full scales give relative values their size.
+    pub actuators: Actuators,
+}
+
+impl Innfos {
+    /// The command with this code.
+    #[must_use]
+    pub fn command(&self, code: u8) -> Option<&Command> {
+        self.commands.iter().find(|command| command.code == code)
+    }
+
+    /// The row of this format.
+    #[must_use]
+    pub fn format(&self, format: Format) -> Option<&FormatRow> {
+        self.formats.iter().find(|row| row.format == format)
+    }
+}
+
+/// Header, address, length and end.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Envelope {
+    /// The first byte.
+    pub header: u8,
+    /// The addresses that frames may have.
+    pub address: Id,
+    /// The length field, which stands behind address and command.
+    pub length: Length,
+    /// The last byte.
+    pub tail: u8,
+    /// Where this stands.
+    pub source: Vec<Citation>,
+    /// Ids of the errata that it depends on.
+    #[serde(default)]
+    pub errata: Vec<String>,
+}
+
+/// Which frames carry a CRC. A frame without data never does.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CrcPresence {
+    /// Data bytes from which on a request has one.
+    pub request: u16,
+    /// Data bytes from which on a reply has one.
+    pub reply: u16,
+    /// The commands whose shorter replies may come without, with zeros in its place, or with it.
+    pub open: Vec<u8>,
+    /// Where this stands.
+    pub source: Vec<Citation>,
+    /// Ids of the errata that it depends on.
+    #[serde(default)]
+    pub errata: Vec<String>,
+}
+
+/// The addresses and times of the Ethernet control board.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Udp {
+    /// The board's address as delivered.
+    pub address: Ipv4Addr,
+    /// The board's port.
+    pub port: u16,
+    /// Where frames for every board go.
+    pub broadcast: Ipv4Addr,
+    /// The mask of the network that both are in.
+    pub netmask: Ipv4Addr,
+    /// The network's gateway.
+    pub gateway: Ipv4Addr,
+    /// The host's last number is larger than this.
+    pub host_above: u8,
+    /// How long the board takes to find its actuators.
+    pub query_milliseconds: u32,
+    /// Where this stands.
+    pub source: Vec<Citation>,
+    /// Ids of the errata that it depends on.
+    #[serde(default)]
+    pub errata: Vec<String>,
+}
+
+/// How a value stands in the data; the high byte comes first.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Deserialize, Serialize, JsonSchema,
+)]
+#[serde(rename_all = "lowercase")]
+pub enum Format {
+    /// 1 for success, enabled, on or normal; 0 for the opposite.
+    Flag,
+    /// A row of [`Modes`].
+    Mode,
+    /// A sum of rows of [`Alarms`].
+    Alarms,
+    /// A signed number with 8 fractional bits.
+    Iq8,
+    /// A signed number with 24 fractional bits.
+    Iq24,
+    /// A signed number, the true value times [`Command::factor`].
+    Scaled,
+    /// What the document calls a MAC address.
+    Mac,
+}
+
+impl fmt::Display for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Flag => "flag",
+            Self::Mode => "mode",
+            Self::Alarms => "alarms",
+            Self::Iq8 => "iq8",
+            Self::Iq24 => "iq24",
+            Self::Scaled => "scaled",
+            Self::Mac => "mac",
+        })
+    }
+}
+
+/// The size of a format.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FormatRow {
+    /// The format.
+    pub format: Format,
+    /// How many bytes it may have.
+    pub sizes: Vec<u16>,
+    /// For a fixed-point number: how many of its bits stand behind the point.
+    pub fraction_bits: Option<u8>,
+    /// Where this stands.
+    pub source: Vec<Citation>,
+    /// Ids of the errata that it depends on.
+    #[serde(default)]
+    pub errata: Vec<String>,
+}
+
+/// What a host may ask.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Command {
+    /// The command byte.
+    pub code: u8,
+    /// Its name, given once in each direction.
+    pub name: String,
+    /// Whether it reads a value or writes one.
+    pub direction: Operation,
+    /// Bytes of the request's data.
+    pub request: u16,
+    /// The sizes that the reply's data may have; empty if no reply comes.
+    pub reply: Vec<u16>,
+    /// Format of the value read or written. What answers a write is a flag.
+    pub format: Option<Format>,
+    /// For the format `scaled`: the number on the wire of the value 1.
+    pub factor: Option<f64>,
+    /// The value's unit, if the document names one.
+    pub unit: Option<String>,
+    /// The quantity whose full scale is the value 1.0, if the value is relative.
+    pub full_scale: Option<FullScale>,
+    /// The table that has it.
+    pub source: Vec<Citation>,
+    /// Ids of the errata that it depends on.
+    #[serde(default)]
+    pub errata: Vec<String>,
+}
+
+/// Whether a command reads or writes.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Deserialize, Serialize, JsonSchema,
+)]
+#[serde(rename_all = "lowercase")]
+pub enum Operation {
+    /// The reply carries the value.
+    Read,
+    /// The request carries the value.
+    Write,
+}
+
+impl fmt::Display for Operation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Read => "read",
+            Self::Write => "write",
+        })
+    }
+}
+
+/// A column of [`Actuators`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum FullScale {
+    /// [`Actuator::current`].
+    Current,
+    /// [`Actuator::motor_speed`].
+    MotorSpeed,
+}
+
+/// The operating modes.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Modes {
+    /// Where this stands.
+    pub source: Vec<Citation>,
+    /// Ids of the errata that it depends on.
+    #[serde(default)]
+    pub errata: Vec<String>,
+    /// One row a mode.
+    pub rows: Vec<Mode>,
+}
+
+/// An operating mode.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Mode {
+    /// Its code.
+    pub code: u8,
+    /// Its name.
+    pub name: String,
+}
+
+/// What an actuator warns of.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Alarms {
+    /// Where this stands.
+    pub source: Vec<Citation>,
+    /// Ids of the errata that it depends on.
+    #[serde(default)]
+    pub errata: Vec<String>,
+    /// What any other bit means.
+    pub other: String,
+    /// One row a bit.
+    pub rows: Vec<AlarmBit>,
+}
+
+/// A bit of the alarms.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AlarmBit {
+    /// The bit.
+    pub mask: u16,
+    /// What it warns of.
+    pub name: String,
+}
+
+/// The actuators' models.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Actuators {
+    /// Where this stands.
+    pub source: Vec<Citation>,
+    /// Ids of the errata that it depends on.
+    #[serde(default)]
+    pub errata: Vec<String>,
+    /// One row a model.
+    pub rows: Vec<Actuator>,
+}
+
+/// The full scales of a model.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Actuator {
+    /// Its name.
+    pub name: String,
+    /// Current in A.
+    pub current: f64,
+    /// Speed of the motor in revolutions a minute; relative speeds refer to it.
+    pub motor_speed: f64,
+    /// Speed behind the gear in revolutions a minute.
+    pub output_speed: f64,
+}

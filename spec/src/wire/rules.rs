@@ -1,0 +1,174 @@
+//! What can be asked of a wire.
+
+use proc_macro2::TokenStream;
+use schemars::SchemaGenerator;
+use serde_json::Value;
+
+use super::{Call, Context, Direction, Fields, Packet};
+use crate::export::c_header::Header;
+use crate::export::markdown::Text;
+use crate::model::{Citation, Fault, HexBytes, Requirement};
+use crate::{Diagnostic, Spec};
+
+/// The rules of a wire: its reference model, which goes a bit and a byte at a time, and what its
+/// file of `wires/` is good for.
+pub trait Rules: Sync {
+    /// Its id in the spec and in the adapter protocol.
+    fn id(&self) -> &'static str;
+
+    /// What it is called, for people.
+    fn title(&self) -> &'static str;
+
+    // Packets.
+
+    /// The kinds of its packets, by which they are told from those of other wires.
+    fn kinds(&self) -> &'static [&'static str];
+
+    /// The packet with these fields, whose `kind` is one of this wire.
+    ///
+    /// # Errors
+    /// If fields are missing, unknown or have no value that they may have.
+    fn packet(&self, fields: Fields) -> Result<Packet, serde_json::Error>;
+
+    /// A JSON Schema for each kind of packet.
+    fn packet_schemas(&self, generator: &mut SchemaGenerator) -> Vec<Value>;
+
+    /// Which way a packet of this wire goes.
+    fn direction(&self, packet: &Packet) -> Direction;
+
+    /// The bytes in a packet whose number is not fixed: parameters, data.
+    fn payload<'a>(&self, packet: &'a Packet) -> Vec<&'a HexBytes>;
+
+    /// The first field in which two packets of this wire differ, in words.
+    fn difference(&self, expected: &Packet, actual: &Packet) -> &'static str;
+
+    /// What a reader has to know beside the bytes to read this packet.
+    fn context(&self, packet: &Packet) -> Context;
+
+    /// Whether a frame itself tells which way it goes; else [`Context::direction`] has to.
+    fn tells_direction(&self) -> bool;
+
+    // The reference model.
+
+    /// The checksum of some bytes: each of the numbers that the documents allow it to be.
+    fn checksum(&self, bytes: &[u8]) -> Vec<u64>;
+
+    /// Whether bodies are stuffed.
+    fn has_stuffing(&self) -> bool {
+        self.stuff(&[]).is_some()
+    }
+
+    /// A body with its stuffing; `None` on a wire without.
+    fn stuff(&self, _body: &[u8]) -> Option<Vec<u8>> {
+        None
+    }
+
+    /// A body without its stuffing; `None` on a wire without.
+    fn unstuff(&self, _stuffed: &[u8]) -> Option<Result<Vec<u8>, Fault>> {
+        None
+    }
+
+    /// The bytes of a packet; `None` for one of another wire or longer than its length can tell.
+    fn encode(&self, packet: &Packet) -> Option<Vec<u8>>;
+
+    /// The packet that `bytes` are, one whole frame.
+    ///
+    /// # Errors
+    /// The first rule that they break.
+    fn decode(&self, bytes: &[u8], context: &Context) -> Result<Packet, Fault>;
+
+    /// The good packets of a stream that comes in `chunks`; `direction` as in a [`Context`].
+    fn stream(&self, chunks: &[HexBytes], direction: Option<Direction>) -> Vec<Packet>;
+
+    /// Whether the documents leave open what these bytes, one whole frame, are.
+    fn is_unspecified(&self, bytes: &[u8], context: &Context) -> bool;
+
+    /// A request in words; `None` if there are none for it.
+    fn call(&self, _packet: &Packet) -> Option<Call> {
+        None
+    }
+
+    /// The part of a whole frame that the byte at `offset` belongs to.
+    fn part(&self, frame: &[u8], offset: usize) -> &'static str;
+
+    /// Makes the checksum of a frame right, so that what stands behind it is reached.
+    fn repair(&self, frame: &mut [u8]);
+
+    // Its file of the spec.
+
+    /// What its file cites, part by part.
+    fn cited<'a>(&self, spec: &'a Spec) -> Vec<Cited<'a>>;
+
+    /// What is wrong with its file beside that.
+    fn validate(&self, spec: &Spec) -> Vec<Diagnostic>;
+
+    /// A defect at a node of its file.
+    fn diagnostic(&self, spec: &Spec, node: &str, message: String) -> Diagnostic;
+
+    /// The frames that a packet may have by the numbers of its file: none for a packet of another
+    /// wire, several where the documents leave open which.
+    fn frames(&self, spec: &Spec, packet: &Packet) -> Vec<Vec<u8>>;
+
+    /// What hosts may ask, in the order of the file.
+    fn asks<'a>(&self, spec: &'a Spec) -> Vec<Ask<'a>>;
+
+    /// What a requirement's text says otherwise than its file.
+    fn misquoted(&self, spec: &Spec, requirement: &Requirement) -> Vec<String>;
+
+    /// Its module of the codec's tables.
+    fn generate(&self, spec: &Spec) -> TokenStream;
+
+    /// Writes its part of the C header.
+    fn c_header(&self, spec: &Spec, header: &mut Header);
+
+    /// Writes its part of the tables for people.
+    fn markdown(&self, spec: &Spec, text: &mut Text);
+
+    /// The JSON Schema of its file, as text.
+    fn schema(&self) -> String;
+}
+
+/// Something that a host may ask.
+#[derive(Clone, Debug)]
+pub struct Ask<'a> {
+    /// The wire's id and the word for it: `dynamixel2/Clear`.
+    pub id: String,
+    /// What stands behind the id in a headline.
+    pub title: String,
+    /// Its code.
+    pub code: u8,
+    /// Its name in the document.
+    pub name: &'a str,
+    /// The word by which it is told from the others: its name, or its code.
+    pub word: String,
+    /// What the file says of it: labels with lines.
+    pub facts: Vec<(&'static str, Vec<String>)>,
+    /// The sections of the documents that it is taken from.
+    pub source: &'a [Citation],
+    /// Ids of the errata that it depends on.
+    pub errata: &'a [String],
+}
+
+/// A part of a wire's file with what it cites.
+#[derive(Clone, Debug)]
+pub struct Cited<'a> {
+    /// Where it stands in the file.
+    pub node: String,
+    /// What it is called, with the wire.
+    pub name: String,
+    /// The sections of the documents that it is taken from.
+    pub source: &'a [Citation],
+    /// Ids of the errata that it depends on.
+    pub errata: &'a [String],
+}
+
+impl<'a> Cited<'a> {
+    pub(super) fn new(
+        node: &str,
+        name: String,
+        source: &'a [Citation],
+        errata: &'a [String],
+    ) -> Self {
+        Self { node: node.to_owned(), name, source, errata }
+    }
+}
