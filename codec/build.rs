@@ -1,5 +1,5 @@
-//! Generates the tables from the documents' YAML. A defect of the YAML ends the build with its
-//! file, line and column.
+//! Generates the tables from the documents' YAML. A defect in the YAML ends the build with file,
+//! line and column.
 
 use std::path::PathBuf;
 use std::{env, fs, io};

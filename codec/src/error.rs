@@ -7,12 +7,12 @@ use crate::layout::LayoutError;
 use crate::register::RegisterError;
 use crate::{dynamixel2, innfos};
 
-/// A buffer is too small for what was to be written to it. Its contents are unspecified then.
+/// A buffer is too small. Its contents are then unspecified.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BufferTooSmall {
-    /// Bytes that it would have to have.
+    /// The number of bytes needed.
     pub needed: usize,
-    /// Bytes that it has.
+    /// The number of bytes available.
     pub available: usize,
 }
 
@@ -29,7 +29,7 @@ impl core::error::Error for BufferTooSmall {}
 pub enum EncodeError {
     /// The buffer is too small.
     Buffer(BufferTooSmall),
-    /// The ID is neither that of a device nor the broadcast ID.
+    /// The ID is neither a device's ID nor the broadcast ID.
     Id {
         /// The ID.
         found: u8,
@@ -39,13 +39,13 @@ pub enum EncodeError {
         /// The length; at most 65,535 is possible.
         length: usize,
     },
-    /// A device's data are not as many as the instruction says that each device's are.
+    /// A device's data does not have the number of bytes that the instruction states.
     DataLength {
         /// The device.
         id: u8,
-        /// How many they are.
+        /// The number of bytes found.
         found: usize,
-        /// What the instruction says.
+        /// The number of bytes expected.
         expected: u16,
     },
 }

@@ -1,4 +1,4 @@
-//! What a packet's parameters are made of, and a walk over them.
+//! The layout of a packet's parameters, and an iterator over their fields.
 
 use core::fmt;
 
@@ -11,7 +11,7 @@ pub struct Field {
     pub name: &'static str,
     /// How many bytes it has.
     pub size: Size,
-    /// Whether the parameters may end before it.
+    /// Whether it may be missing at the end of the parameters.
     pub optional: bool,
     /// Values with a name.
     pub values: &'static [NamedValue],
@@ -20,17 +20,17 @@ pub struct Field {
 /// How many bytes a field has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Size {
-    /// So many.
+    /// A fixed number.
     Bytes(u8),
-    /// As many as the earlier field of this name says.
+    /// The number in the earlier field of this name.
     HeldBy(&'static str),
-    /// All that is left.
+    /// All remaining bytes.
     Rest,
-    /// It is a group that repeats, a time for each device, until nothing is left.
+    /// A group of fields that repeats, once per device, up to the end.
     Each(&'static [Field]),
 }
 
-/// A field with the bytes that it has in a packet.
+/// A field with its bytes in a packet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Item<'a> {
     /// The field.
@@ -54,28 +54,28 @@ impl Item<'_> {
 /// Why parameters do not fit their layout.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LayoutError {
-    /// They end within a field.
+    /// The parameters end within a field.
     Short {
         /// The field.
         field: &'static str,
         /// Where it begins in the parameters.
         offset: usize,
-        /// Bytes that are left for it.
+        /// The number of bytes available.
         available: usize,
-        /// Bytes that it has.
+        /// The number of bytes of the field.
         needed: usize,
     },
-    /// They go on behind the last field.
+    /// There are extra bytes after the last field.
     Extra {
         /// Where the last field ends in the parameters.
         offset: usize,
-        /// Bytes behind it.
+        /// The number of extra bytes.
         bytes: usize,
     },
 }
 
 impl LayoutError {
-    /// Where in the parameters they stop fitting.
+    /// The offset in the parameters of the first mismatch.
     #[must_use]
     pub const fn offset(&self) -> usize {
         match *self {
@@ -100,7 +100,7 @@ impl fmt::Display for LayoutError {
 
 impl core::error::Error for LayoutError {}
 
-/// Walks over `params` field by field. After an error nothing follows.
+/// Iterates over the fields of `params`. Ends after an error.
 ///
 /// ```
 /// use actucheck_codec::dynamixel2::Instruction;
@@ -116,16 +116,16 @@ pub fn fields<'a>(layout: &'static [Field], params: &'a [u8]) -> Fields<'a> {
     Fields { ahead: layout, group: None, held: [None; HELD], params, offset: 0 }
 }
 
-/// How many fields of different names a layout can have before one that refers to them; the
-/// documents' layouts have three.
+/// The maximum number of different fixed-size fields that later fields can refer to; the documents'
+/// layouts have three.
 const HELD: usize = 4;
 
-/// The walk that [`fields`] begins.
+/// The iterator of [`fields`].
 #[derive(Clone, Debug)]
 pub struct Fields<'a> {
-    /// Fields that are still to come, of the group if one is being repeated.
+    /// The remaining fields, or those of the group that is being repeated.
     ahead: &'static [Field],
-    /// The group that repeats, and how often it was begun.
+    /// The repeating group, and the number of repetitions begun.
     group: Option<(&'static [Field], usize)>,
     /// The fixed-size fields passed so far, each name once.
     held: [Option<(&'static str, usize)>; HELD],
@@ -174,7 +174,7 @@ impl<'a> Iterator for Fields<'a> {
 }
 
 impl<'a> Fields<'a> {
-    /// Begins the group once more, or ends the walk.
+    /// Begins the next repetition of the group, or ends.
     fn end_of_fields(&mut self, left: &'a [u8]) -> Option<Result<Item<'a>, LayoutError>> {
         match &mut self.group {
             Some((group, begun)) if !left.is_empty() && !group.is_empty() => {
@@ -199,7 +199,7 @@ impl<'a> Fields<'a> {
 
     fn hold(&mut self, name: &'static str, bytes: &[u8]) {
         let value = number(bytes).and_then(|value| usize::try_from(value).ok());
-        // A later field of the same name counts: each device of a bulk write has its length.
+        // The latest field of a name counts: each device of a bulk write has its own length.
         let same = |held: &Option<(&str, usize)>| held.is_none_or(|held| held.0 == name);
         if let Some(slot) = self.held.iter_mut().find(|held| same(held)) {
             *slot = value.map(|value| (name, value));

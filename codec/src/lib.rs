@@ -55,7 +55,7 @@ mod number;
 pub mod register;
 mod simd;
 
-/// What the build script makes of the devices' YAML: a module a device.
+/// The code that the build script generates from the devices' YAML: one module per device.
 #[allow(
     unused_imports,             // a small device has no use for every type
     clippy::unreadable_literal, // numbers keep the form that they have in the YAML

@@ -19,7 +19,7 @@ pub(crate) fn nearest(value: f64) -> Option<i64> {
     })
 }
 
-/// The double nearest to `value`: itself up to 53 bits, which is more than any value on a wire.
+/// The double nearest to `value`; exact up to 53 bits, which is more than any value on a wire.
 pub(crate) fn to_f64(value: i64) -> f64 {
     #[allow(clippy::cast_precision_loss)]
     let double = value as f64;
@@ -36,7 +36,7 @@ mod tests {
         for (value, whole) in cases {
             assert_eq!(nearest(value), Some(whole), "{value}");
         }
-        // Adding a half would make 1.0 of it.
+        // Adding a half to it would yield 1.0.
         assert_eq!(nearest(0.499_999_999_999_999_94), Some(0));
     }
 

@@ -1,4 +1,5 @@
-//! Each rule of the receive procedure, broken alone, is told with its place and what was expected.
+//! Each rule of the receive procedure, broken alone, is reported with its place and the expected
+//! value.
 
 #![allow(clippy::indexing_slicing)] // tests may stop at a surprise
 
@@ -63,7 +64,7 @@ fn a_status_packet_has_an_error_byte() {
 
 #[test]
 fn a_bare_pattern_is_rejected_although_its_crc_is_right() {
-    // Write FF FF FD to 564 as an implementation sends it that does not stuff; CRC 81 05.
+    // Write FF FF FD to 564 from an implementation that does not stuff; CRC 81 05.
     let bytes = b"\xFF\xFF\xFD\x00\x01\x08\x00\x03\x34\x02\xFF\xFF\xFD\x81\x05";
     assert_eq!(Frame::parse(bytes).map(drop), Err(FrameError::Stuffing { at: 13 }));
     let mut buffer = [0; 8];

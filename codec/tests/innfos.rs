@@ -22,7 +22,7 @@ fn vectors() -> impl Iterator<Item = &'static Vector> {
     SPEC.vectors().filter(|(file, _)| file.wire == model::WIRE).map(|(_, vector)| vector)
 }
 
-/// Way, address, command and data.
+/// Direction, address, command and data.
 fn parts(vector: &Vector) -> Option<(Kind, u8, u8, &[u8])> {
     let Packet::Innfos(packet) = vector.packet.as_ref()? else { panic!("{}", vector.id) };
     let model::Packet { direction, address, command, data } = packet;
@@ -173,7 +173,7 @@ fn a_frame_that_ends_early_tells_its_size() {
     for (kind, data) in [(Kind::Request, &[][..]), (Kind::Request, &[1]), (Kind::Reply, &[1, 2])] {
         let frame = innfos::encode(kind, 1, Command::from_code(0x06), data, &mut buffer).unwrap();
         for available in 0..frame.len() {
-            // Without its length it is known to be one of the smallest.
+            // Without a length, the size of the smallest frame is expected.
             let needed = if available < 5 { 6 } else { frame.len() };
             let error = FrameError::Truncated { available, needed };
             assert_eq!(Frame::parse(kind, &frame[..available]).map(drop), Err(error), "{frame:?}");
@@ -202,7 +202,7 @@ fn what_follows_a_damaged_frame_is_lost() {
 
 #[test]
 fn the_high_byte_comes_first() {
-    // 1 with 24 bits behind the point is 0x0100_0000, with 8 bits 0x0100.
+    // 1 with 24 fractional bits is 0x0100_0000, with 8 fractional bits 0x0100.
     let one = Value::Iq24(Iq24::from_f64(1.0).unwrap());
     assert_eq!(one.encode().as_bytes(), [0x01, 0x00, 0x00, 0x00]);
     assert_eq!(Value::decode(Format::Iq24, &[0x01, 0x00, 0x00, 0x00]), Some(one));
@@ -226,7 +226,7 @@ fn value(format: Format, bits: i32, six: [u8; 6]) -> Value {
     }
 }
 
-/// The full scale by the YAML.
+/// The full scale in the YAML.
 fn said_scale(code: u8, actuator: &Actuator) -> f64 {
     match SPEC.wires.innfos.content.command(code).unwrap().full_scale {
         None => 1.0,
@@ -239,7 +239,7 @@ fn kind() -> impl Strategy<Value = Kind> {
     prop_oneof![Just(Kind::Request), Just(Kind::Reply)]
 }
 
-/// Bytes among which those of frames are common.
+/// Bytes in which those of frames are common.
 fn tricky() -> impl Strategy<Value = Vec<u8>> {
     let byte = prop_oneof![
         4 => Just(0xEE_u8), 3 => Just(0xED), 4 => 0..3_u8, 2 => Just(0x44), 1 => any::<u8>(),

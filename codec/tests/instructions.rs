@@ -96,7 +96,7 @@ fn judge(instruction: Instruction, params: &[u8]) -> Result<(), TestCaseError> {
             return Ok(());
         }
         Err(RequestError::Id { found }) => {
-            // The ID stands before whatever else may be wrong.
+            // The ID comes before any other fault.
             prop_assert!(found > 252 && params.contains(&found));
             return Ok(());
         }
@@ -195,8 +195,8 @@ fn data(size: impl Into<prop::collection::SizeRange>) -> impl Strategy<Value = V
     vec(prop_oneof![3 => Just(0xFF_u8), 2 => Just(0xFD), 1 => any::<u8>()], size)
 }
 
-/// Builds an instruction; reads it; the fields are those that went in. A buffer one byte too small
-/// is told so.
+/// Builds an instruction and reads it: the fields are the same. A buffer one byte too small is an
+/// error.
 fn round_trip(
     id: u8,
     encode: impl Fn(&mut [u8]) -> Result<&[u8], EncodeError>,

@@ -12,7 +12,7 @@ use actucheck_spec::wire::dynamixel2::reference;
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-/// Bytes among which the pattern is common.
+/// Bytes in which the pattern is common.
 fn tricky() -> impl Strategy<Value = Vec<u8>> {
     let byte = prop_oneof![
         4 => Just(0xFF_u8),

@@ -1,4 +1,4 @@
-//! What registers take, judged by the YAML itself: the generated tables are what is on trial.
+//! Which values registers take, compared with the YAML: this tests the generated tables.
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing, clippy::panic)] // tests may stop at a surprise
 
@@ -16,7 +16,7 @@ type Held = HashMap<u16, i64>;
 
 static SPEC: LazyLock<Spec> = LazyLock::new(|| Spec::embedded().unwrap());
 
-/// Each device as the YAML has it, and as it was generated.
+/// Each device in the YAML, and as generated.
 fn devices() -> [(&'static model::Device, &'static Device); 3] {
     [&ja40::DEVICE, &ja_variant::DEVICE, &xm430_w210::DEVICE]
         .map(|device| (SPEC.device(device.id).unwrap(), device))
@@ -68,7 +68,7 @@ fn facts(said: &model::Register, row: &Row) {
     }
 }
 
-/// The range that the YAML gives, or the one while another register holds what it holds.
+/// The range in the YAML, or the one that applies for the values of other registers.
 fn said_range<'a>(
     device: &model::Device,
     register: &'a model::Register,
@@ -87,7 +87,7 @@ fn said_range<'a>(
     meaning.and_then(|meaning| meaning.range.as_ref()).or(register.range.as_ref())
 }
 
-/// The smallest and the largest value by the YAML, and the list if it gives one.
+/// The smallest and the largest value in the YAML, and the list if there is one.
 fn said_limits(
     device: &model::Device,
     register: &model::Register,
@@ -111,7 +111,7 @@ fn said_limits(
     (min, max, range.one_of.clone())
 }
 
-/// Writing this value is right or wrong as the YAML says, and the bytes are the value's.
+/// Writing this value is allowed or refused as the YAML says, and the bytes are right.
 fn judge(device: &model::Device, said: &model::Register, row: &Row, held: &Held, value: i64) {
     let (min, max, listed) = said_limits(device, said, held);
     let inside = min <= value && value <= max;
@@ -159,7 +159,7 @@ fn judge(device: &model::Device, said: &model::Register, row: &Row, held: &Held,
     }
 }
 
-/// Values at, just outside and far outside of every limit that a register has.
+/// Values at, just outside and far outside every limit of a register.
 fn edges(device: &model::Device, register: &model::Register, held: &Held) -> Vec<i64> {
     let (min, max, listed) = said_limits(device, register, held);
     let (smallest, largest) = register.kind.limits();

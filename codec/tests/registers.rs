@@ -1,4 +1,4 @@
-//! The generated control table against facts of the document.
+//! Compares the generated control table with facts from the document.
 
 use actucheck_codec::dynamixel2::{ErrorNumber, Instruction};
 use actucheck_codec::ja40;

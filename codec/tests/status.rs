@@ -38,7 +38,7 @@ fn a_wrong_size_is_told_with_its_place() {
     assert_eq!(offset(&[0; 4]), Err(3));
 }
 
-/// Data of a status packet, those of byte stuffing among them.
+/// Data of a status packet, including patterns of byte stuffing.
 fn data() -> impl Strategy<Value = Vec<u8>> {
     prop::collection::vec(prop_oneof![3 => Just(0xFF_u8), 2 => Just(0xFD), 1 => any::<u8>()], 0..12)
 }

@@ -1,4 +1,5 @@
-//! Types generated for named values and bits: every number comes back, every name is the YAML's.
+//! Types generated for named values and bits: every number is preserved, and every name is that of
+//! the YAML.
 
 #![allow(clippy::unwrap_used)] // tests may stop at a surprise
 

@@ -4,14 +4,15 @@ use super::order::{Lsb, Msb, Order};
 use super::{MODBUS_INIT, UMTS_INIT, portable};
 use crate::simd::Processor;
 
-/// The way this machine computes CRCs best, found once.
+/// The fastest back end for CRCs on this machine.
 ///
 /// The free functions of [`crc`](super) look it up on every call, which costs a load and a
 /// branch. A loop over many short packets keeps an `Engine` instead, which is one byte: every call
 /// then begins with one branch that the processor predicts.
 ///
-/// With the feature `std` the processor is asked; without it, only instructions that the build
-/// was told to use are used (`-C target-feature`). All engines give the same results.
+/// With the feature `std`, the processor is detected at run time. Without it, only instructions
+/// that were enabled for the build (`-C target-feature`) are used. All engines give the same
+/// results.
 ///
 /// ```
 /// use actucheck_codec::crc::{self, Engine};
@@ -39,7 +40,7 @@ impl Engine {
         Self(Processor::new())
     }
 
-    /// The engine that needs no particular processor.
+    /// The engine that runs on every processor.
     #[must_use]
     #[inline]
     pub const fn portable() -> Self {

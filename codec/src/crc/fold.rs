@@ -8,7 +8,7 @@
 
 use super::order::Order;
 
-/// What is left of a folded message, in bytes.
+/// The size of a folded message, in bytes.
 pub(crate) const BYTES: usize = 256;
 
 /// A 16-byte block; an array, so that the compiler keeps it in a vector register.
@@ -28,7 +28,7 @@ pub(crate) fn fold<O: Order>(state: u16, chunks: &[[u8; BYTES]]) -> [u64; 32] {
     sum[0][0] ^= O::to_native(O::top(state));
     for chunk in rest {
         let (blocks, _) = chunk.as_chunks();
-        // `sum[i]` is the highest block when its turn comes, and the new one takes its place.
+        // When it is processed, `sum[i]` is the highest block; the new block replaces it.
         macro_rules! step { ($($i:literal)*) => { $(
             let highest = sum[$i];
             sum[($i + 1) % 16] = add(sum[($i + 1) % 16], highest);

@@ -1,4 +1,4 @@
-//! The two CRCs on the wire.
+//! The CRCs of the two wires.
 //!
 //! Both divide by P = x^16 + x^15 + x^2 + 1 (0x8005) and differ in bit order and initial state:
 //!
@@ -7,9 +7,9 @@
 //! | CRC-16/UMTS | as they are | 0 | 0xFEE8 | DYNAMIXEL 2.0: JA40 document, §1.4.7 |
 //! | CRC-16/MODBUS | reflected | 0xFFFF | 0x4B37 | INNFOS document, "CRC check code calculation method" |
 //!
-//! Neither inverts its result, so *the CRC of what has been read is the state*, a plain [`u16`],
-//! and there is no finishing step. That is why the module offers functions over `u16` and no
-//! digest object: a state can be kept, compared, and cut out of the middle of a stream.
+//! Neither CRC inverts its result, so *the state is the CRC of the bytes read so far*, a plain
+//! [`u16`], and there is no final step. The module therefore has functions over `u16` instead of a
+//! digest object: a state can be stored, compared, and computed for any part of a stream.
 //!
 //! * [`umts`], [`modbus`]: one call, one CRC.
 //! * [`umts_update`], [`modbus_update`]: a message that comes in parts.
@@ -32,8 +32,8 @@ use crate::{dynamixel2, innfos};
 
 pub use engine::Engine;
 
-// The back ends are made for one polynomial, two bit orders and no inversion. Should the documents'
-// YAML say otherwise, this stops the build.
+// The back ends support one polynomial, two bit orders and no inversion. If the YAML differs, this
+// stops the build.
 const _: () = {
     use {dynamixel2 as umts, innfos as modbus};
     assert!(umts::CRC_POLYNOMIAL == 0x8005 && modbus::CRC_POLYNOMIAL == 0x8005);

@@ -1,10 +1,10 @@
-//! The one thing in which the two CRCs differ: which end of a byte comes first.
+//! The bit order: the only difference between the two CRCs in the arithmetic.
 //!
 //! Everything below treats a 64-bit word as a polynomial over GF(2) of degree at most 63, the
 //! first message bit being the highest term. [`Msb`] keeps that term in bit 63, [`Lsb`] in
 //! bit 0, so that bits never have to be reversed. `raise` multiplies by x^n, `lower` divides by it.
 
-/// A bit order, and with it how a polynomial lies in a word.
+/// A bit order, which determines how a word represents a polynomial.
 pub(crate) trait Order {
     /// Whether bit 0 of a word is its highest term.
     const REFLECTED: bool;

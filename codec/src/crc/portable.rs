@@ -5,13 +5,13 @@
 //! are then a handful of shifts:
 //!
 //! * *Multiplying a quotient by P^n* is three additions.
-//! * *Finding the quotient.* With s = x^-n the divisor is p(s) = 1 + s + s^14 + s^16 but for a
-//!   power of x, and 1/p(s) = p(s) p(s^2) p(s^4) … p(s^m) / p(s^2m). The last divisor is 1 as
-//!   soon as s^2m lies below the word, so that the quotient is the word times a few p's.
+//! * *Finding the quotient.* With s = x^-n the divisor is p(s) = 1 + s + s^14 + s^16 times a power
+//!   of x, and 1/p(s) = p(s) p(s^2) p(s^4) … p(s^m) / p(s^2m). The last divisor is 1 as soon as
+//!   s^2m lies below the word, so that the quotient is the word times a few p's.
 //!
-//! A remainder modulo P^n is as good as the message itself, since P divides P^n. So a long
-//! message is halved, again and again, each time modulo a smaller power of P, until it fits a
-//! word. The larger n, the fewer factors: at n = 64 the quotient is the word.
+//! A remainder modulo P^n can replace the message, since P divides P^n. So a long message is
+//! halved, again and again, each time modulo a smaller power of P, until it fits a word. The larger
+//! n, the fewer factors: at n = 64 the quotient is the word.
 #![expect(clippy::indexing_slicing, reason = "arrays of a fixed size, indices below it")]
 
 use super::compact;
@@ -79,7 +79,7 @@ fn words<O: Order, const N: usize>(state: u16, bytes: &[u8]) -> [u64; N] {
     };
     let spare = short::spare_bits(bytes);
     let (_, chunks) = bytes.as_rchunks();
-    // One word more than `chunks` if the highest is not full.
+    // One word more than `chunks` if the highest word is not full.
     let used = bytes.len().div_ceil(8).min(N);
     for (word, chunk) in words.iter_mut().rev().zip(chunks.iter().rev()) {
         *word = O::load(*chunk);
@@ -87,7 +87,7 @@ fn words<O: Order, const N: usize>(state: u16, bytes: &[u8]) -> [u64; N] {
     let top = O::top(state);
     if let [high, next, ..] = &mut words[N - used..] {
         *high = O::lower(O::load(first) ^ top, spare);
-        // A highest word of one byte leaves the state's second byte to the next.
+        // If the highest word has one byte, the state's second byte belongs to the next word.
         *next ^= O::raise(O::raise(top, 56 - spare), 8);
     }
     words
@@ -110,7 +110,7 @@ fn halve<O: Order, const N: usize, const M: usize>(words: &[u64; M]) -> [u64; N]
             16 => words[i + N - 2] ^= quotient,
             8 => words[i + N - 1] ^= quotient,
             _ => {
-                // For N = 1 this reaches into the word that the division has dealt with.
+                // For N = 1 this also changes the word that the division has finished.
                 words[i + N - 1] ^= O::lower(quotient, 64 - 2 * power);
                 words[i + N] ^= O::raise(quotient, 2 * power);
             }

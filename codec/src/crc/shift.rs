@@ -63,7 +63,7 @@ const fn multiply(a: u16, b: u16) -> u16 {
     let mut product = 0;
     let mut i = 0;
     while i < 16 {
-        // All ones if b has x^i: no branch to mispredict.
+        // All ones if b has x^i; this avoids a branch that could be mispredicted.
         let mask = (b as u32 >> i & 1).wrapping_neg();
         product ^= (a as u32) << i & mask;
         i += 1;

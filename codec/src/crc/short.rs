@@ -13,7 +13,7 @@ pub(crate) fn word<O: Order>(state: u16, bytes: &[u8]) -> u64 {
         return 0; // never: callers see to the length
     };
     let spare = spare_bits(bytes);
-    // Where the two overlap they hold the same bytes, so that "or" does no harm.
+    // Where the two overlap they have the same bytes, so "or" is right.
     let word = O::lower(half::<O>(first), spare) | O::lower(half::<O>(last), 32);
     word ^ O::lower(O::top(state), spare)
 }

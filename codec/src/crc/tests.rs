@@ -62,14 +62,14 @@ fn check(state: u16, bytes: &[u8]) {
             "{engine:?}, modbus, {n} bytes, from {state:#06x}"
         );
     }
-    // What a processor without 64-bit registers runs.
+    // The back end of a processor without 64-bit registers.
     assert_eq!(compact::update::<Msb>(state, bytes), umts);
     assert_eq!(compact::update::<Lsb>(state, bytes), modbus);
     assert_eq!(umts_update(state, bytes), umts);
     assert_eq!(modbus_update(state, bytes), modbus);
 }
 
-/// The machine that runs the tests must be able to run what they claim to test.
+/// The machine must support the back ends that the tests claim to test.
 #[test]
 fn engines_are_all_here() {
     let mut expected = 1;
@@ -131,12 +131,12 @@ fn every_alignment() {
     }
 }
 
-/// One bit alone at every place, so that a wrong constant cannot hide behind another.
+/// A single bit at every place, so that no two wrong constants can cancel out.
 #[test]
 fn every_bit() {
     for n in (1..=70).chain([127, 128, 129, 255, 256, 257, 511, 512, 513, 600, 1025]) {
         let mut bytes = std::vec![0; n];
-        // The oracle takes its time: of the long ones, two or three bits in ten bytes.
+        // The oracle is slow: of long messages, two or three bits in ten bytes.
         for bit in (0..8 * n).step_by(if n <= 70 { 1 } else { 29 }) {
             bytes[bit / 8] = 1 << (bit % 8);
             check(0, &bytes);
@@ -197,7 +197,8 @@ proptest! {
         }
     }
 
-    /// Any range of a stream from the states at its ends, and any two messages joined.
+    /// The CRC of any range of a stream from the states at its ends, and of any two joined
+    /// messages.
     #[test]
     fn any_range(bytes in proptest::collection::vec(any::<u8>(), 0..1500), ends: [prop::sample::Index; 2]) {
         let mut ends = ends.map(|end| end.index(bytes.len() + 1));

@@ -1,80 +1,80 @@
-//! What can be wrong with a packet that was received.
+//! Faults of a received packet.
 
 use core::fmt;
 
 use super::HEADER;
 use super::header::PREFIX;
 
-/// Why bytes are no frame. Offsets count from the first byte of the frame.
+/// Why bytes are not a valid frame. Offsets count from the first byte of the frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FrameError {
-    /// A byte of the header is another.
+    /// A byte of the header is wrong.
     Header {
-        /// Where.
+        /// Offset of the byte.
         at: usize,
-        /// The byte there.
+        /// The byte found.
         found: u8,
-        /// The byte that a header has there.
+        /// The right byte of a header.
         expected: u8,
     },
-    /// The ID is neither that of a device nor the broadcast ID.
+    /// The ID is neither a device's ID nor the broadcast ID.
     Id {
         /// The ID.
         found: u8,
     },
-    /// The length field is one that such a packet can't have.
+    /// The length field is not valid for this packet.
     Length {
-        /// What the field says.
+        /// The value of the field.
         found: usize,
-        /// What it says at least, or exactly where the packet's size is known beforehand.
+        /// The smallest valid value, or the exact one if the packet's size is known.
         expected: usize,
     },
-    /// The bytes end early.
+    /// There are too few bytes.
     Truncated {
-        /// Bytes that are there.
+        /// Number of bytes available.
         available: usize,
-        /// Bytes that the frame has, or the header has if even that is incomplete.
+        /// Number of bytes of the frame, or of the header if that is incomplete.
         needed: usize,
     },
-    /// Bytes follow the frame.
+    /// There are extra bytes after the frame.
     Trailing {
-        /// Bytes that the frame has.
+        /// Number of bytes of the frame.
         end: usize,
-        /// Bytes that are there.
+        /// Number of bytes available.
         available: usize,
     },
     /// The CRC does not match.
     Crc {
-        /// Where it stands.
+        /// Its offset.
         at: usize,
-        /// The CRC there.
+        /// The CRC found.
         found: u16,
-        /// The CRC of the bytes before it.
+        /// The right CRC, of the bytes before it.
         expected: u16,
     },
-    /// The pattern of byte stuffing stands in the body without the byte that belongs behind it.
+    /// The body has the pattern of byte stuffing without the stuffing byte after it.
     Stuffing {
-        /// Where that byte is missing.
+        /// Offset at which the stuffing byte is missing.
         at: usize,
     },
-    /// The instruction is not that of a status packet.
+    /// The packet is not a status packet.
     Instruction {
         /// The instruction.
         found: u8,
     },
-    /// A block of a fast status packet is another device's.
+    /// A block of a fast status packet has the wrong device's ID.
     BlockId {
-        /// Where the ID stands.
+        /// Offset of the ID.
         at: usize,
-        /// The ID there.
+        /// The ID found.
         found: u8,
-        /// The ID of the device whose turn it is.
+        /// The ID that the block must have.
         expected: u8,
     },
 }
 
 impl FrameError {
-    /// The offset of the byte that gives the frame away.
+    /// The offset of the first byte that shows the fault.
     #[must_use]
     pub const fn offset(&self) -> usize {
         match *self {

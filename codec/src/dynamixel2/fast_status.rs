@@ -1,11 +1,11 @@
-//! The status packet with which several devices answer Fast Sync Read or Fast Sync Write
+//! Fast status packets, with which several devices answer Fast Sync Read or Fast Sync Write
 //! together (JA40 document, §1.6.8 and §1.6.9).
 //!
-//! Each device appends a block: error, ID, data, CRC. A CRC runs over everything before it, the
-//! CRCs of earlier blocks included; the last one is that of the packet. There is no stuffing.
+//! Each device appends a block: error, ID, data, CRC. A CRC covers everything before it, including
+//! the CRCs of earlier blocks; the last CRC is that of the packet. There is no stuffing.
 //!
-//! A block that answers Fast Sync Write has no data in the JA40 document. Its maker's later devices
-//! put their present position there: read such an answer with that many bytes as its length.
+//! A block that answers Fast Sync Write has no data in the JA40 document. Later devices of the same
+//! maker add their present position: read such an answer with the size of the position as `length`.
 
 use super::frame::{Parts, Writer, length_field};
 use super::header::PREFIX;
@@ -13,25 +13,25 @@ use super::{BROADCAST_ID, FrameError, Instruction, StatusError};
 use crate::register::{Register, RegisterError, Value};
 use crate::{EncodeError, crc};
 
-/// Bytes of a block beside its data: error, ID and CRC.
+/// Bytes of a block in addition to its data: error, ID and CRC.
 const BLOCK_OVERHEAD: usize = 4;
 
 /// One device's part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Block<'a> {
-    /// How the instruction went on this device.
+    /// The device's error byte.
     pub error: StatusError,
     /// The device.
     pub id: u8,
-    /// What was read; empty for Fast Sync Write, or what the dialect adds to its answer.
+    /// The data that was read; for Fast Sync Write empty, or the data that the device adds.
     pub data: &'a [u8],
 }
 
 impl Block<'_> {
-    /// The register's value, if it is what was read.
+    /// The value of a register, if the block has exactly its bytes.
     ///
     /// # Errors
-    /// If the data are not as many as the register has.
+    /// If the number of bytes is not that of the register.
     pub fn value<T: Value>(&self, register: Register<T>) -> Result<T, RegisterError> {
         register.decode(self.data)
     }
@@ -45,9 +45,9 @@ pub struct FastStatus<'a> {
 }
 
 impl<'a> FastStatus<'a> {
-    /// Reads `bytes`, the one packet that answers an instruction for `length` bytes of data
-    /// (0 for Fast Sync Write) from the devices `ids`, in this order. Who still has the request
-    /// asks it: [`FastSyncRead::answer`](super::instruction::FastSyncRead::answer).
+    /// Reads `bytes`, the one packet that answers an instruction for `length` bytes of data (0 for
+    /// Fast Sync Write) from the devices `ids`, in this order. If the request is still available,
+    /// use [`FastSyncRead::answer`](super::instruction::FastSyncRead::answer).
     ///
     /// ```
     /// use actucheck_codec::dynamixel2::FastStatus;
@@ -92,7 +92,7 @@ impl<'a> FastStatus<'a> {
         if found != expected || devices == 0 {
             return Err(FrameError::Length { found, expected });
         }
-        // The last block's CRC is the packet's, so `blocks` ends two bytes early.
+        // The last block's CRC is the packet's, so `blocks` ends two bytes before the packet's end.
         parts.check_crc()?;
         let mut start = PREFIX + 1;
         for (block, id) in blocks.chunks(block_len).zip(ids()) {
@@ -114,7 +114,7 @@ impl<'a> FastStatus<'a> {
         Ok(Self { blocks, data_len: length.into() })
     }
 
-    /// The blocks in the order of the devices asked.
+    /// The blocks, in the order of the request.
     pub fn blocks(&self) -> impl Iterator<Item = Block<'a>> + use<'a> {
         let data_len = self.data_len;
         self.blocks.chunks(BLOCK_OVERHEAD + data_len).filter_map(move |block| {
@@ -125,11 +125,12 @@ impl<'a> FastStatus<'a> {
     }
 }
 
-/// Builds a fast status packet in `buffer`; returns the packet. The blocks' data are of one size.
+/// Builds a fast status packet in `buffer`; returns the packet. All blocks have data of the same
+/// size.
 ///
 /// # Errors
-/// If the packet would be longer than its length field can say, or `buffer` is too small; the
-/// error tells the size needed.
+/// If the packet would be longer than its length field can say, or `buffer` is too small; the error
+/// has the size needed.
 pub fn encode<'b>(blocks: &[Block<'_>], buffer: &'b mut [u8]) -> Result<&'b [u8], EncodeError> {
     let data: usize = blocks.iter().map(|block| block.data.len()).sum();
     let length = length_field(1 + blocks.len() * BLOCK_OVERHEAD + data)?;

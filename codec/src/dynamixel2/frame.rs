@@ -1,4 +1,4 @@
-//! Whole packets: the checked view of one, and the building of one.
+//! Whole packets: a checked view of a packet, and building a packet.
 
 mod direct;
 #[cfg(test)]
@@ -24,11 +24,11 @@ pub struct Frame<'a> {
     id: u8,
     /// The instruction's code, which becomes an [`Instruction`] only when somebody asks for it.
     code: u8,
-    /// How many bytes the body has, on the wire, and the parameters without stuffing.
+    /// Sizes in bytes: the body on the wire, and the parameters without stuffing.
     body_len: usize,
     params_len: usize,
-    /// From the instruction on. Bytes behind the body mean nothing; that they may be read makes
-    /// unstuffing faster.
+    /// The bytes from the instruction on. Bytes after the body have no meaning; being allowed to
+    /// read them makes unstuffing faster.
     bytes: &'a [u8],
 }
 
@@ -52,8 +52,8 @@ impl fmt::Debug for Frame<'_> {
 }
 
 impl<'a> Frame<'a> {
-    /// The packet with which `bytes` begin, `len` of them, in which everything was found right,
-    /// with `patterns` bytes of stuffing.
+    /// The packet of `len` bytes at the beginning of `bytes`, which was already checked and has
+    /// `patterns` bytes of stuffing.
     #[inline]
     pub(crate) fn checked(bytes: &'a [u8], len: usize, patterns: usize) -> Option<Self> {
         let (&[.., id, _, _], bytes) = bytes.split_first_chunk::<PREFIX>()?;
@@ -81,27 +81,27 @@ impl<'a> Frame<'a> {
         Ok(Self { id: parts.header.id, code, body_len, params_len, bytes: parts.body })
     }
 
-    /// Whom an instruction packet is for, or who sent a status packet.
+    /// The ID of the device that an instruction packet is for, or that sent a status packet.
     #[must_use]
     pub const fn id(&self) -> u8 {
         self.id
     }
 
-    /// What it asks for; [`Instruction::Status`] for a status packet.
+    /// The instruction; [`Instruction::Status`] for a status packet.
     #[must_use]
     pub const fn instruction(&self) -> Instruction {
         Instruction::from_code(self.code)
     }
 
-    /// The bytes between instruction and CRC as they are on the wire, stuffing included. In a
-    /// status packet the first is the error byte.
+    /// The bytes between instruction and CRC as on the wire, including stuffing. In a status packet
+    /// the first is the error byte.
     #[must_use]
     #[inline]
     pub fn stuffed_params(&self) -> &'a [u8] {
         self.bytes.get(1..self.body_len).unwrap_or_default()
     }
 
-    /// How many bytes [`Frame::params`] yields.
+    /// The number of bytes that [`Frame::params`] yields.
     #[must_use]
     pub const fn params_len(&self) -> usize {
         self.params_len
@@ -119,9 +119,9 @@ impl<'a> Frame<'a> {
         })
     }
 
-    /// Writes the parameters without stuffing to `buffer`; returns them. What is behind them in
-    /// `buffer` is lost. With 128 bytes of room it is fastest: short packets are then copied by moves
-    /// of a fixed size.
+    /// Writes the parameters without stuffing to `buffer`; returns them. The bytes after them in
+    /// `buffer` are overwritten.With 128 bytes of room it is fastest: short packets are then copied
+    /// by moves of a fixed size.
     ///
     /// # Errors
     /// If `buffer` is smaller than [`Frame::params_len`].
@@ -130,8 +130,8 @@ impl<'a> Frame<'a> {
         self.copy_behind(0, buffer)
     }
 
-    /// The same without the first `front` of the parameters. A pattern may begin with the last of
-    /// these, but with no byte before it.
+    /// The same without the first `front` parameters. A pattern may begin with the last of these,
+    /// but with no earlier byte.
     #[inline]
     pub(crate) fn copy_behind<'b>(
         &self,
@@ -152,10 +152,10 @@ impl<'a> Frame<'a> {
     }
 }
 
-/// The parts of bytes that have a packet's header, ID, length and size.
+/// The parts of a packet whose header, ID, length and size are right.
 pub(crate) struct Parts<'a> {
     pub(crate) header: Header,
-    /// From the instruction up to the CRC, as on the wire.
+    /// The bytes from the instruction up to the CRC, as on the wire.
     pub(crate) body: &'a [u8],
     /// The whole packet.
     bytes: &'a [u8],
@@ -184,7 +184,7 @@ impl<'a> Parts<'a> {
         Ok(Self { header, body, bytes, before_crc, crc: u16::from_le_bytes(*crc) })
     }
 
-    /// Checks the CRC, then the stuffing; tells how many patterns the body has.
+    /// Checks the CRC, then the stuffing. Returns the number of patterns in the body.
     fn check(&self) -> Result<usize, FrameError> {
         let looked = direct::look(self.before_crc);
         self.compare_crc(looked.map_or_else(|| crc::umts(self.before_crc), |looked| looked.crc))?;
@@ -223,8 +223,8 @@ impl<'a> Parts<'a> {
 /// ```
 ///
 /// # Errors
-/// If the ID is none, the packet would be longer than its length field can say, or `buffer` is
-/// too small; the error tells the size needed.
+/// If the ID is not valid, the packet would be longer than its length field can say, or `buffer` is
+/// too small; the error has the size needed.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "most of it goes where the number of parts is known")]
 pub fn encode<'b>(
@@ -240,7 +240,7 @@ pub fn encode<'b>(
     encode_parts(id, instruction, params, buffer)
 }
 
-/// How many bytes such a packet has, stuffing included.
+/// The size of such a packet in bytes, including stuffing.
 ///
 /// ```
 /// use actucheck_codec::dynamixel2::{Instruction, frame};
@@ -291,7 +291,7 @@ fn encode_parts<'b>(
     encode_with(id, instruction, put_all, buffer)
 }
 
-/// As [`encode`], with the parameters from a function that puts one part of them behind the other.
+/// As [`encode`], with the parameters from a function that appends one part after the other.
 pub(crate) fn encode_with(
     id: u8,
     instruction: Instruction,

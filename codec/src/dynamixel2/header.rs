@@ -1,8 +1,8 @@
-//! What stands before a packet's parameters, and the rules by which it is accepted (DYNAMIXEL
-//! Protocol 2.0, Instruction Packet and Status Packet; JA40 document, §1.4 and §1.5).
+//! The bytes before a packet's parameters, and the rules for accepting them (DYNAMIXEL Protocol
+//! 2.0, Instruction Packet and Status Packet; JA40 document, §1.4 and §1.5).
 //!
-//! The rules stand here alone. Who holds bytes against them knows more or less of a packet:
-//! [`Frame::parse`](super::Frame::parse) has the whole of it, the stream's parser perhaps a part.
+//! The rules are only here. Their callers have a whole packet
+//! ([`Frame::parse`](super::Frame::parse)) or perhaps a part of one (the stream parser).
 
 use super::{
     BROADCAST_ID, CRC_LOW_BYTE_FIRST, FrameError, HEADER, Instruction, LENGTH_LOW_BYTE_FIRST,
@@ -16,13 +16,13 @@ pub(crate) const CRC: usize = size_of::<u16>();
 /// The instruction of a status packet.
 pub(crate) const STATUS: u8 = Instruction::Status.code();
 
-// What the code of this module takes for granted of the YAML.
+// What the code of this module assumes about the YAML.
 const _: () = assert!(LENGTH_SIZE == size_of::<u16>() && LENGTH_LOW_BYTE_FIRST);
 const _: () = assert!(CRC_LOW_BYTE_FIRST);
 const _: () = assert!(MIN_ID == 0 && MAX_ID < BROADCAST_ID);
 const _: () = assert!(MIN_LENGTH as usize == size_of::<u8>() + CRC);
 
-/// ID and length of a packet, which break no rule.
+/// ID and length of a packet, which follow the rules.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Header {
     pub(crate) id: u8,
@@ -30,8 +30,8 @@ pub(crate) struct Header {
 }
 
 impl Header {
-    /// Holds `bytes` against the rules, in the order of the bytes that can break them; `None` if
-    /// more bytes are needed to tell.
+    /// Checks `bytes` against the rules, in the order of the bytes that can break them; `None` if
+    /// more bytes are needed.
     ///
     /// # Errors
     /// The first rule that they break: [`FrameError::Header`], [`FrameError::Id`] or
@@ -55,8 +55,8 @@ impl Header {
         Ok(Some(header))
     }
 
-    /// Whether the length leaves room for what a packet with this instruction has at least: a
-    /// status packet has an error byte.
+    /// Checks that the length is enough for a packet with this instruction: a status packet has an
+    /// error byte.
     ///
     /// # Errors
     /// [`FrameError::Length`] if not.
@@ -65,7 +65,7 @@ impl Header {
         self.check_length(if instruction == STATUS { MIN_LENGTH + 1 } else { MIN_LENGTH })
     }
 
-    /// The same for a fast status packet, which has an ID beside its error byte.
+    /// The same for a fast status packet, which has an ID in addition to its error byte.
     ///
     /// # Errors
     /// [`FrameError::Length`] if not.
@@ -108,7 +108,7 @@ pub(crate) const fn is_device(id: u8) -> bool {
     id <= MAX_ID
 }
 
-/// The first byte that a header has not there; `None` if `bytes` are the beginning of one.
+/// The first byte that differs from a header; `None` if `bytes` are the beginning of a header.
 #[cold]
 fn other_header(bytes: &[u8]) -> Option<FrameError> {
     let mut pairs = bytes.iter().zip(HEADER).enumerate();

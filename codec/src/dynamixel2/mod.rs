@@ -4,17 +4,17 @@
 //! |---|---|---|---|---|---|
 //! | FF FF FD 00 | 1 byte | 2 bytes | 1 byte | any | 2 bytes |
 //!
-//! Numbers have their low byte first. The length counts everything behind itself, stuffing
-//! included (JA40 document, §1.4; DYNAMIXEL Protocol 2.0, Instruction Packet).
+//! Numbers have their low byte first. The length counts everything after itself, including stuffing
+//! (JA40 document, §1.4; DYNAMIXEL Protocol 2.0, Instruction Packet).
 //!
 //! | to | see |
 //! |---|---|
-//! | read a packet that is there as a whole | [`Frame::parse`] |
-//! | find packets in what a port receives | [`stream::Parser`] |
+//! | read a whole packet | [`Frame::parse`] |
+//! | find packets in the bytes that a port receives | [`stream::Parser`] |
 //! | build an instruction | [`instruction`], or a register's [`read`](crate::register::Register::read) and [`write`](crate::register::Register::write) |
 //! | read an instruction, as a device does | [`Request::parse`] |
 //! | build and read a device's answer | [`status`], [`fast_status`] |
-//! | do byte stuffing alone | [`stuffing`] |
+//! | do only byte stuffing | [`stuffing`] |
 
 mod error;
 pub mod fast_status;
@@ -25,7 +25,7 @@ pub mod status;
 pub mod stream;
 pub mod stuffing;
 
-/// What the build script makes of the wire's YAML.
+/// The code that the build script generates from the wire's YAML.
 #[allow(
     unreachable_pub,            // its contents are exported below
     clippy::unreadable_literal, // numbers keep the form that they have in the YAML

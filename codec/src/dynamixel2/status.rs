@@ -1,4 +1,4 @@
-//! Status packets: what a device answers (DYNAMIXEL Protocol 2.0, Status Packet).
+//! Status packets, with which devices answer (DYNAMIXEL Protocol 2.0, Status Packet).
 
 use super::{ALERT_BIT, ErrorNumber, Frame, FrameError, Instruction, frame};
 use crate::layout::LayoutError;
@@ -21,13 +21,13 @@ impl StatusError {
         Self(number.code() & !ALERT_BIT | if alert { ALERT_BIT } else { 0 })
     }
 
-    /// Whether the device has a hardware error, which its Hardware Error Status register tells.
+    /// Whether the device has a hardware error. Its register Hardware Error Status says which.
     #[must_use]
     pub const fn alert(self) -> bool {
         self.0 & ALERT_BIT != 0
     }
 
-    /// How the instruction went.
+    /// The result of the instruction.
     #[must_use]
     pub const fn number(self) -> ErrorNumber {
         ErrorNumber::from_code(self.0 & !ALERT_BIT)
@@ -64,7 +64,7 @@ impl<'a> Frame<'a> {
         error.map(StatusError)
     }
 
-    /// The status packet that it is.
+    /// The status packet in this frame.
     ///
     /// # Errors
     /// [`FrameError::Instruction`] if it is an instruction packet.
@@ -75,7 +75,7 @@ impl<'a> Frame<'a> {
     }
 }
 
-/// A status packet. What its data mean, the request tells that it answers.
+/// A status packet. The meaning of its data depends on the request that it answers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Status<'a> {
     frame: Frame<'a>,
@@ -83,13 +83,13 @@ pub struct Status<'a> {
 }
 
 impl<'a> Status<'a> {
-    /// Who answers.
+    /// The ID of the device that answers.
     #[must_use]
     pub const fn id(&self) -> u8 {
         self.frame.id()
     }
 
-    /// How the instruction went.
+    /// The result of the instruction.
     #[must_use]
     pub const fn error(&self) -> StatusError {
         self.error
@@ -100,14 +100,14 @@ impl<'a> Status<'a> {
         self.frame.params().skip(1)
     }
 
-    /// How many bytes [`Status::data`] yields.
+    /// The number of bytes that [`Status::data`] yields.
     #[must_use]
     pub const fn data_len(&self) -> usize {
         self.frame.params_len().saturating_sub(1)
     }
 
-    /// Writes the data to `buffer`; returns them. What is behind them in `buffer` is lost, as with
-    /// [`Frame::copy_params`].
+    /// Writes the data to `buffer`; returns them. The bytes after them in `buffer` are
+    /// overwritten,as with [`Frame::copy_params`].
     ///
     /// # Errors
     /// If `buffer` is smaller than [`Status::data_len`].
@@ -115,10 +115,11 @@ impl<'a> Status<'a> {
         self.frame.copy_behind(1, buffer)
     }
 
-    /// The answer to a Read of this register. It may be one although the device tells of an error.
+    /// The answer to a Read of this register. The packet may have data although the device reports
+    /// an error.
     ///
     /// # Errors
-    /// If the data are not as many as the register has.
+    /// If the number of bytes is not that of the register.
     pub fn value<T: Value>(&self, register: Register<T>) -> Result<T, RegisterError> {
         let mut buffer = [0; 4];
         let data = self.copy_data(&mut buffer).map_err(|error| RegisterError::Size {
@@ -140,7 +141,7 @@ impl<'a> Status<'a> {
     /// ```
     ///
     /// # Errors
-    /// If the data are not three bytes.
+    /// If there are not three bytes of data.
     pub fn ping(&self) -> Result<PingStatus, LayoutError> {
         let mut buffer = [0; PingStatus::SIZE];
         let data = self.copy_data(&mut buffer).map_err(|error| LayoutError::Extra {
@@ -151,7 +152,7 @@ impl<'a> Status<'a> {
     }
 }
 
-/// What a Ping is answered with (DYNAMIXEL Protocol 2.0, Ping; JA40 document, §1.6.1).
+/// The answer to a Ping (DYNAMIXEL Protocol 2.0, Ping; JA40 document, §1.6.1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PingStatus {
     /// The device's Model Number register.
@@ -201,8 +202,8 @@ fn short(field: &'static str, offset: usize, available: usize, needed: usize) ->
     LayoutError::Short { field, offset, available, needed }
 }
 
-/// Builds a status packet in `buffer`; returns the packet. `params` are the data: none for most
-/// instructions, for a Read the bytes read.
+/// Builds a status packet in `buffer`; returns the packet. `params` is the data: empty for most
+/// instructions, and for a Read the bytes read.
 ///
 /// ```
 /// use actucheck_codec::dynamixel2::status::{self, StatusError};

@@ -1,4 +1,4 @@
-//! Byte stuffing: what keeps a header from appearing in a body (DYNAMIXEL Protocol 2.0, Packet 처리,
+//! Byte stuffing, which keeps headers from appearing in a body (DYNAMIXEL Protocol 2.0, Packet 처리,
 //! "packet handling").
 //!
 //! A *body* is the bytes from the instruction up to the CRC. A sender puts FD behind every
@@ -20,17 +20,17 @@ pub(crate) use remove::remove;
 /// Looks for the pattern byte by byte, across slices.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Matcher {
-    /// How many bytes of the pattern the last bytes seen are.
+    /// How many bytes of the pattern the last bytes match.
     matched: usize,
 }
 
 impl Matcher {
-    /// Takes the next byte; tells whether it ends the pattern.
+    /// Takes the next byte. Returns whether it ends the pattern.
     pub(crate) fn step(&mut self, byte: u8) -> bool {
         let [first, second, last] = STUFFING_PATTERN;
         self.matched = match self.matched {
             2 if byte == last => 3,
-            // A third FF leaves the last two as the beginning of a pattern.
+            // After a third FF, the last two FF may begin a pattern.
             1 | 2 if byte == second => 2,
             _ if byte == first => 1,
             _ => 0,
@@ -46,7 +46,7 @@ impl Matcher {
 /// Why a stuffed body can't be unstuffed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnstuffError {
-    /// The pattern stands there without the byte that belongs behind it.
+    /// The body has the pattern without the stuffing byte after it.
     Bare {
         /// The offset in the body at which that byte is missing.
         at: usize,
@@ -68,13 +68,13 @@ impl fmt::Display for UnstuffError {
 
 impl core::error::Error for UnstuffError {}
 
-/// How many bytes `body` has when it is stuffed: at most a third more.
+/// The size of `body` with stuffing: at most a third larger.
 #[must_use]
 pub fn stuffed_len(body: &[u8]) -> usize {
     body.len() + insert::missing(body)
 }
 
-/// Writes `body` to `buffer` with FD behind every FF FF FD; returns what was written. What is
+/// Writes `body` to `buffer` with FD after every FF FF FD. Returns the written bytes. What is
 /// behind it in `buffer` is lost.
 ///
 /// ```
@@ -95,7 +95,7 @@ pub fn stuff<'b>(body: &[u8], buffer: &'b mut [u8]) -> Result<&'b [u8], BufferTo
     buffer.get(..end).ok_or_else(too_small)
 }
 
-/// Writes a stuffed body to `buffer` as it was before stuffing; returns what was written. What is
+/// Writes a stuffed body to `buffer` without its stuffing. Returns the written bytes. What is
 /// behind it in `buffer` is lost.
 ///
 /// ```
@@ -107,15 +107,15 @@ pub fn stuff<'b>(body: &[u8], buffer: &'b mut [u8]) -> Result<&'b [u8], BufferTo
 /// ```
 ///
 /// # Errors
-/// If FF FF FD stands in `stuffed` without FD behind it, or `buffer` is too small; a buffer of
-/// the size of `stuffed` is always enough.
+/// If `stuffed` has FF FF FD without FD after it, or `buffer` is too small; a buffer of the size of
+/// `stuffed` is always enough.
 pub fn unstuff<'b>(stuffed: &[u8], buffer: &'b mut [u8]) -> Result<&'b [u8], UnstuffError> {
     let needed = remove::checked(stuffed, buffer).map_err(|at| UnstuffError::Bare { at })?;
     let too_small = BufferTooSmall { needed, available: buffer.len() };
     buffer.get(..needed).ok_or(UnstuffError::Buffer(too_small))
 }
 
-/// The offset at which FD is missing behind the first bare pattern.
+/// The offset at which FD is missing after the first bare pattern.
 pub(crate) fn bare(stuffed: &[u8]) -> Option<usize> {
     remove::checked(stuffed, &mut []).err()
 }

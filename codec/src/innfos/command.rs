@@ -1,17 +1,16 @@
 use super::{Command, Iq8, Iq24, Value};
 use crate::number::{nearest, to_f64};
 
-/// What the documents' tables say of a command.
+/// The facts about a command in the document's tables.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CommandRow {
-    /// Which way the value goes.
+    /// Whether the command reads or writes the value.
     pub direction: Direction,
     /// Bytes of the request's data.
     pub request: u16,
     /// The sizes that the reply's data may have; empty if no reply comes.
     pub reply: &'static [u16],
-    /// How the value stands in the data; `None` if there is none. What answers a write is a
-    /// flag.
+    /// The format of the value; `None` if there is no value. A write is answered with a flag.
     pub format: Option<Format>,
     /// The value's unit, if the document names one.
     pub unit: Option<&'static str>,
@@ -28,7 +27,7 @@ pub enum Direction {
     Write,
 }
 
-/// How a value stands in the data; the high byte comes first.
+/// The format of a value in the data; the high byte comes first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Format {
     /// One byte: 1 for success, enabled, on or normal; 0 for the opposite.
@@ -37,16 +36,16 @@ pub enum Format {
     Mode,
     /// Two bytes: [`Alarms`](super::Alarms).
     Alarms,
-    /// Two bytes, signed, 8 bits behind the point.
+    /// Two bytes, signed, with 8 fractional bits.
     Iq8,
-    /// Four bytes, signed, 24 bits behind the point.
+    /// Four bytes, signed, with 24 fractional bits.
     Iq24,
     /// Four bytes, signed: a whole number, `factor` times the value.
     Scaled {
-        /// The number on the wire of the value 1.
+        /// The number that represents the value 1.
         factor: f64,
     },
-    /// Four or six bytes that tell actuators apart.
+    /// Four or six bytes that identify an actuator.
     Mac,
 }
 
@@ -63,7 +62,7 @@ impl Format {
     }
 }
 
-/// A quantity of which a model has a full scale.
+/// A quantity with a full scale.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FullScale {
     /// [`Actuator::current`].
@@ -72,24 +71,25 @@ pub enum FullScale {
     MotorSpeed,
 }
 
-/// A model's full scales (INNFOS document, Appendix D). The document leaves open whether the
-/// speed's is the model's or always 6000 RPM: change `motor_speed` where it is not the model's.
+/// A model's full scales (INNFOS document, Appendix D). The document leaves unspecified whether the
+/// full scale of speed is the model's or always 6000 RPM; change `motor_speed` if it is not the
+/// model's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Actuator {
     /// The model.
     pub name: &'static str,
     /// In A.
     pub current: f64,
-    /// Of the motor, in revolutions a minute; relative speeds refer to it.
+    /// Speed of the motor, in revolutions per minute; relative speeds refer to it.
     pub motor_speed: f64,
-    /// Behind the gear, in revolutions a minute.
+    /// Speed after the gear, in revolutions per minute.
     pub output_speed: f64,
 }
 
 impl Command {
-    /// The value in the command's unit: the fixed-point number, times the model's full scale if
-    /// the value is relative; for a scaled one the whole number over its factor. `None` for a
-    /// value that is no quantity, or not of the command's format.
+    /// The value in the command's unit: the fixed-point number, times the model's full scale if the
+    /// value is relative; for a scaled value, the whole number divided by its factor. `None` if the
+    /// value is not a quantity, or not of the command's format.
     ///
     /// ```
     /// use actucheck_codec::innfos::{Command, DD_6010, Iq24, Value};
@@ -137,7 +137,7 @@ impl Command {
 }
 
 impl CommandRow {
-    /// The quantity that the value 1.0 stands for.
+    /// The quantity that the value 1.0 represents.
     fn scale(&self, actuator: &Actuator) -> f64 {
         match self.full_scale {
             None => 1.0,

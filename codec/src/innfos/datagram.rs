@@ -1,7 +1,7 @@
 use super::{Frame, FrameError, Kind};
 
-/// The frames of a datagram, one after the other. What follows a damaged frame is lost: the
-/// document gives no rule for where to go on.
+/// The frames of a datagram, one after the other. The bytes after a damaged frame are skipped: the
+/// document does not say where to continue.
 ///
 /// ```
 /// use actucheck_codec::innfos::{Kind, frames};
@@ -17,8 +17,8 @@ pub const fn frames(kind: Kind, datagram: &[u8]) -> Frames<'_> {
     Frames { kind, rest: datagram }
 }
 
-/// The walk that [`frames`] begins. After an error nothing follows; its offset counts from the
-/// first byte of the damaged frame.
+/// The iterator of [`frames`]. It ends after an error, whose offset counts from the first byte of
+/// the damaged frame.
 #[derive(Clone, Debug)]
 pub struct Frames<'a> {
     kind: Kind,

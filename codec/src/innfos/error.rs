@@ -3,7 +3,7 @@ use core::fmt;
 use super::Command;
 use crate::EncodeError;
 
-/// Why bytes are no frame. Offsets count from the first byte of the frame.
+/// Why bytes are not a valid frame. Offsets count from the first byte of the frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FrameError {
     /// The first byte is not EE.
@@ -11,40 +11,40 @@ pub enum FrameError {
         /// The byte.
         found: u8,
     },
-    /// The bytes end early.
+    /// There are too few bytes.
     Truncated {
-        /// Bytes that are there.
+        /// Number of bytes available.
         available: usize,
-        /// Bytes that the frame has, or the smallest one has if its length is not there.
+        /// Number of bytes of the frame, or of the smallest frame if the length is not available.
         needed: usize,
     },
     /// The last byte is not ED.
     Tail {
-        /// Where it stands.
+        /// Its offset.
         at: usize,
-        /// The byte there.
+        /// The byte found.
         found: u8,
     },
-    /// Bytes follow the frame.
+    /// There are extra bytes after the frame.
     Trailing {
-        /// Bytes that the frame has.
+        /// Number of bytes of the frame.
         end: usize,
-        /// Bytes that are there.
+        /// Number of bytes available.
         available: usize,
     },
     /// The CRC does not match.
     Crc {
-        /// Where it stands.
+        /// Its offset.
         at: usize,
-        /// The CRC there.
+        /// The CRC found.
         found: u16,
-        /// The CRC of the data.
+        /// The right CRC, of the data.
         expected: u16,
     },
 }
 
 impl FrameError {
-    /// The offset of the byte that gives the frame away.
+    /// The offset of the first byte that shows the fault.
     #[must_use]
     pub const fn offset(&self) -> usize {
         match *self {
@@ -87,29 +87,29 @@ impl fmt::Display for FrameError {
 
 impl core::error::Error for FrameError {}
 
-/// Why a frame is no message, or a message has no frame.
+/// Why a frame has no meaning, or a message has no frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MessageError {
-    /// The documents don't have the command.
+    /// The command is not in the document.
     Unknown {
         /// Its code.
         code: u8,
     },
-    /// The command is not answered.
+    /// The command has no reply.
     NoReply {
         /// The command.
         command: Command,
     },
-    /// The data are of another size.
+    /// The data has the wrong size.
     Size {
         /// The command.
         command: Command,
         /// Bytes of data.
         found: usize,
-        /// The sizes that they may have.
+        /// The valid sizes.
         expected: &'static [u16],
     },
-    /// The value is missing, superfluous, or of another format.
+    /// The value is missing, superfluous, or has the wrong format.
     Value {
         /// The command.
         command: Command,

@@ -9,7 +9,7 @@ macro_rules! fixed {
         pub struct $name(pub $raw);
 
         impl $name {
-            /// How many bits stand behind the point.
+            /// The number of fractional bits.
             pub const FRACTION_BITS: u32 = $bits;
 
             /// The number nearest to `value`; of two that are equally near, the one farther from 0.

@@ -12,7 +12,7 @@ const _: () = assert!(LENGTH_SIZE == size_of::<u16>() && !LENGTH_LOW_BYTE_FIRST)
 const _: () = assert!(CRC_LOW_BYTE_FIRST);
 const _: () = assert!(MIN_ADDRESS == 1 && MAX_ADDRESS == u8::MAX && BROADCAST_ADDRESS == 0);
 
-/// Which way a frame goes. The frame itself does not tell.
+/// The direction of a frame. The frame itself does not state it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Kind {
     /// From the host.
@@ -21,8 +21,8 @@ pub enum Kind {
     Reply,
 }
 
-/// A frame whose header, size, end and CRC are right. Its accessors can't fail. Whether the data
-/// fit the command, [`Message::parse`](super::Message::parse) tells.
+/// A frame whose header, size, end and CRC are right. Its accessors can't fail.
+/// [`Message::parse`](super::Message::parse) checks whether the data fits the command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Frame<'a> {
     kind: Kind,
@@ -35,8 +35,8 @@ impl<'a> Frame<'a> {
     /// Reads `bytes`, which are one frame and nothing else.
     ///
     /// # Errors
-    /// The first rule that the bytes break, with the offset: header, size, end byte, what follows,
-    /// CRC, in this order.
+    /// The first rule that the bytes break, with the offset, in this order: header, size, end byte,
+    /// extra bytes, CRC.
     pub fn parse(kind: Kind, bytes: &'a [u8]) -> Result<Self, FrameError> {
         let (parts, rest) = Parts::split(kind, bytes)?;
         if !rest.is_empty() {
@@ -46,28 +46,28 @@ impl<'a> Frame<'a> {
         parts.checked(kind)
     }
 
-    /// Reads the frame that `bytes` begin with; returns it and what follows it.
+    /// Reads the frame at the beginning of `bytes`. Returns it and the rest of the bytes.
     ///
     /// # Errors
-    /// As [`Frame::parse`], whatever follows.
+    /// As [`Frame::parse`], apart from extra bytes.
     pub fn first(kind: Kind, bytes: &'a [u8]) -> Result<(Self, &'a [u8]), FrameError> {
         let (parts, rest) = Parts::split(kind, bytes)?;
         Ok((parts.checked(kind)?, rest))
     }
 
-    /// Which way it goes.
+    /// Its direction.
     #[must_use]
     pub const fn kind(&self) -> Kind {
         self.kind
     }
 
-    /// The actuator that it is for or from; 0 for all, and for the board.
+    /// The actuator that it is for or from; 0 means all actuators, or the board.
     #[must_use]
     pub const fn address(&self) -> u8 {
         self.address
     }
 
-    /// What is asked or answered.
+    /// The command.
     #[must_use]
     pub const fn command(&self) -> Command {
         self.command
@@ -80,7 +80,7 @@ impl<'a> Frame<'a> {
     }
 }
 
-/// The parts of bytes that have a frame's header, size and end.
+/// The parts of a frame whose header, size and end are right.
 struct Parts<'a> {
     address: u8,
     command: u8,
@@ -114,7 +114,7 @@ impl<'a> Parts<'a> {
         let Self { address, command, data, crc } = self;
         if let [low, high] = *crc {
             let (found, expected) = (u16::from_le_bytes([low, high]), crc::modbus(data));
-            // Of an open one `crc_len` has made sure.
+            // For a frame whose CRC is optional, `crc_len` has checked it.
             if found != expected && !is_open(kind, command, data.len()) {
                 return Err(FrameError::Crc { at: PREFIX + data.len(), found, expected });
             }
@@ -128,7 +128,7 @@ fn crc_len(kind: Kind, command: u8, length: usize, rest: &[u8]) -> usize {
     if !is_open(kind, command, length) {
         return if has_crc(kind, length) { 2 } else { 0 };
     }
-    // What looks like a CRC is one: zeros or the right one, and the end byte behind it.
+    // Zeros or the right CRC with the end byte after them count as a CRC.
     let (data, rest) = rest.split_at_checked(length).unwrap_or_default();
     match *rest {
         [low, high, TAIL, ..] => {
@@ -150,8 +150,8 @@ const fn has_crc(kind: Kind, length: usize) -> bool {
     length >= from
 }
 
-/// Whether it is open if the frame has one: some replies come without, with zeros in its place, or
-/// with it (INNFOS document, Handshake with ECB and Query actuator).
+/// Whether the CRC is optional: some replies have no CRC, zeros in its place, or a CRC (INNFOS
+/// document, Handshake with ECB and Query actuator).
 fn is_open(kind: Kind, command: u8, length: usize) -> bool {
     kind == Kind::Reply && length > 0 && !has_crc(kind, length) && OPEN_REPLIES.contains(&command)
 }
@@ -162,8 +162,8 @@ pub const fn encoded_len(kind: Kind, data: usize) -> usize {
     PREFIX + data + if has_crc(kind, data) { size_of::<u16>() } else { 0 } + size_of_val(&TAIL)
 }
 
-/// Builds a frame in `buffer`; returns it. A reply for which it is open whether it has a CRC gets
-/// none, as the document prints it.
+/// Builds a frame in `buffer`; returns it. A reply whose CRC is optional gets none, as the document
+/// prints it.
 ///
 /// ```
 /// use actucheck_codec::innfos::{self, Command, Kind};
@@ -174,7 +174,7 @@ pub const fn encoded_len(kind: Kind, data: usize) -> usize {
 /// ```
 ///
 /// # Errors
-/// If there are more than 65,535 bytes of data, or `buffer` is too small; the error tells the size
+/// If there are more than 65,535 bytes of data, or `buffer` is too small; the error has the size
 /// needed: 6 bytes, the data, and 2 for the CRC if there is one.
 pub fn encode<'b>(
     kind: Kind,

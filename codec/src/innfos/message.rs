@@ -3,16 +3,16 @@ use super::{
     encoded_len,
 };
 
-/// What a frame means: a command, and the value that it carries this way.
+/// The meaning of a frame: a command, and its value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Message {
-    /// Which way it goes.
+    /// Its direction.
     pub kind: Kind,
-    /// The actuator that it is for or from; 0 for all, and for the board.
+    /// The actuator that it is for or from; 0 means all actuators, or the board.
     pub address: u8,
-    /// What is asked or answered.
+    /// The command.
     pub command: Command,
-    /// The value that is written, the value that was read, or how the write went.
+    /// The value to write, the value that was read, or the result of a write.
     pub value: Option<Value>,
 }
 
@@ -58,7 +58,7 @@ impl Message {
         Self { kind: Kind::Reply, address, command, value }
     }
 
-    /// Reads what `frame` means.
+    /// Reads the meaning of `frame`.
     ///
     /// ```
     /// use actucheck_codec::innfos::{Command, Frame, Kind, Message, Mode, Value};
@@ -70,8 +70,7 @@ impl Message {
     /// ```
     ///
     /// # Errors
-    /// If the documents don't have the command, it is not answered, or the data are of another
-    /// size.
+    /// If the command is not in the document, has no reply, or the data has the wrong size.
     pub fn parse(frame: &Frame<'_>) -> Result<Self, MessageError> {
         let (kind, command, data) = (frame.kind(), frame.command(), frame.data());
         let format = format(kind, command)?;
@@ -91,8 +90,8 @@ impl Message {
     /// Builds the frame in `buffer`; returns it. [`Message::MAX_LEN`] bytes are always enough.
     ///
     /// # Errors
-    /// If the documents don't have the command, it is not answered, the value is not of its
-    /// format, or `buffer` is too small; the error tells the size needed.
+    /// If the command is not in the document, has no reply, the value is not of its format, or
+    /// `buffer` is too small; the error has the size needed.
     pub fn encode<'b>(&self, buffer: &'b mut [u8]) -> Result<&'b [u8], MessageError> {
         let Self { kind, address, command, value } = *self;
         let data = match (format(kind, command)?, value) {
@@ -104,7 +103,7 @@ impl Message {
     }
 }
 
-/// The format of the value that the command carries this way; a write is answered with a flag.
+/// The format of the command's value in this direction; a write is answered with a flag.
 fn format(kind: Kind, command: Command) -> Result<Option<Format>, MessageError> {
     let row = command.row().ok_or(MessageError::Unknown { code: command.code() })?;
     match (kind, row.direction) {

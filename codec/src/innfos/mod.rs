@@ -5,8 +5,8 @@
 //! | EE | 1 byte | 1 byte | 2 bytes, high byte first | `length` bytes | 2 bytes, or none | ED |
 //!
 //! A [`Frame`] is the checked view of such bytes; a [`Message`] is what they mean: a [`Command`]
-//! with a [`Value`] of the type that the document's tables give it. A frame does not tell which way
-//! it goes, so the [`Kind`] comes from the caller (INNFOS document, Communication protocol format).
+//! with a [`Value`] of the type that the document's tables give it. A frame does not state its
+//! direction, so the caller gives the [`Kind`] (INNFOS document, Communication protocol format).
 //!
 //! ```
 //! use actucheck_codec::innfos::{Command, Frame, Iq24, Kind, Message, Value};
@@ -31,7 +31,7 @@ mod frame;
 mod message;
 mod value;
 
-/// What the build script makes of the wire's YAML.
+/// The code that the build script generates from the wire's YAML.
 #[allow(
     unreachable_pub,            // its contents are exported below
     unused_imports,             // a small wire has no use for every type

@@ -1,26 +1,26 @@
 use super::{Alarms, Format, Iq8, Iq24, Mode};
 
-/// What the data of a frame say.
+/// The value in the data of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Value {
     /// Yes or no.
     Flag(Flag),
-    /// What the actuator controls.
+    /// The quantity that the actuator controls.
     Mode(Mode),
-    /// What it warns of.
+    /// Its alarms.
     Alarms(Alarms),
-    /// A number with 8 bits behind the point.
+    /// A number with 8 fractional bits.
     Iq8(Iq8),
-    /// A number with 24 bits behind the point.
+    /// A number with 24 fractional bits.
     Iq24(Iq24),
     /// A whole number, the quantity times the command's factor.
     Scaled(i32),
-    /// What tells actuators apart.
+    /// The bytes that identify an actuator.
     Mac(Mac),
 }
 
 impl Value {
-    /// The value that `data` are in this format; `None` if they are of another size.
+    /// The value of `data` in this format; `None` if the size is wrong.
     #[must_use]
     pub fn decode(format: Format, data: &[u8]) -> Option<Self> {
         Some(match (format, data) {
@@ -37,7 +37,7 @@ impl Value {
         })
     }
 
-    /// Whether it is one of this format.
+    /// Whether it has this format.
     #[must_use]
     pub const fn is(self, format: Format) -> bool {
         matches!(
@@ -76,7 +76,7 @@ impl Flag {
     /// Success, enabled, on, normal.
     pub const YES: Self = Self(1);
 
-    /// What it says; `None` for a byte that the document does not explain.
+    /// Its meaning; `None` for a byte that the document does not explain.
     #[must_use]
     pub const fn is_yes(self) -> Option<bool> {
         match self.0 {
@@ -92,7 +92,7 @@ impl Flag {
 pub struct Mac(Data);
 
 impl Mac {
-    /// Of these bytes; `None` if they are not four or six.
+    /// From these bytes; `None` if they are not four or six.
     #[must_use]
     pub fn new(bytes: &[u8]) -> Option<Self> {
         matches!(bytes.len(), 4 | 6).then(|| Self(Data::of(bytes)))

@@ -8,7 +8,7 @@ pub struct Data {
 }
 
 impl Data {
-    /// The lowest bytes of `value`, as many as the register has.
+    /// The lowest bytes of `value`, for the size of the register.
     pub(super) fn of(kind: Kind, value: i64) -> Self {
         let [a, b, c, d, ..] = value.to_le_bytes();
         Self { bytes: [a, b, c, d], len: kind.size().into() }

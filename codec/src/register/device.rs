@@ -8,13 +8,13 @@ pub struct Device {
     pub id: &'static str,
     /// Its name.
     pub name: &'static str,
-    /// What Ping answers, where the document says so.
+    /// The model number that Ping returns, if the document states it.
     pub model_number: Option<u16>,
-    /// The instructions that it obeys.
+    /// The instructions that it supports.
     pub instructions: &'static [Instruction],
     /// Address of the register that keeps the EEPROM area read-only while it is not 0.
     pub eeprom_lock: Option<u16>,
-    /// The control table, by rising address.
+    /// The control table, in ascending order of address.
     pub registers: &'static [&'static Row],
 }
 

@@ -2,7 +2,7 @@ use core::fmt;
 
 use crate::dynamixel2::ErrorNumber;
 
-/// Why a register can't be written or read so.
+/// Why a register can't be written or read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RegisterError {
     /// Hosts may only read it.
@@ -24,22 +24,22 @@ pub enum RegisterError {
         /// is the document or the register's size that sets it.
         limit: Option<u16>,
     },
-    /// It takes some values only, and this is none of them.
+    /// It has a list of values, and this is not one of them.
     NotListed {
         /// Its name.
         register: &'static str,
         /// The value.
         value: i64,
-        /// All that it takes.
+        /// The list of values.
         listed: &'static [i64],
     },
-    /// The bytes are not as many as it has.
+    /// The number of bytes is wrong.
     Size {
         /// Its name.
         register: &'static str,
-        /// How many they are.
+        /// The number of bytes found.
         found: usize,
-        /// How many it has.
+        /// The number of bytes of the register.
         expected: usize,
     },
     /// Not all of its bytes are among those of a block.

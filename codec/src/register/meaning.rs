@@ -1,6 +1,6 @@
 use super::{Range, Row, Unit};
 
-/// What a register's value means while a condition holds, where that is not what it means else.
+/// The range and unit of a register while a condition holds, where they differ from its usual ones.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Meaning {
     /// When it holds.
@@ -11,24 +11,24 @@ pub struct Meaning {
     pub unit: Option<Unit>,
 }
 
-/// What another register has to hold.
+/// A condition on the value of another register.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Condition {
     /// The register's address.
     pub address: u16,
-    /// The lowest bit that counts, from 0.
+    /// The lowest bit that is compared, from 0.
     pub lowest: u16,
-    /// How many bits count.
+    /// The number of bits that are compared.
     pub width: u16,
     /// The values of these bits, shifted down to bit 0, for which the condition holds.
     pub one_of: &'static [i64],
-    /// All that in words: `Operating Mode is Extended Position Control Mode`.
+    /// The condition in words: `Operating Mode is Extended Position Control Mode`.
     pub words: &'static str,
 }
 
 impl Condition {
-    /// Whether it holds. `held` tells what the register at an address holds; a condition on a
-    /// register of which it tells `None` does not hold.
+    /// Whether the condition holds. `held` returns the value of the register at an address; if it
+    /// returns `None`, the condition does not hold.
     #[must_use]
     pub fn holds(&self, held: impl Fn(u16) -> Option<i64>) -> bool {
         held(self.address).is_some_and(|value| {
@@ -40,13 +40,14 @@ impl Condition {
 }
 
 impl Row {
-    /// The values that the register may have while other registers hold what `held` tells.
+    /// The values that the register may have while other registers have the values that `held`
+    /// returns.
     #[must_use]
     pub fn range_while(&self, held: impl Fn(u16) -> Option<i64>) -> Range {
         self.meaning(held).and_then(|meaning| meaning.range).unwrap_or(self.range)
     }
 
-    /// What one count is while other registers hold what `held` tells.
+    /// The physical value of one count while other registers have the values that `held` returns.
     ///
     /// ```
     /// use actucheck_codec::ja40;

@@ -1,8 +1,8 @@
-//! Control tables: what the generated device modules are made of.
+//! Control tables: the types of the generated device modules.
 //!
-//! A [`Device`] has a [`Row`] a register: the bare facts, for who looks registers up by address or
-//! by name. Each register is also a constant of its module, a [`Register`] that knows the type of
-//! its values and checks what it writes:
+//! A [`Device`] has one [`Row`] per register: the plain facts, for looking registers up by address
+//! or by name. Each register is also a constant of its module, a [`Register`] that knows the type
+//! of its values and checks what it writes:
 //!
 //! ```
 //! use actucheck_codec::ja40::{self, OperatingMode};

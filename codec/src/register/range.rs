@@ -16,16 +16,16 @@ pub enum Range {
     OneOf(&'static [i64]),
 }
 
-/// An end of a range.
+/// A bound of a range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bound {
     /// A number.
     Value(i64),
-    /// What another register holds.
+    /// The value of another register.
     Register {
         /// The register's address.
         address: u16,
-        /// Whether its value counts with the other sign.
+        /// Whether the value is negated.
         negated: bool,
     },
 }
@@ -41,8 +41,9 @@ impl Bound {
 }
 
 impl Row {
-    /// The smallest and the largest value that the register takes: those of its range, cut to its
-    /// size. `limits` is as in [`Row::encode`], and tells of modes too. For a list of values the ends of the list.
+    /// The smallest and the largest value that the register takes: those of its range, limited to
+    /// its size, or those of its list. `limits` is as in [`Row::encode`]; it returns the registers
+    /// of conditions too.
     ///
     /// ```
     /// use actucheck_codec::ja40;
@@ -78,10 +79,10 @@ impl Row {
         })
     }
 
-    /// Whether the register may have this value, whoever sets it.
+    /// Checks that the register may have this value, even if hosts can't write it.
     ///
     /// # Errors
-    /// If it may not: the register's name and limits.
+    /// If it may not; the error has the register's name and limits.
     pub fn check(
         &self,
         value: i64,

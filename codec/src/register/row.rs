@@ -1,7 +1,7 @@
 use super::{Data, Meaning, Range, RegisterError};
 use crate::number::{nearest, to_f64};
 
-/// A row of a control table: a register's bare facts, its values plain numbers.
+/// A row of a control table: the facts about a register, whose values are plain numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
     /// Its name in the document.
@@ -10,30 +10,30 @@ pub struct Row {
     pub address: u16,
     /// Size and signedness; the low byte comes first.
     pub kind: Kind,
-    /// Whether it outlives a power cycle.
+    /// The memory area, which decides whether the value survives a power cycle.
     pub area: Area,
-    /// What hosts may do with it.
+    /// Whether hosts may write it.
     pub access: Access,
-    /// The value that it starts with, where the document says so.
+    /// The initial value, if the document states it.
     pub initial: Option<i64>,
     /// The values that it may have.
     pub range: Range,
     /// Whether the documents agree on the range. Where they do not, [`Row::encode`] takes every
     /// value of the register's size.
     pub settled: bool,
-    /// What one count of its value is.
+    /// The physical value of one count.
     pub unit: Option<Unit>,
-    /// What else range and unit are while another register holds something; the first whose
-    /// condition holds counts.
+    /// Other ranges and units that apply while another register has a certain value. The first one
+    /// whose condition holds applies.
     pub meanings: &'static [Meaning],
     /// Values with a name.
     pub values: &'static [NamedValue],
-    /// Bits with a meaning of their own.
+    /// Named bit fields.
     pub bits: &'static [BitField],
 }
 
 impl Row {
-    /// The value that these bytes hold; `None` if they are not as many as the register has.
+    /// The value in these bytes; `None` if their number is not that of the register.
     ///
     /// ```
     /// use actucheck_codec::ja40;
@@ -53,9 +53,9 @@ impl Row {
         })
     }
 
-    /// The bytes to write for `value`. `limits` tells what the register at an address holds: the
-    /// ends of some ranges are other registers' values, and some ranges depend on a mode. Where it
-    /// tells `None`, only the size of the register limits that end. A range that is not
+    /// The bytes to write for `value`. `limits` returns the value of the register at an address, as
+    /// the bounds of some ranges are other registers' values, and some ranges depend on a mode. If
+    /// it returns `None`, only the size of the register limits that bound. A range that is not
     /// [settled](Row::settled) limits nothing.
     ///
     /// ```
@@ -134,8 +134,8 @@ impl Row {
         self.values.iter().find(|row| row.value == value).map(|row| row.name)
     }
 
-    /// A value in the register's [`Unit`]: the count times the factor; `None` if it has no unit.
-    /// For one that depends on a mode see [`Row::unit_while`].
+    /// A value in the register's [`Unit`]: the count times the factor; `None` if it has no unit. If
+    /// the unit depends on a mode, see [`Row::unit_while`].
     #[must_use]
     pub fn physical(&self, value: i64) -> Option<f64> {
         self.unit.map(|unit| to_f64(value) * unit.factor)
@@ -186,7 +186,7 @@ impl Kind {
         }
     }
 
-    /// The smallest and the largest value that it holds.
+    /// The smallest and the largest value of this size.
     #[must_use]
     pub fn limits(self) -> (i64, i64) {
         match self {
@@ -200,25 +200,25 @@ impl Kind {
     }
 }
 
-/// Whether a register outlives a power cycle.
+/// The memory area of a register.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Area {
-    /// It does; it can be locked.
+    /// EEPROM area: the value survives a power cycle; writing can be locked.
     Eeprom,
-    /// It does not.
+    /// RAM area: the value is lost at a power cycle.
     Ram,
 }
 
-/// What hosts may do with a register.
+/// Whether hosts may write a register.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Access {
-    /// Read it.
+    /// Read-only.
     ReadOnly,
-    /// Read and write it.
+    /// Read and write.
     ReadWrite,
 }
 
-/// What one count of a value is.
+/// The physical value of one count.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unit {
     /// The physical value of one count.
@@ -236,7 +236,7 @@ pub struct NamedValue {
     pub name: &'static str,
 }
 
-/// Neighbouring bits with a meaning of their own.
+/// Neighbouring bits with a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BitField {
     /// Its name.

@@ -66,7 +66,7 @@ impl<T: Value, D: IntoIterator<Item: Borrow<(u8, T)>> + Clone> RegisterSyncWrite
     /// if it needs stuffing; returns the packet.
     ///
     /// # Errors
-    /// If an ID is none of a device, else as [`frame::encode`].
+    /// If an ID is not a device's, otherwise as [`frame::encode`].
     pub fn encode<'b>(&self, buffer: &'b mut [u8]) -> Result<&'b [u8], EncodeError> {
         let Row { address, kind, .. } = *self.register.row;
         let devices = || self.devices.clone().into_iter().map(|device| *device.borrow());

@@ -4,15 +4,15 @@ use super::{Data, Kind, RegisterError, Row};
 use crate::EncodeError;
 use crate::dynamixel2::{Instruction, frame};
 
-/// What a register holds: a number, an enum of named values, or a set of bits.
+/// The value of a register: a number, an enum of named values, or a set of bits.
 pub trait Value: Copy {
-    /// The registers that can hold it: it has as many values as they.
+    /// The size and signedness of the registers that can hold it.
     const KIND: Kind;
 
     /// As the number in the register.
     fn raw(self) -> i64;
 
-    /// From the number in the register; `None` if the type can't hold it.
+    /// From the number in the register; `None` if the type has no such value.
     fn from_raw(raw: i64) -> Option<Self>;
 }
 
@@ -34,8 +34,8 @@ macro_rules! numbers {
 
 numbers!(u8: U8, i8: I8, u16: U16, i16: I16, u32: U32, i32: I32);
 
-/// A register whose values are of type `T`. The device modules have one as a constant for each
-/// row of the control table.
+/// A register whose values have the type `T`. The device modules have one constant for each row of
+/// the control table.
 #[derive(Debug, PartialEq)]
 pub struct Register<T> {
     /// Name, address, size, area, access, range and unit.
@@ -66,7 +66,7 @@ impl<T: Value> Register<T> {
         Self { row, value: PhantomData }
     }
 
-    /// The request for its value from the device `id`.
+    /// The request to read it from the device `id`.
     ///
     /// ```
     /// use actucheck_codec::dynamixel2::Frame;
@@ -85,8 +85,8 @@ impl<T: Value> Register<T> {
         RegisterRead { id, row: self.row }
     }
 
-    /// The request to set it on the device `id`. An end of its range that another register holds
-    /// is not checked; [`Register::write_within`] does so.
+    /// The request to write it on the device `id`. Bounds that are other registers' values are not
+    /// checked; [`Register::write_within`] checks them.
     ///
     /// # Errors
     /// If the register is read-only or the value outside its range.
@@ -94,8 +94,8 @@ impl<T: Value> Register<T> {
         self.write_within(id, value, |_| None)
     }
 
-    /// The request to set it on the device `id`, within limits that other registers hold.
-    /// `limits` tells the value of the register at an address, as far as the caller knows it.
+    /// The request to write it on the device `id`, within bounds that are other registers' values.
+    /// `limits` returns the value of the register at an address, as far as the caller knows it.
     ///
     /// ```
     /// use actucheck_codec::ja40;
@@ -120,7 +120,7 @@ impl<T: Value> Register<T> {
         Ok(RegisterWrite { id, address: self.row.address, data, instruction: Instruction::Write })
     }
 
-    /// The request to set it on the device `id` to any value, also outside its range.
+    /// The request to write any value on the device `id`, even outside the range.
     ///
     /// # Errors
     /// If the register is read-only.
@@ -129,10 +129,10 @@ impl<T: Value> Register<T> {
         Ok(RegisterWrite { id, address: self.row.address, data, instruction: Instruction::Write })
     }
 
-    /// The value that these bytes hold.
+    /// The value in these bytes.
     ///
     /// # Errors
-    /// If they are not as many as the register has.
+    /// If their number is not that of the register.
     pub fn decode(self, bytes: &[u8]) -> Result<T, RegisterError> {
         self.row.decode(bytes).and_then(T::from_raw).ok_or(RegisterError::Size {
             register: self.row.name,
@@ -187,7 +187,7 @@ impl RegisterRead {
     }
 }
 
-/// The request to set a register, its value checked.
+/// The request to write a register, with a checked value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RegisterWrite {
     id: u8,

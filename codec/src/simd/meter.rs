@@ -1,4 +1,4 @@
-//! Counts the bytes that the parser looks at, for tests of its cost; without the feature `meter`
+//! Counts the bytes that the parser examines, for tests of its cost. Without the feature `meter`
 //! nothing is counted.
 
 #[cfg(not(any(test, feature = "meter")))]
@@ -14,7 +14,7 @@ pub use counting::total;
 mod counting {
     use core::cell::Cell;
 
-    // A counter a thread, as the tests run side by side.
+    // One counter per thread, as the tests run in parallel.
     std::thread_local! {
         static TOTAL: Cell<usize> = const { Cell::new(0) };
     }
@@ -23,8 +23,8 @@ mod counting {
         TOTAL.set(TOTAL.get() + bytes);
     }
 
-    /// The bytes that the parsers of this thread have looked at so far; those looked at twice
-    /// count twice.
+    /// The number of bytes that the parsers of this thread have examined so far; bytes examined
+    /// twice count twice.
     #[must_use]
     pub fn total() -> usize {
         TOTAL.get()

@@ -35,16 +35,16 @@ pub(crate) trait Task {
     fn run(self, backend: impl Backend) -> Self::Output;
 }
 
-/// What stands where in a window; bit i of a set stands for byte i.
+/// The places found in a window; bit i of a set is byte i.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Places {
     /// Where FF FF FD begins.
     pub(crate) patterns: u64,
-    /// Where the byte of stuffing, FD, stands. Only those that can be behind a pattern matter.
+    /// The places of the stuffing byte, FD. Only places after a pattern matter.
     pub(crate) stuffing: u64,
 }
 
-/// A packet, up to its CRC, that is not in one piece yet.
+/// A packet, up to its CRC, that is still in pieces.
 ///
 /// The prefix and the lead are not neighbours in memory, so that no compiler loads both at once: a
 /// processor has to wait when one load covers two stores that it has just made.
@@ -53,15 +53,15 @@ pub(crate) struct Places {
 pub(crate) struct Pieces<'a> {
     /// Header, ID, length and instruction, the first byte lowest.
     pub(crate) prefix: u64,
-    /// How many parameters the lead has, less than eight.
+    /// The number of parameters in the lead, fewer than eight.
     pub(crate) lead_len: usize,
-    /// The first parameters, the first of them lowest, with zeros behind.
+    /// The first parameters, the first one lowest, padded with zeros.
     pub(crate) lead: u64,
     /// The other parameters.
     pub(crate) tail: &'a [u8],
 }
 
-/// The task to look at it.
+/// The task that examines it.
 impl Task for Pieces<'_> {
     type Output = Option<Looked>;
 
@@ -72,12 +72,12 @@ impl Task for Pieces<'_> {
     }
 }
 
-/// What is known of a packet in pieces in which no pattern begins before the tail.
+/// The CRC and patterns of a packet in pieces in which no pattern begins before the tail.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Looked {
-    /// Its CRC-16/UMTS, as it is without stuffing.
+    /// Its CRC-16/UMTS without stuffing.
     pub(crate) crc: u16,
-    /// Where in the tail FF FF FD begins; bit i stands for byte i.
+    /// The places in the tail at which FF FF FD begins; bit i is byte i.
     pub(crate) patterns: u64,
 }
 
@@ -86,22 +86,22 @@ pub(crate) trait Backend: Copy {
     /// As [`crc::umts`](crate::crc::umts).
     fn umts(self, bytes: &[u8]) -> u16;
 
-    /// What a packet needs. `None` if a pattern begins before its tail, the tail is longer than a
-    /// window, or this back end is no faster with pieces than with the whole.
+    /// Examines a packet in pieces. `None` if a pattern begins before its tail, the tail is longer
+    /// than a window, or this back end is no faster with pieces than with the whole packet.
     fn look(self, pieces: Pieces<'_>) -> Option<Looked>;
 
-    /// Whether the last `len` bytes of the window, at least two, end in the CRC-16/UMTS of those
-    /// before, low byte first.
+    /// Whether the last two of the last `len` bytes of the window are the CRC-16/UMTS of the
+    /// others, low byte first. `len` is at least two.
     fn ends_in_crc(self, window: &[u8; WINDOW], len: usize) -> bool;
 
     /// The patterns that are wholly in the window, and stuffing.
     fn places(self, window: &[u8; WINDOW]) -> Places;
 
-    /// Where patterns may begin: if it is faster to tell, where FF FF does.
+    /// The places at which patterns may begin; these may be the places of FF FF if that is faster.
     fn pairs(self, window: &[u8; WINDOW]) -> u64;
 }
 
-/// Zeros, then as many ones: what to keep of a window's end.
+/// Zeros, then as many ones: a mask for the end of a window.
 static KEEP: [[u8; WINDOW]; 2] = [[0; WINDOW], [0xFF; WINDOW]];
 
 /// Ones in the last `len` bytes of a window, zeros before.
@@ -111,7 +111,7 @@ fn keep_last(len: usize) -> &'static [u8; WINDOW] {
     kept.unwrap_or(&[0xFF; WINDOW]) // a window has no more
 }
 
-/// What this machine's processor can do, found once.
+/// The features of this machine's processor, detected once.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Processor {
     Portable,
@@ -122,7 +122,7 @@ pub(crate) enum Processor {
 }
 
 impl Processor {
-    /// The best that this machine has.
+    /// The fastest back end of this machine.
     #[inline]
     pub(crate) fn new() -> Self {
         #[cfg(target_arch = "x86_64")]
@@ -137,7 +137,7 @@ impl Processor {
         Self::Portable
     }
 
-    /// Everything that this machine can run, [`Processor::Portable`] first.
+    /// All back ends that this machine supports, [`Processor::Portable`] first.
     pub(crate) fn all() -> impl Iterator<Item = Self> {
         #[cfg(target_arch = "x86_64")]
         let special = [Narrow::new().map(Self::Narrow), Wide::new().map(Self::Wide)];
@@ -146,7 +146,7 @@ impl Processor {
         [Self::Portable].into_iter().chain(special.into_iter().flatten())
     }
 
-    /// Does the task this processor's way.
+    /// Runs the task for this processor.
     #[inline]
     pub(crate) fn run<T: Task>(self, task: T) -> T::Output {
         match self {
@@ -159,13 +159,13 @@ impl Processor {
     }
 }
 
-/// Does the task the best way that this machine has.
+/// Runs the task with the fastest back end of this machine.
 #[inline]
 pub(crate) fn run<T: Task>(task: T) -> T::Output {
     Processor::new().run(task)
 }
 
-/// A function of its own, as the other back ends' are.
+/// A separate function, as for the other back ends.
 #[inline(never)]
 fn portable<T: Task>(task: T) -> T::Output {
     task.run(Portable)

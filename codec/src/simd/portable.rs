@@ -46,8 +46,9 @@ impl Backend for Portable {
         self.umts(before) == u16::from_le_bytes(*found)
     }
 
-    /// Eight neighbouring places are one `u64`; the words that begin one and two bytes later hold
-    /// what stands behind each. A byte of the combined word is zero where everything matches.
+    /// Eight neighbouring places are one `u64`; the words that begin one and two bytes later have
+    /// the following bytes of each place. A byte of the combined word is zero where all bytes
+    /// match.
     #[inline]
     fn places(self, window: &[u8; WINDOW]) -> Places {
         let [first, second, third] = STUFFING_PATTERN.map(everywhere);
@@ -76,7 +77,8 @@ impl Backend for Portable {
     }
 }
 
-/// Whether the pattern is among the bytes, the first of them lowest; perhaps also when it is not.
+/// Whether the bytes may have the pattern, the first byte lowest. May return true without a
+/// pattern.
 #[inline]
 fn may_have_pattern(bytes: u128) -> bool {
     const fn everywhere(byte: u8) -> u128 {
@@ -94,7 +96,7 @@ const fn some_zero(word: u64) -> u64 {
     word.wrapping_sub(everywhere(1)) & !word & everywhere(0x80)
 }
 
-/// A bit for each byte of the words that is zero, that of the first word's lowest byte the lowest.
+/// One bit for each zero byte of the words; the lowest bit is the lowest byte of the first word.
 #[inline]
 fn zeros(words: impl DoubleEndedIterator<Item = u64>) -> u64 {
     words.rev().fold(0, |bits, word| {

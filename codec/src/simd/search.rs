@@ -1,17 +1,17 @@
 //! Looks for headers and for the pattern of byte stuffing: in windows of 64 bytes while there are as
 //! many, then at eight places at a time.
 //!
-//! Eight neighbouring places are one `u64`, the first in its lowest byte; the words that begin
-//! one, two and three bytes later hold what stands behind each. A byte of the combined word is
-//! zero where everything matches.
+//! Eight neighbouring places are one `u64`, the first in its lowest byte; the words that begin one,
+//! two and three bytes later have the following bytes of each place. A byte of the combined word is
+//! zero where all bytes match.
 
 use super::words::{everywhere, zero_bytes};
 use super::{Backend, Task, WINDOW as LARGE, meter, run};
 use crate::dynamixel2::{HEADER, STUFFING_BYTE, STUFFING_PATTERN};
 
-/// Places that are looked at together.
+/// The number of places that are examined together.
 const PLACES: usize = 8;
-/// The bytes that decide about them: the last place's pattern and one byte behind it.
+/// The bytes that decide these places: up to the last place's pattern and one byte after it.
 const WINDOW: usize = PLACES + 3;
 
 /// The eight bytes of a window from `AT` on.
@@ -36,7 +36,8 @@ fn may_be_header(bytes: &[u8]) -> bool {
     bytes.iter().zip(HEADER).all(|(byte, header)| *byte == header)
 }
 
-/// The offset of the first header, be it cut off by the end; all of `bytes` if there is none.
+/// The offset of the first header, which may be cut off by the end; the length of `bytes` if there
+/// is none.
 pub(crate) fn header(bytes: &[u8]) -> usize {
     let [_, _, _, fourth] = HEADER;
     let mut at = match run(FindHeader { bytes }) {
@@ -60,11 +61,11 @@ pub(crate) fn header(bytes: &[u8]) -> usize {
     (at..bytes.len()).find(is_header).unwrap_or(bytes.len())
 }
 
-/// Counts the patterns that begin at `from`, not before the body, or later; `None` if one of them
-/// lacks the byte that belongs behind it, and nothing behind that one is looked at.
+/// Counts the patterns that begin at `from` or later; `from` is not before the body. `None` if one
+/// of them lacks its stuffing byte; the bytes after that one are not examined.
 ///
 /// `bytes` are those of a packet from its header on, at most up to its first CRC byte; the body
-/// ends at `body_end`. A pattern counts as soon as the byte behind it is there.
+/// ends at `body_end`. A pattern counts as soon as the byte after it is available.
 #[inline]
 pub(crate) fn patterns(bytes: &[u8], from: usize, body_end: usize) -> Option<usize> {
     let large = bytes.len() >= from + LARGE;
@@ -74,8 +75,8 @@ pub(crate) fn patterns(bytes: &[u8], from: usize, body_end: usize) -> Option<usi
         count += patterns_in(window, 0, at + WINDOW > body_end)?;
         at += PLACES;
     }
-    // The places left are fewer than a window has. The last window has them; header, ID and
-    // length leave room for it in front of the body.
+    // Fewer places are left than a window has. The last window has them; header, ID and length are
+    // enough bytes before the body for it.
     if at + WINDOW < bytes.len() + PLACES
         && let Some(window) = bytes.last_chunk()
     {
@@ -85,8 +86,8 @@ pub(crate) fn patterns(bytes: &[u8], from: usize, body_end: usize) -> Option<usi
     Some(count)
 }
 
-/// Counts the patterns in a window, except for the first `looked_at` places. At the body's end
-/// the last byte of the window is the CRC's, whatever its value.
+/// Counts the patterns in a window, without the first `looked_at` places. At the end of the body
+/// the last byte of the window belongs to the CRC, whatever its value.
 #[inline]
 fn patterns_in(window: &[u8; WINDOW], looked_at: usize, ends_body: bool) -> Option<usize> {
     meter::add(WINDOW);
@@ -99,11 +100,12 @@ fn patterns_in(window: &[u8; WINDOW], looked_at: usize, ends_body: bool) -> Opti
     (patterns & !stuffed == 0).then_some(patterns.count_ones() as usize)
 }
 
-/// How many places a large window decides about.
+/// The number of places that a large window decides.
 const LARGE_PLACES: usize = LARGE - 3;
 const DECIDED: u64 = u64::MAX >> 3;
 
-/// The task to find the first header: its offset, or up to where there is none as `Err`.
+/// The task that finds the first header: its offset, or `Err` with the offset up to which there is
+/// none.
 struct FindHeader<'a> {
     bytes: &'a [u8],
 }
@@ -130,7 +132,8 @@ impl Task for FindHeader<'_> {
     }
 }
 
-/// As [`patterns`], but only as far as large windows reach: the count, and up to where.
+/// As [`patterns`], but only as far as large windows reach. Returns the count and the offset
+/// reached.
 struct CountPatterns<'a> {
     bytes: &'a [u8],
     from: usize,

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use super::*;
 use crate::crc::tests::umts_oracle;
 
-/// What a back end says of a window.
+/// The results of a back end for a window.
 struct Look<'a> {
     window: &'a [u8; WINDOW],
     len: usize,
@@ -55,7 +55,7 @@ proptest! {
                     prop_assert_eq!(places.patterns, patterns, "{:?}", processor);
                     prop_assert_eq!(may_begin & patterns, patterns, "{:?}", processor);
                     prop_assert_eq!(may_begin & !pairs, 0, "{:?}", processor);
-                    // Not found where there is no pattern that it could be behind.
+                    // Not reported if there is no pattern before it.
                     prop_assert!(patterns == 0 || places.stuffing == stuffing, "{:?}", processor);
                 }
             }
@@ -71,7 +71,7 @@ proptest! {
         prefix: [u8; 7],
         body in prop_oneof![
             proptest::collection::vec(prop_oneof![3 => Just(0xFF_u8), 2 => Just(0xFD), 3 => any::<u8>()], 80),
-            // As in most packets, no pattern, or none before the tail.
+            // As in most packets: no pattern, or none before the tail.
             proptest::collection::vec(0..0xFF_u8, 80),
             (vec![0..0xFF_u8; 8], proptest::collection::vec(prop_oneof![Just(0xFF_u8), Just(0xFD)], 72))
                 .prop_map(|(lead, tail)| [lead, tail].concat()),

@@ -55,7 +55,7 @@ impl Answer {
         Self(AtomicU8::new(0))
     }
 
-    // Relaxed will do: whoever asks twice gets the same answer twice.
+    // Relaxed is enough: the answer is always the same.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "a call would cost more than the load")]
     fn get(&self, ask: impl FnOnce() -> bool) -> bool {
@@ -91,7 +91,7 @@ impl Narrow {
         unsafe { narrow::update::<O>(state, bytes) }
     }
 
-    /// Does the task with these features.
+    /// Runs the task with these features.
     #[inline]
     pub(super) fn run<T: Task>(self, task: T) -> T::Output {
         #[target_feature(enable = "pclmulqdq,ssse3")]
@@ -121,7 +121,7 @@ impl Wide {
         unsafe { wide::update::<O>(state, bytes) }
     }
 
-    /// Does the task with these features.
+    /// Runs the task with these features.
     #[inline]
     pub(super) fn run<T: Task>(self, task: T) -> T::Output {
         #[target_feature(enable = "vpclmulqdq,avx2,pclmulqdq,ssse3,popcnt,bmi1,bmi2")]

@@ -1,4 +1,4 @@
-//! Feeds a parser, and keeps what comes out.
+//! Feeds a parser and collects its events.
 
 use actucheck_codec::dynamixel2::stream::{self, Parser, Reason};
 use actucheck_codec::dynamixel2::{Frame, frame};
@@ -6,14 +6,14 @@ use actucheck_spec::model::Fault;
 use actucheck_spec::wire::dynamixel2::Packet;
 use actucheck_spec::wire::dynamixel2::reference::{Event, events};
 
-/// The event as the reference tells it; a frame's bytes are those that encoding it gives.
+/// The event in the reference's form; a frame's bytes are those of encoding it.
 pub(crate) fn owned(event: stream::Event<'_>) -> Event {
     match event {
         stream::Event::Frame(frame) => {
             let params: Vec<u8> = frame.params().collect();
             assert_eq!(params.len(), frame.params_len());
             let mut buffer = [0; 2048];
-            // With room behind them, and without.
+            // With space after them, and without.
             assert_eq!(frame.copy_params(&mut buffer), Ok(&params[..]));
             assert_eq!(frame.copy_params(&mut buffer[..params.len()]), Ok(&params[..]));
             if let (Ok(status), [_, data @ ..]) = (frame.status(), &params[..]) {
@@ -40,7 +40,7 @@ fn packet(frame: &Frame<'_>, params: &[u8]) -> Packet {
     }
 }
 
-/// The reference's word for a reason.
+/// The reference's form of a reason.
 fn fault(reason: Reason) -> Fault {
     match reason {
         Reason::Garbage => Fault::Header,
@@ -81,14 +81,14 @@ fn feed<const BLOCKS: usize>(
     }
 }
 
-/// Takes all events that there are.
+/// Takes all available events.
 pub(crate) fn drain<const BLOCKS: usize>(parser: &mut Parser<BLOCKS>, events: &mut Vec<Event>) {
     while let Some(event) = parser.next_event() {
         events.push(owned(event));
     }
 }
 
-/// All events that a parser makes of the bytes, with a quiet time between each two of `busy`.
+/// All events of a parser, with a quiet time between each two of `busy`.
 pub(crate) fn parse<const BLOCKS: usize>(
     busy: &[Vec<u8>],
     max_packet: usize,
@@ -114,7 +114,7 @@ pub(crate) fn parse<const BLOCKS: usize>(
     events
 }
 
-/// What the rules make of them.
+/// The events by the rules.
 pub(crate) fn expected(busy: &[Vec<u8>], max_packet: usize) -> Vec<Event> {
     let last = busy.len() - 1;
     let busy = busy.iter().enumerate();

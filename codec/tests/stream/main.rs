@@ -1,4 +1,4 @@
-//! The stream parser against the plain reading of its rules.
+//! Compares the stream parser with a simple implementation of its rules.
 
 // Tests may stop at the first surprise, and so may their helpers.
 #![allow(clippy::indexing_slicing, clippy::unwrap_used)]
@@ -65,7 +65,7 @@ proptest! {
         prop_assert_eq!(&parse::<16>(&scenario.0, 1024, &[1], usize::MAX), &expected);
     }
 
-    /// Nothing but the bytes of headers: the most false headers to a byte.
+    /// Only bytes of headers: the most false headers per byte.
     #[test]
     fn reads_the_worst_of_noise(
         noise in vec(prop::sample::select(vec![0xFF, 0xFD, 0x00, 0xFE, 0x55, 0x0A]), 0..600),
@@ -78,7 +78,7 @@ proptest! {
     }
 }
 
-/// What a parser of up to 1 KiB makes of the pieces, with a quiet time at the end.
+/// The events of a parser of up to 1 KiB, with a quiet time at the end.
 fn events_of(pieces: &[&[u8]]) -> Vec<Event> {
     let scenario = Scenario(vec![pieces.concat(), vec![]]);
     let events = parse::<16>(&scenario.0, 1024, &[usize::MAX], usize::MAX);
@@ -114,7 +114,7 @@ fn tells_every_reason() {
     }
 }
 
-/// The pattern ends the body, and the CRC begins with what looks like its stuffing.
+/// The pattern is at the end of the body, and the first byte of the CRC looks like its stuffing.
 #[test]
 fn a_crc_is_no_stuffing() {
     let bodies = (0..=u16::MAX).map(|n| [&n.to_le_bytes(), &[0xFF, 0xFF, 0xFD][..]].concat());
@@ -131,7 +131,7 @@ fn a_crc_is_no_stuffing() {
 
 #[test]
 fn a_damaged_packet_hides_no_packet() {
-    // Whole by its length, and a packet inside it.
+    // Complete by its length, with a packet inside.
     let outer = frame(0xFE, &[&[0x55, 0x00], &ping()[..], &ping(), &[7]].concat());
     let mut damaged = outer.clone();
     damaged[8] = 1;
@@ -152,7 +152,7 @@ fn a_lying_length_hides_no_packet() {
 
 #[test]
 fn a_quiet_time_sets_free_what_a_false_header_held_up() {
-    // Of the one kind that the next header does not prove false.
+    // The one kind of packet that the next header does not show to be false.
     let claim = b"\xFF\xFF\xFD\x00\xFE\xF0\x03\x55";
     let mut parser = Parser::new();
     let mut events = Vec::new();

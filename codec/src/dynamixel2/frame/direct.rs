@@ -7,14 +7,14 @@ use crate::dynamixel2::header::{CRC, PREFIX};
 use crate::dynamixel2::{HEADER, STUFFING_BYTE, STUFFING_PATTERN};
 use crate::simd::{Backend, Looked, Pieces, Task, WINDOW, run};
 
-/// Bytes in front of the parameters.
+/// Bytes before the parameters.
 const FRONT: usize = PREFIX + 1;
-/// Bytes of the longest packet that is written so, before stuffing.
+/// Size in bytes of the longest packet that is written in this way, before stuffing.
 const ROOM: usize = FRONT + size_of::<u64>() - 1 + WINDOW + CRC;
 
-/// Writes the packet to `buffer`; returns how long it is. `None` if it is not made of at most
-/// seven bytes of parameters and a last part of at most 64, needs stuffing before that, or may
-/// not fit.
+/// Writes the packet to `buffer` and returns its length. `None` if the parameters are not at most
+/// seven bytes and a last part of at most 64, if stuffing is needed before the last part, or if the
+/// packet may not fit.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "as the public function is")]
 pub(super) fn encode(id: u8, code: u8, params: &[&[u8]], buffer: &mut [u8]) -> Option<usize> {
@@ -36,8 +36,8 @@ pub(super) fn encode(id: u8, code: u8, params: &[&[u8]], buffer: &mut [u8]) -> O
     run(Encode { pieces: Pieces { prefix, lead_len, lead, tail }, buffer })
 }
 
-/// What there is to know of a packet that ends before its CRC here; `None` if its body is longer
-/// than 65 bytes or a pattern begins with its instruction.
+/// The CRC and the patterns of a packet, which ends before its CRC here; `None` if its body is
+/// longer than 65 bytes or a pattern begins with its instruction.
 #[inline]
 pub(super) fn look(before_crc: &[u8]) -> Option<Looked> {
     let (prefix, tail) = before_crc.split_first_chunk()?;
@@ -45,7 +45,7 @@ pub(super) fn look(before_crc: &[u8]) -> Option<Looked> {
     run(Pieces { prefix, lead_len: 0, lead: 0, tail })
 }
 
-/// The task to write a packet; gives its length.
+/// The task that writes a packet and returns its length.
 struct Encode<'a> {
     pieces: Pieces<'a>,
     buffer: &'a mut [u8],
@@ -98,7 +98,7 @@ fn encode_stuffed(
     let mut whole = [0; 2 * WINDOW];
     copy(tail, whole.get_mut(..tail.len())?);
     let count = patterns.count_ones();
-    // So short a length is all in its low byte.
+    // A length this short needs only its low byte.
     let prefix = prefix + (u64::from(count) << 40);
     let target = put_front(Pieces { prefix, ..pieces }, buffer)?;
     // A whole window each time: the end of a loop over the bytes is hard to predict.
@@ -118,7 +118,8 @@ fn encode_stuffed(
     Some(end + CRC)
 }
 
-/// Writes what is in front of the tail; returns the room for that. What is behind it is lost.
+/// Writes the bytes before the tail. Returns the space for the tail; the bytes after it are
+/// overwritten.
 #[inline]
 fn put_front<'b>(pieces: Pieces<'_>, buffer: &'b mut [u8]) -> Option<&'b mut [u8]> {
     let Pieces { prefix, lead, lead_len, .. } = pieces;
@@ -127,7 +128,7 @@ fn put_front<'b>(pieces: Pieces<'_>, buffer: &'b mut [u8]) -> Option<&'b mut [u8
     buffer.get_mut(FRONT + lead_len..)
 }
 
-/// Less than eight bytes as a number, the first byte lowest.
+/// Fewer than eight bytes as a number, the first byte lowest.
 #[inline]
 fn word(bytes: &[u8]) -> u64 {
     if let (Some(first), Some(last)) = (bytes.first_chunk(), bytes.last_chunk()) {
@@ -139,10 +140,10 @@ fn word(bytes: &[u8]) -> u64 {
     }
 }
 
-/// Copies, to as many bytes, without a call if they are few.
+/// Copies to a slice of the same size, without a call if it is short.
 #[inline]
 fn copy(bytes: &[u8], target: &mut [u8]) {
-    /// From `N` to twice as many, by two moves that may overlap.
+    /// Copies `N` to `2 * N` bytes by two moves that may overlap.
     #[inline]
     fn ends<const N: usize>(bytes: &[u8], target: &mut [u8]) -> Option<()> {
         *target.first_chunk_mut::<N>()? = *bytes.first_chunk()?;

@@ -1,4 +1,4 @@
-//! The fast ways against the plain one.
+//! Compares the fast implementations with the simple one.
 
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use super::{encode, encode_with};
 use crate::dynamixel2::Instruction;
 
-/// Bytes among which the pattern is common, or none of it.
+/// Bytes in which the pattern is common, or does not occur.
 fn part(most: usize) -> impl Strategy<Value = Vec<u8>> {
     let tricky = prop_oneof![5 => Just(0xFF_u8), 3 => Just(0xFD), 2 => any::<u8>()];
     prop_oneof![vec(tricky, 0..=most), vec(0..0xFF_u8, 0..=most)]
@@ -15,12 +15,12 @@ fn part(most: usize) -> impl Strategy<Value = Vec<u8>> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(4000))]
 
-    /// However the parameters are cut, and wherever the buffer ends.
+    /// For any division of the parameters, and any size of the buffer.
     #[test]
     fn parts_make_the_same_packet_as_bytes(
         code in prop_oneof![Just(0xFF_u8), any::<u8>()],
         parts in prop_oneof![
-            // What is put together without being read back: a few bytes, then others.
+            // Packets that are written without reading back: a few bytes, then more.
             (vec(part(3), 0..3), part(70)).prop_map(|(mut parts, tail)| {
                 parts.push(tail);
                 parts

@@ -1,4 +1,4 @@
-//! The writing of a packet's parts.
+//! Writes the parts of a packet.
 
 use super::length_field;
 use crate::dynamixel2::HEADER;
@@ -16,12 +16,12 @@ impl<'b> Writer<'b> {
         Self::after(buffer, 0)
     }
 
-    /// Goes on behind what is there already.
+    /// Continues after the bytes that are already written.
     pub(super) fn after(buffer: &'b mut [u8], written: usize) -> Self {
         Self { buffer, written }
     }
 
-    /// Leaves room for header, ID and length.
+    /// Leaves space for header, ID and length.
     pub(crate) fn skip_prefix(&mut self) {
         self.written += PREFIX;
     }
@@ -41,12 +41,12 @@ impl<'b> Writer<'b> {
         self.written = end;
     }
 
-    /// How many bytes are there; `None` if more than there is room for.
+    /// The number of bytes written; `None` if they did not fit.
     pub(super) fn written(&self) -> Option<usize> {
         Some(self.written).filter(|written| *written <= self.buffer.len())
     }
 
-    /// Appends the CRC of all that was written so far.
+    /// Appends the CRC of all bytes written so far.
     pub(crate) fn put_crc(&mut self) {
         let crc = crc::umts(self.buffer.get(..self.written).unwrap_or_default());
         let [low, high] = crc.to_le_bytes();
@@ -54,7 +54,7 @@ impl<'b> Writer<'b> {
         self.put(high);
     }
 
-    /// Writes header, ID and a length of so many bytes; nothing if they don't fit.
+    /// Writes header, ID and length; nothing if they don't fit.
     pub(crate) fn put_prefix(&mut self, id: u8, length: u16) {
         let [length_low, length_high] = length.to_le_bytes();
         let [first, second, third, reserved] = HEADER;

@@ -1,4 +1,4 @@
-//! Registers of several devices, at an address and of a length of its own for each.
+//! Bulk instructions: registers of several devices, with an address and a length for each device.
 
 use core::borrow::Borrow;
 
@@ -12,18 +12,18 @@ use crate::dynamixel2::{BROADCAST_ID, Instruction};
 /// Protocol 2.0, Bulk Read).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BulkRead<D> {
-    /// What to read, in the order of the answers.
+    /// The reads, in the order of the answers.
     pub devices: D,
 }
 
-/// What to read of a device.
+/// The registers to read from a device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DeviceRange {
     /// The device.
     pub id: u8,
     /// The first byte's address.
     pub address: u16,
-    /// How many bytes.
+    /// The number of bytes.
     pub length: u16,
 }
 
@@ -32,7 +32,8 @@ impl<D: IntoIterator<Item: Borrow<DeviceRange>> + Clone> BulkRead<D> {
     /// stuffing; returns the packet.
     ///
     /// # Errors
-    /// If an ID is none of a device, else as [`frame::encode`](crate::dynamixel2::frame::encode).
+    /// If an ID is not a device's, otherwise as
+    /// [`frame::encode`](crate::dynamixel2::frame::encode).
     pub fn encode<'b>(&self, buffer: &'b mut [u8]) -> Result<&'b [u8], EncodeError> {
         let devices = || self.devices.clone().into_iter().map(|device| *device.borrow());
         devices().try_for_each(|device| check_device(device.id))?;
@@ -69,11 +70,11 @@ impl<'a> BulkRead<RangeBlocks<'a>> {
 /// Writes registers of several devices, which don't answer (DYNAMIXEL Protocol 2.0, Bulk Write).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BulkWrite<D> {
-    /// What to write.
+    /// The writes.
     pub devices: D,
 }
 
-/// What to write to a device.
+/// The data to write to a device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DeviceWrite<'a> {
     /// The device.
@@ -89,7 +90,8 @@ impl<'d, D: IntoIterator<Item: Borrow<DeviceWrite<'d>>> + Clone> BulkWrite<D> {
     /// more if it needs stuffing; returns the packet.
     ///
     /// # Errors
-    /// If an ID is none of a device, else as [`frame::encode`](crate::dynamixel2::frame::encode).
+    /// If an ID is not a device's, otherwise as
+    /// [`frame::encode`](crate::dynamixel2::frame::encode).
     pub fn encode<'b>(&self, buffer: &'b mut [u8]) -> Result<&'b [u8], EncodeError> {
         let devices = || self.devices.clone().into_iter().map(|device| *device.borrow());
         for device in devices() {
@@ -146,7 +148,7 @@ fn write<'a>(params: &mut Params<'a>) -> Result<DeviceWrite<'a>, RequestError> {
     Ok(DeviceWrite { id, address, data: params.take("data", length.into())? })
 }
 
-/// The devices of a [`BulkRead`] that was read.
+/// The devices of a received [`BulkRead`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RangeBlocks<'a>(Params<'a>);
 
@@ -158,7 +160,7 @@ impl Iterator for RangeBlocks<'_> {
     }
 }
 
-/// The devices of a [`BulkWrite`] that was read.
+/// The devices of a received [`BulkWrite`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WriteBlocks<'a>(Params<'a>);
 

@@ -3,7 +3,7 @@ use core::fmt;
 use crate::BufferTooSmall;
 use crate::layout::LayoutError;
 
-/// Why a packet is no instruction that a device could carry out.
+/// Why a device can't carry out a packet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RequestError {
     /// The buffer for its parameters is too small.
@@ -12,12 +12,12 @@ pub enum RequestError {
     Status,
     /// Its parameters don't fit the instruction.
     Layout(LayoutError),
-    /// It names its devices itself, so it must go to the broadcast ID.
+    /// It names its devices itself, so it must be sent to the broadcast ID.
     NotBroadcast {
-        /// The ID that it goes to.
+        /// The ID that it was sent to.
         found: u8,
     },
-    /// A device that it names has an ID that no device has.
+    /// It names an ID that no device may have.
     Id {
         /// The ID.
         found: u8,

@@ -1,17 +1,17 @@
-//! Reading and writing one device's control table.
+//! Instructions that read and write one device's control table.
 
 use super::addressed;
 use super::params::Params;
 use crate::layout::LayoutError;
 use crate::register::Row;
 
-/// Reads `length` bytes from `address` on, which the status packet's data are (DYNAMIXEL
+/// Reads `length` bytes from `address` on; they are the data of the status packet (DYNAMIXEL
 /// Protocol 2.0, Read; JA40 document, §1.6.2).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Read {
     /// The first byte's address.
     pub address: u16,
-    /// How many bytes.
+    /// The number of bytes.
     pub length: u16,
 }
 
@@ -81,7 +81,7 @@ write! {
 }
 
 write! {
-    /// Keeps a write until an [`Action`](super::Action) comes (DYNAMIXEL Protocol 2.0, Reg
-    /// Write).
+    /// Registers a write, which an [`Action`](super::Action) carries out (DYNAMIXEL Protocol 2.0,
+    /// Reg Write).
     RegWrite
 }

@@ -1,9 +1,9 @@
-//! What a host may ask, a type an instruction: building it, and reading it on the device's side.
+//! Instructions, one type each: a host builds them, and a device reads them.
 //!
-//! An instruction for one device or for all is built with `encode(id, buffer)`. One that names its
-//! devices in its parameters goes to the broadcast ID and is built with `encode(buffer)`. Devices
-//! come from any iterator that can be cloned, or from an array or slice. What is behind the packet in
-//! the buffer is lost.
+//! An instruction for one device or for all devices is built with `encode(id, buffer)`. An
+//! instruction that names its devices in its parameters is sent to the broadcast ID and is built
+//! with `encode(buffer)`. Devices come from any iterator that can be cloned, or from an array or
+//! slice. The bytes after the packet in the buffer are overwritten.
 //!
 //! ```
 //! use actucheck_codec::dynamixel2::instruction::{DeviceData, Ping, SyncWrite};
@@ -17,7 +17,7 @@
 //! # Ok::<(), actucheck_codec::EncodeError>(())
 //! ```
 //!
-//! [`Request::parse`] reads any of them.
+//! [`Request::parse`] reads any instruction.
 
 mod bulk;
 mod error;
@@ -36,7 +36,7 @@ pub use plain::{Action, Ping, Reboot};
 pub use request::Request;
 pub use sync::{DataBlocks, DeviceData, FastSyncRead, FastSyncWrite, SyncRead, SyncWrite};
 
-/// Gives an instruction that goes to an ID its `encode`.
+/// Implements `encode` for an instruction that is sent to an ID.
 macro_rules! addressed {
     ($name:ident $(<$lifetime:lifetime>)?) => {
         impl $(<$lifetime>)? $name $(<$lifetime>)? {

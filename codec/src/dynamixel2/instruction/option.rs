@@ -1,4 +1,4 @@
-//! Instructions that an option tells what to do.
+//! Instructions with an option.
 
 use super::addressed;
 use super::params::Params;
@@ -11,7 +11,7 @@ use crate::layout::LayoutError;
 /// Factory Reset; JA40 document, §1.6.4).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FactoryReset {
-    /// What of it.
+    /// The settings to reset.
     pub option: FactoryResetOption,
 }
 
@@ -45,19 +45,19 @@ addressed!(FactoryReset);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Clear<'a> {
-    /// Without parameters, as the text of the JA40 document has it: clears a fault.
+    /// Without parameters, as in the text of the JA40 document: clears a fault.
     Bare,
-    /// With an option, as the DYNAMIXEL document has it.
+    /// With an option, as in the DYNAMIXEL document.
     Option {
         /// What is cleared.
         option: ClearOption,
-        /// The bytes that guard against clearing by accident.
+        /// The key that prevents clearing by accident.
         key: &'a [u8],
     },
 }
 
 impl Clear<'static> {
-    /// Sets Present Position back into one turn.
+    /// Resets Present Position to a value within one turn.
     pub const MULTI_TURN: Self =
         Self::Option { option: ClearOption::ClearMultiTurnInformation, key: &CLEAR_KEY };
 }
@@ -70,7 +70,7 @@ impl<'a> Clear<'a> {
         }
     }
 
-    /// Reads its parameters; any number will do.
+    /// Reads its parameters, of any number.
     #[must_use]
     pub fn parse(params: &'a [u8]) -> Self {
         match params.split_first() {
@@ -93,9 +93,9 @@ addressed!(Clear<'a>);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ControlTableBackup {
-    /// Which of both.
+    /// Whether to store or to restore.
     pub option: ControlTableBackupOption,
-    /// The bytes that guard against doing it by accident: [`ControlTableBackup::KEY`].
+    /// The key that prevents a backup by accident: [`ControlTableBackup::KEY`].
     pub key: [u8; 4],
 }
 
@@ -104,15 +104,15 @@ impl ControlTableBackup {
     pub const KEY: [u8; 4] = CONTROL_TABLE_BACKUP_KEY;
     /// Stores the EEPROM area and the gains.
     pub const STORE: Self = Self { option: ControlTableBackupOption::Store, key: Self::KEY };
-    /// Restores what was stored. The document prints only the option to store; this is the one of
-    /// the same instruction elsewhere.
+    /// Restores the stored values. The document prints only the option to store; this option is
+    /// from other documents of the same instruction.
     pub const RESTORE: Self = Self { option: ControlTableBackupOption::Restore, key: Self::KEY };
 
     fn with_params<T>(self, encode: impl FnOnce(&[&[u8]]) -> T) -> T {
         encode(&[&[self.option.code()], &self.key])
     }
 
-    /// Reads its parameters. Whether the key is right is the device's to judge.
+    /// Reads its parameters. The device must check the key.
     ///
     /// # Errors
     /// If they are not five bytes.

@@ -1,10 +1,10 @@
-//! Taking parameters apart from the front.
+//! Reads parameters from front to back.
 
 use crate::dynamixel2::header::is_device;
 use crate::dynamixel2::instruction::RequestError;
 use crate::layout::LayoutError;
 
-/// The parameters that are still to be taken.
+/// The parameters not read yet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Params<'a> {
     left: &'a [u8],
@@ -16,7 +16,7 @@ impl<'a> Params<'a> {
         Self { left: params, offset: 0 }
     }
 
-    /// Takes the next bytes as a field.
+    /// Reads the next bytes as a field.
     pub(super) fn take(
         &mut self,
         field: &'static str,
@@ -53,12 +53,12 @@ impl<'a> Params<'a> {
         if is_device(found) { Ok(found) } else { Err(RequestError::Id { found }) }
     }
 
-    /// What is left.
+    /// The rest.
     pub(super) const fn rest(self) -> &'a [u8] {
         self.left
     }
 
-    /// Nothing is left.
+    /// Fails if bytes are left.
     pub(super) fn end(self) -> Result<(), LayoutError> {
         let (offset, bytes) = (self.offset, self.left.len());
         if bytes == 0 { Ok(()) } else { Err(LayoutError::Extra { offset, bytes }) }

@@ -20,14 +20,14 @@ macro_rules! plain {
 }
 
 plain! {
-    /// Asks whether a device is there; [`PingStatus`](crate::dynamixel2::status::PingStatus) is the answer
-    /// (DYNAMIXEL Protocol 2.0, Ping; JA40 document, §1.6.1).
+    /// Asks whether a device is present; [`PingStatus`](crate::dynamixel2::status::PingStatus) is
+    /// the answer (DYNAMIXEL Protocol 2.0, Ping; JA40 document, §1.6.1).
     Ping
 }
 
 plain! {
-    /// Carries out what a [`RegWrite`](super::RegWrite) registered (DYNAMIXEL Protocol 2.0,
-    /// Action).
+    /// Carries out the write that a [`RegWrite`](super::RegWrite) registered (DYNAMIXEL Protocol
+    /// 2.0, Action).
     Action
 }
 

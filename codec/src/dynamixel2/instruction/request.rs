@@ -6,20 +6,20 @@ use super::{
 use crate::EncodeError;
 use crate::dynamixel2::{BROADCAST_ID, Frame, Instruction, frame};
 
-/// Any instruction, as a device reads it.
+/// Any instruction, as a device receives it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Request<'a> {
-    /// Is the device there?
+    /// Asks whether the device is present.
     Ping(Ping),
     /// Reads registers.
     Read(Read),
     /// Writes registers.
     Write(Write<'a>),
-    /// Keeps a write.
+    /// Registers a write.
     RegWrite(RegWrite<'a>),
-    /// Carries out the write that was kept.
+    /// Carries out the registered write.
     Action(Action),
-    /// Sets the control table back.
+    /// Resets the control table.
     FactoryReset(FactoryReset),
     /// Reboots.
     Reboot(Reboot),
@@ -39,7 +39,7 @@ pub enum Request<'a> {
     BulkRead(BulkRead<RangeBlocks<'a>>),
     /// Writes several devices, each at an address of its own.
     BulkWrite(BulkWrite<WriteBlocks<'a>>),
-    /// An instruction that the documents don't have.
+    /// An instruction that is not in the documents.
     Unknown {
         /// Its code.
         code: u8,
@@ -49,8 +49,8 @@ pub enum Request<'a> {
 }
 
 impl<'a> Request<'a> {
-    /// Reads the instruction in `frame`, whom it is for aside: [`Frame::id`] tells that. `scratch`
-    /// takes the parameters, [`Frame::params_len`] bytes.
+    /// Reads the instruction in `frame`; the ID is in [`Frame::id`]. `scratch` needs space for the
+    /// parameters, [`Frame::params_len`] bytes.
     ///
     /// ```
     /// use actucheck_codec::dynamixel2::instruction::Write;
@@ -64,7 +64,7 @@ impl<'a> Request<'a> {
     ///
     /// # Errors
     /// If `scratch` is too small, `frame` is a status packet, its parameters don't fit the
-    /// instruction, or it names devices but does not go to the broadcast ID.
+    /// instruction, or it names devices but is not sent to the broadcast ID.
     pub fn parse(frame: &Frame<'_>, scratch: &'a mut [u8]) -> Result<Self, RequestError> {
         let instruction = frame.instruction();
         if instruction.broadcast_only() && frame.id() != BROADCAST_ID {
@@ -76,7 +76,7 @@ impl<'a> Request<'a> {
     /// Reads the parameters of an instruction, without stuffing.
     ///
     /// # Errors
-    /// If they don't fit, or the instruction is that of a status packet.
+    /// If they don't fit, or the instruction is [`Instruction::Status`].
     pub fn of(instruction: Instruction, params: &'a [u8]) -> Result<Self, RequestError> {
         let none = || super::params::Params::new(params).end();
         Ok(match instruction {
@@ -105,7 +105,7 @@ impl<'a> Request<'a> {
     /// Builds the packet for device `id` in `buffer`; returns the packet.
     ///
     /// # Errors
-    /// If it names devices and `id` is not the broadcast ID, else as the instruction's own
+    /// If it names devices and `id` is not the broadcast ID, otherwise as the instruction's own
     /// `encode`.
     pub fn encode<'b>(&self, id: u8, buffer: &'b mut [u8]) -> Result<&'b [u8], EncodeError> {
         let instruction = self.instruction();

@@ -1,4 +1,4 @@
-//! The same registers of several devices.
+//! Sync instructions: the same registers of several devices.
 
 use core::borrow::Borrow;
 
@@ -15,7 +15,7 @@ macro_rules! read {
         pub struct $name<I> {
             /// The first byte's address.
             pub address: u16,
-            /// How many bytes of each device.
+            /// The number of bytes per device.
             pub length: u16,
             /// The devices, in the order of their answers.
             pub ids: I,
@@ -26,7 +26,8 @@ macro_rules! read {
             /// needs stuffing; returns the packet.
             ///
             /// # Errors
-            /// If an ID is none of a device, else as [`frame::encode`](crate::dynamixel2::frame::encode).
+            /// If an ID is not a device's, otherwise as
+            /// [`frame::encode`](crate::dynamixel2::frame::encode).
             pub fn encode<'b>(&self, buffer: &'b mut [u8]) -> Result<&'b [u8], EncodeError> {
                 let ids = || self.ids.clone().into_iter().map(|id| *id.borrow());
                 ids().try_for_each(check_device)?;
@@ -50,7 +51,7 @@ macro_rules! read {
             /// Reads its parameters.
             ///
             /// # Errors
-            /// If they are less than four bytes, or name an ID that no device has.
+            /// If they are fewer than four bytes, or name an ID that no device has.
             pub fn parse(params: &'a [u8]) -> Result<Self, RequestError> {
                 let mut params = Params::new(params);
                 let (address, length) = (params.u16("address")?, params.u16("length")?);
@@ -113,7 +114,7 @@ impl<I: IntoIterator<Item: Borrow<u8>> + Clone> FastSyncRead<I> {
     }
 }
 
-/// A device, and what is written to it.
+/// A device, and the data to write to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DeviceData<'a> {
     /// The device.
@@ -129,7 +130,7 @@ macro_rules! write {
         pub struct $name<D> {
             /// The first byte's address.
             pub address: u16,
-            /// How many bytes each device has.
+            /// The number of bytes per device.
             pub length: u16,
             /// The devices with their data.
             pub devices: D,
@@ -140,7 +141,7 @@ macro_rules! write {
             /// more if it needs stuffing; returns the packet.
             ///
             /// # Errors
-            /// If an ID is none of a device or a device's data are not `length` bytes, else as
+            /// If an ID is not a device's, or a device's data is not `length` bytes, otherwise as
             /// [`frame::encode`](crate::dynamixel2::frame::encode).
             pub fn encode<'b>(&self, buffer: &'b mut [u8]) -> Result<&'b [u8], EncodeError> {
                 let devices = || self.devices.clone().into_iter().map(|device| *device.borrow());
@@ -223,7 +224,7 @@ impl DeviceData<'_> {
     }
 }
 
-/// The devices of a [`SyncWrite`] or [`FastSyncWrite`] that was read.
+/// The devices of a received [`SyncWrite`] or [`FastSyncWrite`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DataBlocks<'a> {
     blocks: &'a [u8],

@@ -1,36 +1,36 @@
-//! Whether a packet begins where a header stands.
+//! Decides whether a packet begins at a header.
 
 use super::Reason;
 use crate::dynamixel2::FrameError;
 use crate::dynamixel2::header::{CRC, Header, PREFIX};
 use crate::simd;
 
-/// What is known of the bytes from a header on.
+/// What is known about the bytes from a header on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Verdict {
-    /// More bytes are needed to tell.
+    /// More bytes are needed to decide.
     Open,
-    /// No packet, whatever follows.
+    /// Not a packet, whatever follows.
     False(Reason),
-    /// All bytes are there, and all rules but that of the CRC hold.
+    /// All bytes have arrived, and all rules hold except that of the CRC, which is not checked yet.
     Whole(Whole),
 }
 
-/// A packet whose CRC is still to be checked.
+/// A packet whose CRC is not checked yet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Whole {
     /// Bytes of the packet.
     pub(super) len: usize,
-    /// Patterns in its body, each with a byte of stuffing behind it.
+    /// The number of patterns in its body, each with its stuffing byte.
     pub(super) patterns: usize,
-    /// It is a fast status packet, which is not stuffed.
+    /// Whether it is a fast status packet, which is not stuffed.
     pub(super) fast: bool,
 }
 
-/// How far the search for stuffing came while the candidate was incomplete.
+/// The progress of the search for patterns while the candidate is incomplete.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Progress {
-    /// Where it goes on; 0 before it has begun.
+    /// The offset at which it continues; 0 before it has begun.
     next: usize,
     patterns: usize,
 }
@@ -81,7 +81,7 @@ impl Progress {
         let Some(patterns) = simd::patterns(there, self.next.max(PREFIX), body_end) else {
             return true;
         };
-        // The last three bytes may begin a pattern of which the rest is to come.
+        // The last three bytes may be the beginning of a pattern.
         self.next = there.len().saturating_sub(3);
         self.patterns += patterns;
         false

@@ -1,4 +1,4 @@
-//! The CRC of any range of the buffer, in about the time that 64 bytes take.
+//! Computes the CRC of any range of the buffer, in about the time of 64 bytes.
 //!
 //! Fast status packets are not stuffed, so one that turns out to be false may have many headers
 //! inside, each of which claims bytes up to the same end. To compute each of these CRCs from its
@@ -13,7 +13,7 @@ use crate::simd::meter;
 /// CRCs at the blocks' beginnings, for a buffer of twice `BLOCKS` blocks.
 #[derive(Clone, Debug)]
 pub(super) struct Checkpoints<const BLOCKS: usize> {
-    /// For each block, the CRC of the bytes from some earlier block up to it.
+    /// For each block, the CRC of the bytes from an earlier block up to it.
     crcs: [[u16; BLOCKS]; 2],
     /// The last block whose CRC is known.
     last: usize,
@@ -24,8 +24,9 @@ impl<const BLOCKS: usize> Checkpoints<BLOCKS> {
         Self { crcs: [[UMTS_INIT; BLOCKS]; 2], last: 0 }
     }
 
-    /// The CRC of the bytes of `buffer` from `start` up to `end`. Starts must not go back, and
-    /// bytes must not change, but by [`Checkpoints::shift`] or [`Checkpoints::clear`].
+    /// The CRC of the bytes of `buffer` from `start` up to `end`. `start` must not decrease and
+    /// bytes must not change between calls, except after [`Checkpoints::shift`] or
+    /// [`Checkpoints::clear`].
     pub(super) fn range(&mut self, buffer: &[u8], start: usize, end: usize) -> u16 {
         if start / BLOCK > self.last {
             self.last = start / BLOCK;
@@ -45,7 +46,7 @@ impl<const BLOCKS: usize> Checkpoints<BLOCKS> {
         self.up_to(buffer, end) ^ crc::umts_shift(self.up_to(buffer, start), count as u64)
     }
 
-    /// The first `blocks` blocks leave the buffer, the others move to its front.
+    /// Removes the first `blocks` blocks; the others move to the front.
     pub(super) fn shift(&mut self, blocks: usize) {
         if blocks > self.last {
             return self.clear();
@@ -54,7 +55,7 @@ impl<const BLOCKS: usize> Checkpoints<BLOCKS> {
         self.last -= blocks;
     }
 
-    /// The bytes change.
+    /// Forgets everything, as the bytes change.
     pub(super) fn clear(&mut self) {
         self.last = 0;
         self.set(0, UMTS_INIT);

@@ -1,38 +1,38 @@
-//! What comes out of a stream.
+//! The events of a stream.
 
 use core::fmt;
 
 use crate::dynamixel2::{FastStatus, Frame, FrameError};
 
-/// What the next bytes of a stream are.
+/// The meaning of the next bytes of a stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Event<'a> {
     /// A packet.
     Frame(Frame<'a>),
-    /// A status packet that several devices may have answered with together.
+    /// A fast status packet, with which several devices may have answered together.
     FastStatus(RawFastStatus<'a>),
     /// Bytes that belong to no packet.
     Skipped {
-        /// How many, from the byte at which the run begins up to the next header.
+        /// The number of bytes, from the beginning of the run up to the next header.
         bytes: u64,
-        /// Why a packet does not begin with the first of them.
+        /// Why no packet begins at the first of them.
         reason: Reason,
     },
 }
 
-/// Why a packet does not begin where a run of skipped bytes begins.
+/// Why no packet begins at the beginning of a run of skipped bytes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Reason {
     /// There is no header.
     #[default]
     Garbage,
-    /// The ID is neither that of a device nor the broadcast ID.
+    /// The ID is neither a device's ID nor the broadcast ID.
     Id,
-    /// The length is less than a packet with such an instruction has.
+    /// The length is too small for a packet with this instruction.
     Length,
-    /// The packet would be longer than the parser takes.
+    /// The packet would be longer than the parser's limit.
     Oversize,
-    /// FF FF FD stands in the body without FD behind it.
+    /// The body has FF FF FD without FD after it.
     Stuffing,
     /// The CRC does not match.
     Crc,
@@ -56,9 +56,9 @@ impl fmt::Display for Reason {
 
 /// A status packet from the broadcast ID: header, length and last CRC are right.
 ///
-/// No device has that ID, so this can only answer Fast Sync Read or Fast Sync Write. Such a
-/// packet is not stuffed, and where its blocks and their CRCs lie is not written in it; it takes
-/// the request to [`parse`](Self::parse) them.
+/// No device has that ID, so this can only be the answer to Fast Sync Read or Fast Sync Write. Such
+/// a packet is not stuffed and does not state where its blocks and their CRCs are;
+/// [`parse`](Self::parse) needs the request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RawFastStatus<'a> {
     bytes: &'a [u8],

@@ -1,4 +1,4 @@
-//! The parser itself: its buffer, and how it goes through it.
+//! The parser: its buffer, and how it works through it.
 
 use super::candidate::{Progress, Verdict, Whole};
 use super::checkpoints::Checkpoints;
@@ -9,15 +9,15 @@ use crate::dynamixel2::header::CRC;
 use crate::dynamixel2::{Frame, HEADER};
 use crate::simd::{self, meter};
 
-/// The longest packet, in bytes, that [`Parser::new`] takes. The length field could say 65,542.
+/// The longest packet, in bytes, that [`Parser::new`] accepts. The length field would allow 65,542.
 pub const DEFAULT_MAX_PACKET: usize = BLOCKS * BLOCK;
 const BLOCKS: usize = 16;
 
-/// Finds the packets in a stream; see the [module](super) for how.
+/// Finds the packets in a stream; the [module](super) explains how.
 ///
-/// A parser takes packets of up to 64 times `BLOCKS` bytes and is little more than twice that
-/// large. 1025 blocks are enough for every packet; such a parser is better kept in a `static` or
-/// a `Box` than on the stack. One of no blocks does not compile:
+/// A parser accepts packets of up to 64 times `BLOCKS` bytes, and its size is a little more than
+/// twice that. 1025 blocks are enough for every packet; put such a parser into a `static` or a
+/// `Box`, not on the stack. A parser of no blocks does not compile:
 ///
 /// ```compile_fail,E0080
 /// use actucheck_codec::dynamixel2::stream::Parser;
@@ -25,26 +25,26 @@ const BLOCKS: usize = 16;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Parser<const BLOCKS: usize = 16> {
-    /// Twice the longest packet, so that the bytes of an incomplete one are moved to the front
-    /// only when as many have been dealt with.
+    /// Twice the longest packet, so that the bytes of an incomplete packet are moved to the front
+    /// only when at least as many bytes have been processed.
     buffer: [[[u8; BLOCK]; BLOCKS]; 2],
-    /// The bytes from `start` to `end` are in no run and no packet yet.
+    /// The bytes from `start` to `end` belong to no run and no packet yet.
     start: usize,
     end: usize,
     max_packet: usize,
     /// The run of skipped bytes just before `start`, not reported yet; 0 if there is none.
     skipped: u64,
     reason: Reason,
-    /// What begins at `start`, as far as it was looked at.
+    /// The progress of the examination of the bytes at `start`.
     ready: Ready,
     /// Of the header at `start`, if there is one.
     progress: Progress,
-    /// Nothing will follow the bytes that are there.
+    /// No bytes will follow the available ones.
     quiet: bool,
     checkpoints: Checkpoints<BLOCKS>,
 }
 
-/// What was found at `start`, which is behind it now.
+/// The result at the old `start`, which has moved past it.
 enum Found {
     Packet(Whole),
     Run { bytes: u64, reason: Reason },
@@ -66,7 +66,7 @@ impl<const BLOCKS: usize> Default for Parser<BLOCKS> {
 
 impl<const BLOCKS: usize> Parser<BLOCKS> {
     /// A parser for packets of up to `max_packet` bytes, or of 64 times `BLOCKS` bytes if that is
-    /// less. To it, longer packets are none.
+    /// less. Longer packets count as false.
     ///
     /// ```
     /// use actucheck_codec::dynamixel2::stream::Parser;
@@ -122,14 +122,14 @@ impl<const BLOCKS: usize> Parser<BLOCKS> {
         }
     }
 
-    /// Takes as many of `bytes` as there is room for; returns the others. [`Parser::feed`] takes
+    /// Takes as many of `bytes` as fit into the buffer. Returns the rest. [`Parser::feed`] takes
     /// them all; this is for who wants to stop between two events.
     ///
     /// At least one byte is taken if [`Parser::next_event`] returned `None` last.
     #[must_use = "bytes that were not taken are to be pushed again after the events"]
     pub fn push<'b>(&mut self, bytes: &'b [u8]) -> &'b [u8] {
         if self.quiet {
-            // No packet reaches across a quiet time, so what was before it comes first.
+            // No packet continues after a quiet time, so the events before it come first.
             return bytes;
         }
         self.make_room(bytes.len());
@@ -143,15 +143,15 @@ impl<const BLOCKS: usize> Parser<BLOCKS> {
         rest
     }
 
-    /// The bus was quiet: what is incomplete stays so. Call [`Parser::next_event`] until it
-    /// returns `None`, and push what came after the quiet time then.
+    /// The bus was quiet: an incomplete packet stays incomplete. Call [`Parser::next_event`] until
+    /// it returns `None`, then push the bytes after the quiet time.
     ///
-    /// How long a quiet time is, is for the caller to say, who has a clock.
+    /// The caller, who has a clock, decides how long a quiet time is.
     pub fn idle(&mut self) {
         self.quiet = self.pending() > 0;
     }
 
-    /// The next packet or run of skipped bytes; `None` if more bytes are needed to tell.
+    /// The next packet or run of skipped bytes; `None` if more bytes are needed.
     #[inline]
     pub fn next_event(&mut self) -> Option<Event<'_>> {
         if let Some(packet) = self.next_short_packet() {
@@ -163,7 +163,7 @@ impl<const BLOCKS: usize> Parser<BLOCKS> {
         }
     }
 
-    /// The packet at `start`, which moves behind it.
+    /// The packet at `start`. Moves `start` past it.
     #[inline]
     fn take(&mut self, Whole { len, patterns, fast }: Whole) -> Option<Event<'_>> {
         let start = self.start;
@@ -177,13 +177,13 @@ impl<const BLOCKS: usize> Parser<BLOCKS> {
         })
     }
 
-    /// How many of the bytes pushed are in no event yet.
+    /// The number of pushed bytes that belong to no event yet.
     #[must_use]
     pub const fn pending(&self) -> u64 {
         self.skipped + (self.end - self.start) as u64
     }
 
-    /// The usual case: a short packet directly behind another one.
+    /// The usual case: a short packet directly after another one.
     #[inline]
     fn next_short_packet(&mut self) -> Option<Whole> {
         if let Some(packet) = self.ready.pop() {
@@ -207,7 +207,7 @@ impl<const BLOCKS: usize> Parser<BLOCKS> {
                 if !self.quiet {
                     return None;
                 }
-                // The beginning of a header is none.
+                // An incomplete header is not a header.
                 self.skip(ahead);
                 self.quiet = false;
                 return self.end_run();
@@ -219,8 +219,8 @@ impl<const BLOCKS: usize> Parser<BLOCKS> {
         }
     }
 
-    /// The packet that begins with the header at `start`. If there is none, either the header was
-    /// false and a run begins, or more bytes are needed to tell.
+    /// The packet that begins with the header at `start`. If there is none, either the header is
+    /// false and a run begins, or more bytes are needed.
     #[inline]
     fn packet(&mut self) -> Option<Whole> {
         let mut progress = self.progress;
@@ -257,7 +257,7 @@ impl<const BLOCKS: usize> Parser<BLOCKS> {
         self.skip(1);
     }
 
-    /// So many bytes are no header, nor the beginning of one.
+    /// The number of bytes before the next header or beginning of one.
     fn skip(&mut self, bytes: usize) {
         if bytes > 0 {
             self.start += bytes;
@@ -281,8 +281,8 @@ impl<const BLOCKS: usize> Parser<BLOCKS> {
         self.buffer().get(self.start..self.end).unwrap_or_default()
     }
 
-    /// Moves the bytes ahead to the front if `wanted` more do not fit behind them, unless that
-    /// would move more bytes than have been dealt with.
+    /// Moves the bytes to the front if `wanted` more do not fit after them, unless more bytes would
+    /// be moved than have been processed.
     fn make_room(&mut self, wanted: usize) {
         let size = 2 * BLOCKS * BLOCK;
         if self.start == self.end {

@@ -8,7 +8,7 @@ use crate::dynamixel2::STUFFING_PATTERN;
 use crate::dynamixel2::header::{CRC, Header, PREFIX};
 use crate::simd::{Backend, Places, Task, WINDOW, meter, run};
 
-/// How many packets are looked for at once.
+/// The number of packets that are examined at once.
 const AHEAD: usize = 16;
 
 /// Packets found ahead, one directly behind the other. Looking for several in one loop lets the
@@ -20,7 +20,7 @@ pub(super) struct Ready {
     count: usize,
 }
 
-/// A packet that is short, in which everything is right.
+/// A short, valid packet.
 #[derive(Clone, Copy, Debug, Default)]
 struct Short {
     len: usize,
@@ -43,7 +43,7 @@ impl Ready {
         Some(Whole { len, patterns, fast: false })
     }
 
-    /// Looks for packets from `bytes` of the buffer on; none must be left from before.
+    /// Looks for packets from `bytes` of the buffer on. No earlier packets may be left.
     #[inline(never)]
     pub(super) fn find(&mut self, buffer: &[u8], start: usize, max_packet: usize) {
         self.next = 0;
@@ -51,7 +51,7 @@ impl Ready {
     }
 }
 
-/// The task to find short packets in `buffer` from `start` on; gives how many.
+/// The task that finds short packets in `buffer` from `start` on. Returns their number.
 struct Find<'a> {
     packets: &'a mut [Short],
     buffer: &'a [u8],
@@ -79,7 +79,7 @@ impl Task for Find<'_> {
     }
 }
 
-/// The short packet that begins at `start`, if all of it is there.
+/// The short packet that begins at `start`, if all its bytes have arrived.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "part of a `Task`")]
 fn packet(backend: impl Backend, buffer: &[u8], start: usize, max_packet: usize) -> Option<Short> {
@@ -97,16 +97,16 @@ fn packet(backend: impl Backend, buffer: &[u8], start: usize, max_packet: usize)
     Some(Short { len, patterns })
 }
 
-/// Where a pattern begins that is in the body of a packet, which is the last `len` bytes of a
-/// window.
+/// The places at which a pattern in the body of a packet begins. The packet is the last `len` bytes
+/// of a window.
 #[inline]
 fn in_body(len: usize) -> u64 {
     // Its last byte is in the body too.
     u64::MAX >> (CRC + STUFFING_PATTERN.len() - 1) & u64::MAX << (WINDOW - len + PREFIX)
 }
 
-/// How long a packet is if it begins with these bytes, is short, and breaks no rule before its
-/// body.
+/// The length of a packet that begins with these bytes, if it is short and breaks no rule before
+/// its body.
 #[inline]
 fn len(bytes: &[u8], max_packet: usize) -> Option<usize> {
     let front: &[u8; PREFIX + 1] = bytes.first_chunk()?;
@@ -117,8 +117,8 @@ fn len(bytes: &[u8], max_packet: usize) -> Option<usize> {
     (len <= max_packet.min(WINDOW) && !header.is_fast(instruction)).then_some(len)
 }
 
-/// How many patterns the body of such a packet has; `None` if one of them lacks the byte that
-/// belongs behind it.
+/// The number of patterns in the body of such a packet; `None` if one of them lacks its stuffing
+/// byte.
 #[inline]
 fn patterns(places: Places, len: usize) -> Option<usize> {
     let patterns = places.patterns & in_body(len);

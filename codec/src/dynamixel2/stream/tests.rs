@@ -1,4 +1,4 @@
-//! The cost of parsing, in bytes looked at.
+//! The cost of parsing, in bytes examined.
 
 use proptest::prelude::*;
 
@@ -8,7 +8,7 @@ use crate::crc;
 use crate::dynamixel2::{Instruction, frame};
 use crate::simd::meter;
 
-/// Bytes looked at, and packets found, in a stream that comes in pieces of `size`.
+/// The bytes examined and the packets found in a stream that arrives in pieces of `size`.
 fn cost<const BLOCKS: usize>(stream: &[u8], size: usize) -> (usize, usize) {
     let mut parser = Parser::<BLOCKS>::default();
     let (before, mut packets) = (meter::total(), 0);
@@ -37,7 +37,7 @@ fn assert_linear<const BLOCKS: usize>(unit: &[u8], factor: usize) {
         let stream = unit.repeat(4 * BLOCKS * BLOCK / unit.len() + 1_000);
         let (once, _) = cost::<BLOCKS>(&stream, size);
         let (twice, _) = cost::<BLOCKS>(&stream.repeat(2), size);
-        // Every call looks at a window of bytes, however few are new.
+        // Every call examines a window of bytes, even if few are new.
         let calls = stream.len() / size.min(stream.len());
         let limit = factor * stream.len() + 40 * calls;
         assert!(once <= limit, "{once} bytes looked at in {}, pieces of {size}", stream.len());
@@ -54,12 +54,13 @@ fn false_header(id: u8, max_packet: usize, instruction: Instruction) -> [u8; 8] 
 fn false_headers_that_claim_the_most_cost_a_constant_each() {
     assert_linear::<16>(&false_header(1, 1024, Instruction::Write), 6);
     assert_linear::<64>(&false_header(1, 4096, Instruction::Write), 6);
-    // Not stuffed, so each waits for all that it claims: two partial blocks for eight bytes.
+    // Not stuffed, so each waits for as many bytes as its length states: two partial blocks for
+    // eight bytes.
     assert_linear::<16>(&false_header(0xFE, 1024, Instruction::Status), 24);
     assert_linear::<64>(&false_header(0xFE, 4096, Instruction::Status), 24);
 }
 
-/// One that no header follows: what was seen of it must not be looked at again.
+/// A packet without a header after it: bytes already examined must not be examined again.
 #[test]
 fn an_incomplete_packet_costs_no_more_for_coming_in_pieces() {
     let mut claim = false_header(1, 1024, Instruction::Write).to_vec();
@@ -67,7 +68,7 @@ fn an_incomplete_packet_costs_no_more_for_coming_in_pieces() {
     assert_linear::<16>(&claim, 6);
 }
 
-/// Bytes are moved within the buffer only when as many have been dealt with.
+/// Bytes are moved within the buffer only when at least as many have been processed.
 #[test]
 fn events_may_be_left_for_later() {
     let stream = b"\xFF\xFF\xFD\x00\x01\x03\x00\x01\x19\x4E".repeat(1000);
@@ -99,7 +100,7 @@ proptest! {
                 start = 0;
             }
             if moved {
-                // What comes in behind differs from what was there.
+                // The new bytes differ from the old ones.
                 let gone = start / BLOCK * BLOCK;
                 buffer.rotate_left(gone);
                 buffer.iter_mut().rev().take(gone).for_each(|byte| *byte ^= 0x5A);
@@ -124,7 +125,7 @@ fn other_streams_are_looked_at_a_few_times() {
     assert_linear::<64>(b"\xFF\xFF\xFD\x00\x01\xFF\xFF\xFD\x00\x01", 8);
 }
 
-/// Every packet among false headers that each claim the most is found.
+/// Every packet among false headers with the largest length is found.
 #[test]
 fn no_packet_is_lost_among_false_headers() {
     let mut buffer = [0; 32];

@@ -1,19 +1,19 @@
-//! Puts stuffing into a body where it stands.
+//! Stuffs a body in place.
 
 use crate::dynamixel2::{STUFFING_BYTE, STUFFING_PATTERN};
 use crate::simd::{Backend, Task, WINDOW, run};
 
-/// How many places a window decides about: those with the whole pattern in it.
+/// The number of places that a window decides: those whose whole pattern is in it.
 const PLACES: usize = WINDOW - (STUFFING_PATTERN.len() - 1);
 
-/// Puts FD behind every pattern in the bytes of `buffer` from `start` up to `end`; returns where
-/// they end then, or `None` if there is no room. What is behind them in `buffer` is lost.
+/// Inserts FD after every pattern in the bytes of `buffer` from `start` up to `end`. Returns the
+/// new end, or `None` if they do not fit. What is behind them in `buffer` is lost.
 #[inline]
 pub(crate) fn insert(buffer: &mut [u8], start: usize, end: usize) -> Option<usize> {
     run(Insert { buffer, start, end })
 }
 
-/// How many bytes stuffing adds to a body.
+/// The number of bytes that stuffing adds to a body.
 pub(super) fn missing(body: &[u8]) -> usize {
     run(Missing { body })
 }
@@ -56,7 +56,8 @@ impl Task for Insert<'_> {
         if stuffed_end > buffer.len() {
             return None;
         }
-        // From the back, so that every byte moves once and what is in front is as it was.
+        // From the back, so that every byte moves only once, and the bytes before are still
+        // unchanged.
         let mut end = end;
         while missing > 0 {
             at = at.checked_sub(PLACES)?;

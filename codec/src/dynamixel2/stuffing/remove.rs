@@ -3,12 +3,13 @@
 use crate::dynamixel2::STUFFING_PATTERN;
 use crate::simd::{Backend, Places, Task, WINDOW, run};
 
-/// How many places a window decides about: those with the whole pattern and one byte more in it.
+/// The number of places that a window decides: those whose whole pattern and one more byte are in
+/// it.
 const PLACES: usize = WINDOW - STUFFING_PATTERN.len();
 
 /// Writes what follows the body's first byte to the first `len` bytes of `buffer`, which is how
 /// long that is without stuffing. The body is the first `stuffed` of the `bytes`. More of either
-/// makes it faster; what is behind in `buffer` is lost.
+/// makes it faster; the bytes after them in `buffer` are overwritten.
 #[inline]
 pub(crate) fn remove(bytes: &[u8], stuffed: usize, buffer: &mut [u8], len: usize) {
     if let Some(whole) = buffer.first_chunk_mut()
@@ -30,8 +31,8 @@ fn remove_slowly(bytes: &[u8], stuffed: usize, target: &mut [u8]) {
     }
 }
 
-/// The task to do so by moves of a whole window each, whatever is behind; `None` if the body is
-/// too long for it, has none or more than two patterns, or ends too close to the end of `bytes`.
+/// The task that does so by moving whole windows; `None` if the body is too long, has no pattern or
+/// more than two, or ends too close to the end of `bytes`.
 ///
 /// No branch depends on where the patterns stand, as no processor could predict it.
 struct Short<'a> {
@@ -47,7 +48,7 @@ impl Task for Short<'_> {
     #[expect(clippy::inline_always, reason = "see `Task`")]
     fn run(self, backend: impl Backend) -> Option<()> {
         let Self { bytes, stuffed, whole } = self;
-        // Where patterns begin that have their stuffing in the body.
+        // The places of patterns with their stuffing in the body.
         let places = (1 << stuffed.checked_sub(3).filter(|last| *last < WINDOW)?) - 1;
         let patterns = backend.places(bytes.first_chunk()?).patterns & places;
         let others = patterns & patterns.wrapping_sub(1);
@@ -66,7 +67,7 @@ impl Task for Short<'_> {
     }
 }
 
-/// Copies the bytes that `target` has room for, at most a window.
+/// Copies as many bytes as fit into `target`, at most a window.
 #[inline]
 fn copy_short(bytes: &[u8; 2 * WINDOW], target: &mut [u8]) {
     /// By two moves of `N` bytes that overlap.
@@ -96,21 +97,21 @@ fn remove_any(body: &[u8], target: &mut [u8]) {
     let (front, rest) = (front.unwrap_or_default(), rest.unwrap_or_default());
     if let Some((target, behind)) = target.split_at_mut_checked(front.len()) {
         target.copy_from_slice(front);
-        // It is right, so there is no error.
+        // The body is valid, so there is no error.
         let _len = checked(rest, behind);
     }
 }
 
-/// Writes a stuffed body without its stuffing to `buffer`, as far as there is room; tells how many
-/// bytes it has then. What is behind them in `buffer` is lost.
+/// Writes a stuffed body without its stuffing to `buffer`, as far as it fits. Returns the unstuffed
+/// size. What is behind them in `buffer` is lost.
 ///
 /// # Errors
-/// The offset at which FD is missing behind the first bare pattern.
+/// The offset at which FD is missing after the first bare pattern.
 pub(super) fn checked(stuffed: &[u8], buffer: &mut [u8]) -> Result<usize, usize> {
     run(Checked { stuffed, buffer })
 }
 
-/// The task to do so, a window at a time.
+/// The task that does so, window by window.
 struct Checked<'a> {
     stuffed: &'a [u8],
     buffer: &'a mut [u8],
@@ -154,15 +155,15 @@ impl Task for Checked<'_> {
     }
 }
 
-/// With zeros behind.
+/// Padded with zeros.
 fn pad(bytes: &[u8]) -> [u8; WINDOW] {
     let mut padded = [0; WINDOW];
     padded.iter_mut().zip(bytes).for_each(|(slot, byte)| *slot = *byte);
     padded
 }
 
-/// Puts the bytes between two places, and perhaps some more, to the front of `target`, as far as it
-/// has room.
+/// Copies the bytes between two places, and perhaps some more, to the front of `target`, as far as
+/// they fit.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "part of a `Task`")]
 fn put(bytes: &[u8], from: usize, to: usize, target: &mut [u8]) {

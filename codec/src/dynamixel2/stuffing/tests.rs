@@ -1,14 +1,14 @@
-//! The fast ways against the plain ones.
+//! Compares the fast implementations with the simple ones.
 
 use proptest::collection::vec;
 use proptest::prelude::*;
 
 use super::{UnstuffError, insert, remove, stuff, stuffed_len, unstuff};
 
-/// Bytes among which the pattern is common.
+/// Bytes in which the pattern is common.
 fn tricky(most: usize) -> impl Strategy<Value = Vec<u8>> {
     let byte = prop_oneof![5 => Just(0xFF_u8), 3 => Just(0xFD), 1 => Just(0x00), 1 => any::<u8>()];
-    // A pattern, or other bytes in number, so that bodies with few patterns are common too.
+    // A pattern, or several other bytes, so that bodies with few patterns are common too.
     let piece = prop_oneof![vec(byte, 0..8), vec(any::<u8>(), 0..30)];
     vec(piece, 0..most / 8).prop_map(|pieces| pieces.concat())
 }
@@ -37,7 +37,7 @@ proptest! {
             prop_assert_eq!(&buffer[..start], before);
         }
 
-        // Out of bytes with others behind, which look like more of the same.
+        // From bytes with more bytes after them, which look similar.
         let bytes = [stuffed.as_slice(), &behind].concat();
         let len = body.len() - 1;
         for room in [0, behind.len(), 200] {
@@ -56,7 +56,7 @@ proptest! {
             Ok(stuffed) => prop_assert_eq!(stuffed, expected.as_slice()),
             Err(error) => prop_assert_eq!((error.needed, room < error.needed), (expected.len(), true)),
         }
-        // Of random bytes few are stuffed rightly.
+        // Few random bytes are valid stuffed bodies.
         for stuffed in [&expected, &body] {
             match (unstuff(stuffed, &mut buffer), unstuff_bytewise(stuffed)) {
                 (Ok(found), expected) => prop_assert_eq!(Ok(found.to_vec()), expected),

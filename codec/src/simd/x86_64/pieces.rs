@@ -36,10 +36,10 @@ static FACTORS: [[u8; BLOCK]; WORD + WINDOW + 1] = {
 // A function that both back ends use has the back end as a type parameter: then each back end has a
 // copy of its own, which can be inlined into it.
 
-/// What is known of some bytes.
+/// The results for some bytes.
 #[derive(Clone, Copy)]
 struct Seen {
-    /// Their words times their factors, to be added up.
+    /// The products of their words with their factors, to be added.
     products: __m128i,
     places: Places,
 }
@@ -48,7 +48,7 @@ struct Seen {
 const PATTERNS: bool = true;
 const PAIRS: bool = false;
 
-/// Where FF and, for patterns, FD stand; bit i stands for byte i.
+/// The places of FF and, for patterns, FD; bit i is byte i.
 #[derive(Clone, Copy)]
 struct Places {
     ff: u64,
@@ -58,7 +58,7 @@ struct Places {
 impl Places {
     const NONE: Self = Self { ff: 0, fd: 0 };
 
-    /// These, and the others from `place` on.
+    /// These places, and the others shifted by `place`.
     #[inline]
     fn and(self, others: Self, place: usize) -> Self {
         Self { ff: self.ff | others.ff << place, fd: self.fd | others.fd << place }
@@ -70,7 +70,7 @@ impl Places {
         Self { ff: self.ff >> gone, fd: self.fd >> gone }
     }
 
-    /// Where what is looked for begins.
+    /// The places at which a match begins.
     #[inline]
     fn found<const WHAT: bool>(self) -> u64 {
         let pairs = self.ff & self.ff >> 1;
@@ -78,7 +78,7 @@ impl Places {
     }
 }
 
-/// Gives a back end its `look_at`, from what it sees in tails of a length.
+/// Implements `look_at` for a back end, from its functions for tails of each length.
 macro_rules! look {
     ($proof:ident, $features:literal, $what:ident, $tail:ident, $($len:pat => $seen:expr,)*) => {
         impl $proof {
@@ -136,7 +136,7 @@ look!(
 );
 
 impl Seen {
-    /// What is in front of the tail.
+    /// The bytes before the tail.
     #[inline]
     #[target_feature(enable = "pclmulqdq,ssse3")]
     fn front<B: Backend, const WHAT: bool>(
@@ -151,7 +151,7 @@ impl Seen {
         Some(Self { products, places: find128::<WHAT>(block) })
     }
 
-    /// What [`Looked`] tells of a packet without a tail.
+    /// [`Looked`] of a packet without a tail.
     #[inline]
     #[target_feature(enable = "pclmulqdq,ssse3")]
     fn alone<B: Backend, const WHAT: bool>(self) -> Option<Looked> {
@@ -160,12 +160,12 @@ impl Seen {
         (patterns == 0 || WHAT == PAIRS).then_some(Looked { crc, patterns })
     }
 
-    /// What [`Looked`] tells of the whole packet.
+    /// [`Looked`] of the whole packet.
     #[inline]
     #[target_feature(enable = "pclmulqdq,ssse3")]
     fn crc<B: Backend, const WHAT: bool>(self, pieces: Pieces<'_>, tail: Self) -> Option<Looked> {
-        // The body begins with the instruction, the prefix's last byte. Of a long tail's places the
-        // last fall off.
+        // The body begins with the instruction, the prefix's last byte. The last places of a long
+        // tail are shifted out.
         let body = self.places.and(tail.places, WORD + pieces.lead_len).behind(WORD - 1);
         let crc = narrow::finish::<Msb>(narrow::add(self.products, tail.products));
         let patterns = tail.places.found::<WHAT>();
@@ -177,7 +177,7 @@ impl Seen {
     }
 }
 
-/// Less than a block, but not nothing.
+/// Less than a block, but not empty.
 #[inline]
 #[target_feature(enable = "pclmulqdq,ssse3")]
 fn short<B: Backend, const WHAT: bool>(tail: &[u8]) -> Seen {
@@ -210,7 +210,7 @@ fn blocks<const WHAT: bool>(tail: &[u8]) -> Option<Seen> {
     Some(seen)
 }
 
-/// A block or two, as two that may overlap: what they share counts in the first.
+/// One or two blocks, as two that may overlap: shared bytes count in the first.
 #[inline]
 #[target_feature(enable = "pclmulqdq,ssse3")]
 fn two_blocks<B: Backend, const WHAT: bool>(tail: &[u8]) -> Option<Seen> {

@@ -78,7 +78,7 @@ fn long<O: Order>(head: __m256i, blocks: &[[u8; 32]]) -> u16 {
     }
     let (turns, rest) = rest.as_chunks::<16>();
     for blocks in turns {
-        // `sum[i]` is the highest block when its turn comes, and the new one takes its place.
+        // When it is processed, `sum[i]` is the highest block; the new block replaces it.
         macro_rules! step { ($($i:literal)*) => { $(
             let highest = sum[$i];
             sum[($i + 1) % 16] = add(sum[($i + 1) % 16], highest);

@@ -164,7 +164,7 @@ fn ends_in_crc_wide(window: &[u8; WINDOW], len: usize) -> bool {
     };
     let high = _mm256_shuffle_epi8(_mm256_and_si256(high, keep_high), last_order());
     let mut sum = wide::multiply(high, load256(high_factors));
-    // Even if it is all zeros: where lengths vary, a branch would cost more.
+    // Even if it is all zeros: with varying lengths, a branch would cost more.
     let low = wide::arrange::<Msb>(_mm256_and_si256(low, keep_low));
     sum = wide::add(sum, wide::multiply(low, load256(low_factors)));
     wide::finish::<Msb>(sum) == 0
