@@ -17,7 +17,7 @@ use actucheck::suite::select::Patterns;
 use actucheck::suite::{self, Options};
 use actucheck_spec::Spec;
 use actucheck_spec::model::Level;
-use actucheck_spec::wire::{dynamixel2, innfos};
+use actucheck_spec::wire::{Wire, dynamixel2, innfos};
 
 const WIRES: [Options; 2] = [
     Options { cases: 30, max_packet: Some(600), ..Options::new(dynamixel2::WIRE).with_bodies(3) },
@@ -42,6 +42,45 @@ fn ids_are_known_before_a_check_is_built() {
         let apart: BTreeSet<_> = built.iter().collect();
         assert_eq!(apart.len(), built.len(), "an id is there twice");
     }
+}
+
+/// How many checks there are whose ids begin so. Ids are permanent: others may come, none goes.
+const PERMANENT: [(&str, usize); 11] = [
+    ("dynamixel2.stuffing.", 51_974),
+    ("dynamixel2.seed-1.", 10_000),
+    ("dynamixel2.instruction.", 1_020),
+    ("dynamixel2.id.", 1_014),
+    ("dynamixel2.negative.", 948),
+    ("dynamixel2.error.", 512),
+    ("dynamixel2.stream.", 310),
+    ("dynamixel2.length.", 136),
+    ("innfos.request.", 2_589),
+    ("innfos.reply.", 2_589),
+    ("innfos.negative.", 230),
+];
+
+#[test]
+fn no_check_is_lost() {
+    let spec = Spec::embedded().unwrap();
+    let plans = Wire::ALL.map(|wire| suite::plan(&spec, &Options::new(wire)));
+    let ids: BTreeSet<_> = plans.iter().flat_map(Plan::ids).collect();
+    assert_eq!(ids.len(), plans.iter().map(Plan::size).sum::<usize>(), "an id is there twice");
+    assert!(ids.len() >= 71_923, "{} ids", ids.len());
+    for (beginning, count) in PERMANENT {
+        let there = ids.iter().filter(|id| id.starts_with(beginning)).count();
+        assert!(there >= count, "{beginning} {there}, not {count}");
+    }
+}
+
+#[test]
+fn an_id_that_is_none_has_a_neighbour() {
+    let spec = Spec::embedded().unwrap();
+    let plan = suite::plan(&spec, &Options::new(dynamixel2::WIRE));
+    let nearest = |id| plan.nearest(id);
+    let right = "dynamixel2.stuffing.goal-position/encode";
+    assert_eq!(nearest("dynamixel2.stuffing.goal-position/encod").as_deref(), Some(right));
+    assert!(nearest("dynamixel2.seed-1.1000/stream").is_some());
+    assert_eq!(nearest("no.such.id"), None);
 }
 
 #[test]

@@ -210,6 +210,24 @@ impl<'a> Plan<'a> {
         }
     }
 
+    /// The first of the ids that begin most like this one; `None` if none begins like its first
+    /// half.
+    #[must_use]
+    pub fn nearest(&self, id: &str) -> Option<String> {
+        let alike = |other: &str| {
+            let pairs = id.bytes().zip(other.bytes());
+            pairs.take_while(|(letter, other)| letter == other).count()
+        };
+        let mut nearest = (id.len() / 2, None);
+        for other in self.ids() {
+            let alike = alike(&other);
+            if alike > nearest.0 {
+                nearest = (alike, Some(other));
+            }
+        }
+        nearest.1
+    }
+
     /// The check with this id, even if the plan is restricted.
     #[must_use]
     pub fn find(&self, id: &str) -> Option<Check> {

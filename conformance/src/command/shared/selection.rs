@@ -86,7 +86,13 @@ impl Growth {
             .flat_map(|growth| Wire::ALL.map(|wire| (growth, wire)))
             .find_map(|(growth, wire)| Some((wire, growth.plan(spec, wire, hello).find(id)?)));
         found.ok_or_else(|| {
-            Failure::usage(format!("no check has the id `{id}`; `actucheck list` has them all"))
+            let nearest = |wire| self.plan(spec, wire, hello).nearest(id);
+            let nearest = Wire::ALL.into_iter().find_map(nearest);
+            let hint = nearest.map(|other| format!("did you mean `{other}`? "));
+            let hint = hint.unwrap_or_default();
+            let message =
+                format!("no check has the id `{id}`; {hint}`actucheck list` has them all");
+            Failure::usage(message)
         })
     }
 }
