@@ -34,6 +34,10 @@ regressions! {
     innfos_stream: open_reply_before_another_frame;
     /// The reference named the CRC, though the bytes behind the frame come first.
     innfos_frame: wrong_crc_and_trailing_bytes;
+    /// The codec named the ID, though the packet ends within its prefix.
+    packet: prefix_that_ends_at_a_wrong_id;
+    /// The codec compared the lowest byte of a value that a register of one byte can't hold.
+    register: condition_on_a_value_beyond_its_register;
 }
 
 #[test]

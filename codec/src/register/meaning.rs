@@ -18,7 +18,7 @@ pub struct Condition {
     pub address: u16,
     /// The lowest bit that is compared, from 0.
     pub lowest: u16,
-    /// The number of bits that are compared.
+    /// The number of bits that are compared; 64 for the whole value with its sign.
     pub width: u16,
     /// The values of these bits, shifted down to bit 0, for which the condition holds.
     pub one_of: &'static [i64],

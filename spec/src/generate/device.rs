@@ -148,7 +148,7 @@ fn condition(device: &Device, condition: &Condition) -> TokenStream {
         return quote!(compile_error!("unknown register"));
     };
     let bits = condition.bits.as_ref().and_then(|name| register.bit_field(name));
-    let whole = register.kind.size() * 8;
+    let whole = 64; // the whole value, with its sign
     let (lowest, width) =
         bits.map_or_else(|| (0, whole), |bits| (bits.lowest.into(), bits.width.into()));
     let (address, values) = (register.address, condition.one_of.iter().map(|value| number(*value)));
