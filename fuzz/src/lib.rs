@@ -5,10 +5,11 @@
 
 #![allow(clippy::panic, clippy::indexing_slicing, clippy::unwrap_used)] // a panic is the finding
 
+use actucheck_spec::wire::{self, Wire};
+
+mod dictionary;
 mod draw;
-mod model;
 pub mod published;
-mod stream;
 pub mod targets;
 mod yaml;
 
@@ -37,28 +38,31 @@ pub struct Target {
 /// A family of inputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Seeds {
-    /// Packets of DYNAMIXEL Protocol 2.0 and its JA dialect.
-    Dynamixel2,
-    /// Frames of the INNFOS Ethernet protocol.
-    Innfos,
+    /// Frames of a wire.
+    Wire(Wire),
     /// Files of a spec folder.
     Yaml,
 }
 
 impl Seeds {
     /// Every family.
-    pub const ALL: [Self; 3] = [Self::Dynamixel2, Self::Innfos, Self::Yaml];
+    pub fn all() -> impl Iterator<Item = Self> {
+        Wire::ALL.into_iter().map(Self::Wire).chain([Self::Yaml])
+    }
 
     /// Its folder's name.
     #[must_use]
-    pub const fn name(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
-            Self::Dynamixel2 => "dynamixel2",
-            Self::Innfos => "innfos",
+            Self::Wire(wire) => wire.id(),
             Self::Yaml => "yaml",
         }
     }
 }
+
+const DYNAMIXEL2: Seeds = Seeds::Wire(wire::dynamixel2::WIRE);
+const INNFOS: Seeds = Seeds::Wire(wire::innfos::WIRE);
+const YAML: Seeds = Seeds::Yaml;
 
 macro_rules! table {
     ($($name:ident $(, $repair:ident)?: $seeds:ident, $max_len:literal;)*) => {
@@ -67,7 +71,7 @@ macro_rules! table {
             name: stringify!($name),
             check: targets::$name::check,
             repair: table!(@ $($repair targets::$name::repair)?),
-            seeds: Seeds::$seeds,
+            seeds: $seeds,
             max_len: $max_len,
         }),*];
     };
@@ -76,17 +80,17 @@ macro_rules! table {
 }
 
 table! {
-    stuffing: Dynamixel2, 128;
-    crc: Dynamixel2, 128;
-    stream_raw, repair: Dynamixel2, 1500;
-    stream_scenario: Dynamixel2, 1000;
-    stream_cost, repair: Dynamixel2, 2000;
-    packet, repair: Dynamixel2, 160;
-    register: Dynamixel2, 64;
-    fast_status, repair: Dynamixel2, 160;
-    innfos_frame, repair: Innfos, 300;
-    innfos_stream, repair: Innfos, 500;
-    spec_yaml: Yaml, 2000;
+    stuffing: DYNAMIXEL2, 128;
+    crc: DYNAMIXEL2, 128;
+    stream_raw, repair: DYNAMIXEL2, 1500;
+    stream_scenario: DYNAMIXEL2, 1000;
+    stream_cost, repair: DYNAMIXEL2, 2000;
+    packet, repair: DYNAMIXEL2, 160;
+    register: DYNAMIXEL2, 64;
+    fast_status, repair: DYNAMIXEL2, 160;
+    innfos_frame, repair: INNFOS, 300;
+    innfos_stream, repair: INNFOS, 500;
+    spec_yaml: YAML, 2000;
 }
 
 /// The `main` of a target's binary: libFuzzer's under cargo-fuzz, else a replay of the files that

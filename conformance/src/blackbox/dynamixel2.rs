@@ -10,9 +10,11 @@ use proptest::prop_oneof;
 use super::probe::{LONGEST, Named, Probe, cut, damaged, joined};
 use super::wire::{Asked, Probes};
 use crate::adapter::{Output, Question};
+use crate::suite::Author;
 use crate::suite::check::Demand;
-use crate::suite::codec::dynamixel2::generated::{data, instruction, status};
-use crate::suite::{Author, parameters_of};
+use crate::suite::codec::dynamixel2::generated::{instruction, status};
+use crate::suite::codec::dynamixel2::parameters_of;
+use crate::suite::random::data;
 
 pub(super) const PROBES: Probes = Probes { wire: WIRE, packet, streamed, question };
 

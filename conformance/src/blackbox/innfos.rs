@@ -10,7 +10,7 @@ use super::wire::{Asked, Probes};
 use crate::adapter::{Output, Question};
 use crate::suite::Author;
 use crate::suite::check::Demand;
-use crate::suite::codec::dynamixel2::generated::data;
+use crate::suite::random::data;
 
 pub(super) const PROBES: Probes = Probes { wire: WIRE, packet, streamed, question };
 

@@ -24,7 +24,7 @@ use crate::adapter::{Question, Wire};
 use crate::subject::{Answer, Questions, Subject};
 use crate::suite::Author;
 use crate::suite::check::Check;
-use crate::suite::codec::dynamixel2::generated::runner;
+use crate::suite::random::runner;
 
 pub use finding::{Finding, Kind, Symptom};
 

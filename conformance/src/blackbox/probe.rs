@@ -11,7 +11,7 @@ use super::wire::{self, Probes};
 use crate::adapter::Hello;
 use crate::suite::Author;
 use crate::suite::check::Check;
-use crate::suite::codec::dynamixel2::generated::data;
+use crate::suite::random::data;
 
 /// The longest data of a probe, in bytes.
 pub(super) const LONGEST: usize = 48;

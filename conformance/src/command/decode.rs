@@ -35,7 +35,7 @@ pub(crate) struct Decode {
     #[arg(long)]
     json: bool,
     /// The packet's wire
-    #[arg(long, value_parser = wire(), default_value = "dynamixel2")]
+    #[arg(long, value_parser = wire(), default_value_t)]
     wire: Wire,
     /// The packet's direction, on a wire whose frames do not state it
     #[arg(long, alias = "kind", value_parser = one_of(DIRECTIONS))]

@@ -35,7 +35,7 @@ Exit status: 0 nothing found, 1 something found, 2 wrong usage, 3 the adapter fa
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Fuzz {
     /// The wire whose packets are generated
-    #[arg(long, value_parser = wire(), default_value = "dynamixel2")]
+    #[arg(long, value_parser = wire(), default_value_t)]
     wire: Wire,
     /// How long to fuzz, as in 90s, 10m or 1h; one minute if neither this nor --cases is given
     #[arg(long, value_name = "TIME", value_parser = duration, conflicts_with = "cases")]

@@ -8,16 +8,17 @@ pub mod check;
 pub(crate) mod codec;
 pub mod expect;
 pub mod plan;
+pub(crate) mod random;
 pub mod saved;
 pub mod select;
 
 use actucheck_spec::Spec;
 use actucheck_spec::model::{Citation, Level};
-use actucheck_spec::wire::{Context, Packet};
+use actucheck_spec::wire::Context;
 
 use self::check::{Check, Demand};
 use self::plan::Plan;
-use crate::adapter::{Called, Output, Question, Wire};
+use crate::adapter::{Output, Question, Wire};
 
 /// The options that determine the checks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -91,32 +92,6 @@ impl Author<'_> {
         }
     }
 
-    /// Encodes and decodes one packet; the reference model gives the right answers.
-    fn both_ways<P>(&self, id: &str, requirement: &str, packet: &P) -> Vec<Check>
-    where
-        P: Clone + Into<Packet>,
-    {
-        let packet = packet.clone().into();
-        let Some(bytes) = self.wire.encode(&packet) else { return Vec::new() };
-        let encode = Question::Encode { wire: self.wire, packet: Called::from(packet.clone()) };
-        let decode = Question::Decode {
-            wire: self.wire,
-            bytes: bytes.clone().into(),
-            fast: None,
-            kind: None,
-        };
-        let (bytes, packet) = (Output::Bytes(bytes.into()), Output::Packet(packet));
-        vec![
-            self.check(format!("{id}/encode"), requirement, encode, Demand::Yield(bytes)),
-            self.check(
-                format!("{id}/decode"),
-                of_reading(requirement),
-                decode,
-                Demand::Yield(packet),
-            ),
-        ]
-    }
-
     /// Decodes a frame; the reference model says whether it is a packet.
     fn decoded(&self, id: String, requirement: &str, bytes: Vec<u8>) -> Check {
         let demand = match self.wire.decode(&bytes, &Context::default()) {
@@ -136,14 +111,6 @@ impl Author<'_> {
     }
 }
 
-/// The requirement on a receiver that corresponds to one on a sender.
-fn of_reading(requirement: &str) -> &str {
-    match requirement {
-        "dynamixel2.stuffing.transmit" => "dynamixel2.stuffing.receive",
-        other => other,
-    }
-}
-
 fn unknown() -> Citation {
     Citation { document: String::new(), section: String::new() }
 }
@@ -155,14 +122,4 @@ fn hex(bytes: &[u8]) -> String {
     }
     let digit = |value: u8| char::from_digit(value.into(), 16).unwrap_or_default();
     bytes.iter().flat_map(|byte| [digit(byte >> 4), digit(byte & 15)]).collect()
-}
-
-/// The requirement on an instruction's parameters: `dynamixel2.sync-read.parameters`.
-pub(crate) fn parameters_of(spec: &Spec, name: &str) -> String {
-    let name = name.to_lowercase().replace(' ', "-");
-    let name = if name == "control-table-backup" { "backup".to_owned() } else { name };
-    let ids = ["dynamixel2", "ja40"].map(|document| format!("{document}.{name}.parameters"));
-    ids.into_iter()
-        .find(|id| spec.requirement(id).is_some())
-        .unwrap_or_else(|| "dynamixel2.packet.parameters".to_owned())
 }

@@ -11,8 +11,8 @@ use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, HEADER, PREFI
 use actucheck_spec::wire::dynamixel2::{self as model, Packet};
 use arbitrary::{Result, Unstructured};
 
+use super::model::fault;
 use crate::draw::Draw;
-use crate::model::fault;
 use crate::targets::shown;
 
 /// Bytes before the blocks: header, ID, length, instruction.

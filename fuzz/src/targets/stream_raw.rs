@@ -2,8 +2,8 @@
 
 use actucheck_spec::wire::dynamixel2::reference::{self, HEADER, PREFIX};
 
+use super::stream;
 use crate::draw::Draw;
-use crate::stream;
 
 /// The input is what a bus carries; somewhere in it, drawn from its bytes, the bus is quiet.
 ///

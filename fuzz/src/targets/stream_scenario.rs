@@ -11,7 +11,7 @@
 use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, Event, HEADER, STATUS};
 use arbitrary::{Result, Unstructured};
 
-use crate::stream;
+use super::stream;
 
 /// The most bytes of a packet that a stuffed frame before it can take: the pattern but its last
 /// byte as the end of the body, then the CRC.

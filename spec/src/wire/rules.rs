@@ -1,5 +1,7 @@
 //! What can be asked of a wire.
 
+use std::panic::RefUnwindSafe;
+
 use proc_macro2::TokenStream;
 use schemars::SchemaGenerator;
 use serde_json::Value;
@@ -12,7 +14,7 @@ use crate::{Diagnostic, Spec};
 
 /// The rules of a wire: its reference model, which goes a bit and a byte at a time, and what its
 /// file of `wires/` is good for.
-pub trait Rules: Sync {
+pub trait Rules: Sync + RefUnwindSafe {
     /// Its id in the spec and in the adapter protocol.
     fn id(&self) -> &'static str;
 

@@ -24,7 +24,8 @@ pub(super) fn hello(ok: &Value) -> Result<Hello, Problem> {
         ));
     }
     let wires = Wire::ALL.map(|wire| wire.id());
-    named(&hello.wires, &wires, "wires", "name `dynamixel2`, `innfos` or both in `wires`")?;
+    let mend = format!("name in `wires` what the adapter does of {}", wires.join(", "));
+    named(&hello.wires, &wires, "wires", &mend)?;
     named(
         &hello.ops,
         &OPS,
@@ -46,7 +47,7 @@ pub(super) fn hello(ok: &Value) -> Result<Hello, Problem> {
     Ok(hello)
 }
 
-fn named(given: &[String], known: &[&str], field: &str, mend: &'static str) -> Result<(), Problem> {
+fn named(given: &[String], known: &[&str], field: &str, mend: &str) -> Result<(), Problem> {
     match given.iter().find(|name| !known.contains(&name.as_str())) {
         Some(name) => Err(Problem::new(format!("`{field}` names `{name}`"), mend)),
         None => Ok(()),

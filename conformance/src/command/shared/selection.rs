@@ -14,7 +14,7 @@ use super::{Failure, one_of, wire};
 #[derive(Debug, Args)]
 pub(crate) struct Selection {
     /// The wire whose checks are run
-    #[arg(long, value_parser = wire(), default_value = "dynamixel2")]
+    #[arg(long, value_parser = wire(), default_value_t)]
     pub(crate) wire: Wire,
     /// Only the checks whose id matches; may be given more than once
     #[arg(long, value_name = "GLOB")]

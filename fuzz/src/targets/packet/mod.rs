@@ -10,7 +10,7 @@ use actucheck_codec::{ja40, layout};
 use actucheck_spec::wire::dynamixel2::reference::{self, HEADER, PREFIX};
 use arbitrary::Unstructured;
 
-use crate::model::{fault, packet};
+use crate::targets::model::{fault, packet};
 use crate::targets::shown;
 
 /// The input is a packet, and then what a packet is made of.

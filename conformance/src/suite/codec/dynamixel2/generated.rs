@@ -1,7 +1,5 @@
 //! Packets and streams that are generated from a seed. The same seed yields the same checks.
 
-use std::ops::Range;
-
 use actucheck_spec::Spec;
 use actucheck_spec::model::{Access, Bound, Register};
 use actucheck_spec::wire::dynamixel2::Packet;
@@ -11,12 +9,13 @@ use proptest::prelude::{Just, Strategy, any};
 use proptest::prop_oneof;
 use proptest::sample::select;
 use proptest::strategy::{SBoxedStrategy, Union, ValueTree};
-use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
+use super::parameters_of;
 use super::unspecified::resumed;
+use crate::suite::Author;
 use crate::suite::check::Check;
 use crate::suite::plan::{Family, Group};
-use crate::suite::{Author, parameters_of};
+use crate::suite::random::{data, runner};
 
 /// The parts of a generated case.
 #[derive(Clone, Debug)]
@@ -93,16 +92,6 @@ pub(super) fn family(author: Author<'_>, seed: u64, cases: u32) -> Family<'_> {
     .with_names(move || {
         (0..cases).map(move |number| Group::new(id(number), &NAMES, |_| Vec::new()))
     })
-}
-
-/// The generator of values; the same seed yields the same values.
-pub(crate) fn runner(seed: u64) -> TestRunner {
-    let mut bytes = [0; 32];
-    for (slot, byte) in bytes.iter_mut().zip(seed.to_le_bytes()) {
-        *slot = byte;
-    }
-    let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &bytes);
-    TestRunner::new_with_rng(Config::default(), rng)
 }
 
 fn of(author: &Author<'_>, id: &str, case: &Case) -> Vec<Check> {
@@ -198,13 +187,6 @@ fn limits(register: &Register) -> (i64, i64) {
     let min = number(&range.min).or_else(|| one_of.clone().min());
     let max = number(&range.max).or_else(|| one_of.max());
     (min.unwrap_or(least), max.unwrap_or(greatest))
-}
-
-/// Bytes among which the pattern of byte stuffing is common.
-pub(crate) fn data(size: Range<usize>) -> impl Strategy<Value = Vec<u8>> {
-    // Shrinking prefers the first alternative.
-    let byte = prop_oneof![1 => Just(0), 2 => Just(0xFD), 3 => Just(0xFF_u8), 2 => any::<u8>()];
-    vec(byte, size)
 }
 
 /// Half of the addresses are below 256, as some libraries support no others.

@@ -5,10 +5,11 @@ use actucheck_spec::Spec;
 use actucheck_spec::model::{Citation, Fault, HexBytes, Outcome, Vector, VectorsFile};
 use actucheck_spec::wire::{Packet, dynamixel2};
 
+use super::of_reading;
 use crate::adapter::{Output, Question, Wire};
+use crate::suite::Author;
 use crate::suite::check::{Check, Demand, Unspecified, Way};
 use crate::suite::plan::{Family, by_stem};
-use crate::suite::{Author, of_reading};
 
 /// Bytes before the body, and after it.
 const PREFIX: usize = 7;

@@ -14,6 +14,11 @@ mod instructions;
 mod negative;
 mod unspecified;
 
+use actucheck_spec::Spec;
+use actucheck_spec::wire::dynamixel2::Packet;
+
+use crate::adapter::{Called, Output, Question};
+use crate::suite::check::{Check, Demand};
 use crate::suite::plan::Family;
 use crate::suite::{Author, Options};
 
@@ -25,4 +30,47 @@ pub(super) fn families<'a>(author: Author<'a>, options: &Options) -> Vec<Family<
     families.push(Family::of("dynamixel2.open.", move || unspecified::checks(&author)));
     families.push(generated::family(author, options.seed, options.cases));
     families
+}
+
+impl Author<'_> {
+    /// Encodes and decodes one packet; the reference model gives the right answers.
+    fn both_ways(&self, id: &str, requirement: &str, packet: &Packet) -> Vec<Check> {
+        let packet = packet.clone().into();
+        let Some(bytes) = self.wire.encode(&packet) else { return Vec::new() };
+        let encode = Question::Encode { wire: self.wire, packet: Called::from(packet.clone()) };
+        let decode = Question::Decode {
+            wire: self.wire,
+            bytes: bytes.clone().into(),
+            fast: None,
+            kind: None,
+        };
+        let (bytes, packet) = (Output::Bytes(bytes.into()), Output::Packet(packet));
+        vec![
+            self.check(format!("{id}/encode"), requirement, encode, Demand::Yield(bytes)),
+            self.check(
+                format!("{id}/decode"),
+                of_reading(requirement),
+                decode,
+                Demand::Yield(packet),
+            ),
+        ]
+    }
+}
+
+/// The requirement on a receiver that corresponds to one on a sender.
+fn of_reading(requirement: &str) -> &str {
+    match requirement {
+        "dynamixel2.stuffing.transmit" => "dynamixel2.stuffing.receive",
+        other => other,
+    }
+}
+
+/// The requirement on an instruction's parameters: `dynamixel2.sync-read.parameters`.
+pub(crate) fn parameters_of(spec: &Spec, name: &str) -> String {
+    let name = name.to_lowercase().replace(' ', "-");
+    let name = if name == "control-table-backup" { "backup".to_owned() } else { name };
+    let ids = ["dynamixel2", "ja40"].map(|document| format!("{document}.{name}.parameters"));
+    ids.into_iter()
+        .find(|id| spec.requirement(id).is_some())
+        .unwrap_or_else(|| "dynamixel2.packet.parameters".to_owned())
 }

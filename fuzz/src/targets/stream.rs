@@ -3,8 +3,8 @@
 use actucheck_codec::dynamixel2::stream::Parser;
 use actucheck_spec::wire::dynamixel2::reference::{self, Event};
 
+use super::model::event;
 use crate::draw::Draw;
-use crate::model::event;
 
 /// The longest packet of a scenario.
 pub(crate) const MAX_PACKET: usize = 1024;
