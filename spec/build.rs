@@ -1,10 +1,10 @@
-//! Lists the YAML files of this folder as Rust source, so that the crate carries them along.
+//! Lists the YAML files of this folder as Rust source, so that they are part of the crate.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
-/// The files and folders of `spec/` that are data. A folder is searched to its bottom.
+/// The files and folders of `spec/` that are data. Folders are searched recursively.
 const DATA: [&str; 7] =
     ["documents.yaml", "errata.yaml", "wires", "devices", "vectors", "requirements", "sentences"];
 

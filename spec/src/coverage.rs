@@ -1,28 +1,28 @@
-//! Which requirement is checked by what.
+//! What checks each requirement.
 
 use std::collections::BTreeMap;
 
 use crate::Spec;
 use crate::model::{Level, Requirement, Role};
 
-/// A check of the suite, as far as it matters here.
+/// A check of the suite, with the facts that coverage needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CheckName<'a> {
     /// Its permanent id.
     pub id: &'a str,
     /// Id of the requirement that it tests.
     pub requirement: &'a str,
-    /// What it is asked of.
+    /// The role that is asked.
     pub role: Role,
 }
 
-/// A requirement with what checks it.
+/// A requirement and what checks it.
 #[derive(Clone, Debug)]
 pub struct Row<'a> {
     /// The requirement.
     pub requirement: &'a Requirement,
-    /// The suite's checks that name it, or the one that it is checked with, by what they are asked
-    /// of.
+    /// The suite's checks that name it or the requirement that it is checked with, by the role that
+    /// they ask.
     pub checks: BTreeMap<Role, Checks>,
 }
 
@@ -35,20 +35,20 @@ pub struct Checks {
     pub example: String,
 }
 
-/// What stands behind a requirement for one of those whom it binds.
+/// What checks a requirement for one of the roles that it binds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Cover {
     /// Nothing yet.
     Nothing,
-    /// A test of this repository, which only the built-in codec takes.
+    /// A test of this repository, which tests only the built-in codec.
     Test,
-    /// A check of the suite, which any implementation can take.
+    /// A check of the suite, which any subject can be asked.
     Check,
 }
 
 impl Row<'_> {
-    /// What stands behind it for this role; nothing for a role that it does not bind. A check
-    /// that is asked of a codec shows nothing about a device.
+    /// What checks it for this role; nothing for a role that it does not bind. A check that asks a
+    /// codec shows nothing about a device.
     #[must_use]
     pub fn cover(&self, role: Role) -> Cover {
         if !self.requirement.binds.contains(&role) {
@@ -62,14 +62,14 @@ impl Row<'_> {
         }
     }
 
-    /// Whether nothing stands behind it for any of those whom it binds.
+    /// Whether nothing checks it for any of the roles that it binds.
     #[must_use]
     pub fn is_uncovered(&self) -> bool {
         Role::ALL.into_iter().all(|role| self.cover(role) == Cover::Nothing)
     }
 }
 
-/// A row for each requirement, in the order of files and of rows.
+/// One row per requirement, in the order of files and of rows.
 #[must_use]
 pub fn matrix<'a, 'b>(
     spec: &'a Spec,
@@ -92,26 +92,26 @@ pub fn matrix<'a, 'b>(
         .collect()
 }
 
-/// How many requirements of one level bind one role, and what stands behind them.
+/// How many requirements of one level bind one role, and how many are checked.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Total {
     /// All of them.
     pub requirements: usize,
-    /// Those with a check of the suite.
+    /// Requirements with a check of the suite.
     pub checked: usize,
-    /// Those with a test of this repository only.
+    /// Requirements with only a test of this repository.
     pub tested: usize,
 }
 
 impl Total {
-    /// Those with nothing.
+    /// Requirements that nothing checks.
     #[must_use]
     pub const fn open(&self) -> usize {
         self.requirements - self.checked - self.tested
     }
 }
 
-/// What stands behind the requirements of a level that bind a role. A requirement that binds two
+/// Counts what checks the requirements of a level that bind a role. A requirement that binds two
 /// roles counts for both.
 #[must_use]
 pub fn total(rows: &[Row<'_>], role: Role, level: Level) -> Total {

@@ -1,4 +1,4 @@
-//! What is wrong with a spec, and where.
+//! Defects of the spec, with their places.
 
 use std::fmt;
 use std::ops::Range;
@@ -9,16 +9,16 @@ use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 /// One defect of one YAML file.
 ///
 /// `Display` prints `PATH:LINE:COLUMN: MESSAGE` on one line; [`Diagnostic::excerpt`] adds the
-/// line in question with a caret under it.
+/// source line with a caret under it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
     /// The file, relative to the workspace: `spec/devices/ja40.yaml`.
     pub path: String,
     /// Line in the file, from 1.
     pub line: usize,
-    /// Column in the line in characters, from 1.
+    /// Column in the line, in characters from 1.
     pub column: usize,
-    /// What is wrong, and what would be right.
+    /// What is wrong, and how to mend it.
     pub message: String,
     text: Arc<str>,
 }
@@ -33,8 +33,7 @@ impl Diagnostic {
         Self { path: path.to_owned(), line, column, message, text: text.clone() }
     }
 
-    /// The message with the line that it is about and a caret, over several lines and without
-    /// colour.
+    /// The message with the source line and a caret, on several lines and without colour.
     #[must_use]
     pub fn excerpt(&self) -> String {
         let line = self.text.lines().nth(self.line.saturating_sub(1)).unwrap_or_default();
@@ -46,7 +45,7 @@ impl Diagnostic {
         Renderer::plain().render(&report)
     }
 
-    /// The bytes of the node at the column: to the end of its line, or of its row's field.
+    /// The length in bytes of the node at the column: up to the end of its line or of its field.
     fn span(&self, line: &str) -> Range<usize> {
         let before: usize =
             line.chars().take(self.column.saturating_sub(1)).map(char::len_utf8).sum();

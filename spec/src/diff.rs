@@ -1,11 +1,11 @@
-//! What differs between two devices' control tables.
+//! The differences between two devices' control tables.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 use crate::model::{Device, Register};
 
-/// What differs between two devices.
+/// The differences between two devices.
 #[derive(Clone, Debug)]
 pub struct Diff<'a> {
     /// The first device.
@@ -14,53 +14,53 @@ pub struct Diff<'a> {
     pub right: &'a Device,
     /// Facts about the devices as a whole.
     pub device: Vec<Difference>,
-    /// Registers at whose address the second device has none.
+    /// Registers at addresses at which the second device has none.
     pub only_left: Vec<Only<'a>>,
-    /// Registers at whose address the first device has none.
+    /// Registers at addresses at which the first device has none.
     pub only_right: Vec<Only<'a>>,
-    /// Registers at the same address that are not the same.
+    /// Registers at the same address that differ.
     pub registers: Vec<Changed<'a>>,
 }
 
-/// What a list that the document gives in full does not have.
+/// Said of a fact that is missing from a list that the document gives in full.
 pub const NONE: &str = "-";
 
-/// What the document does not say.
+/// Said of a fact that the document does not state.
 pub const NOT_TOLD: &str = "not told";
 
-/// A register at whose address the other device has none.
+/// A register at an address at which the other device has none.
 #[derive(Clone, Copy, Debug)]
 pub struct Only<'a> {
     /// The register.
     pub register: &'a Register,
-    /// The address at which the other device has a register of this name.
+    /// The address of the other device's register with this name.
     pub elsewhere: Option<u16>,
 }
 
-/// A register that both devices have, but not the same.
+/// A register that both devices have, with differences.
 #[derive(Clone, Debug)]
 pub struct Changed<'a> {
-    /// As the first device has it.
+    /// The register of the first device.
     pub left: &'a Register,
-    /// As the second device has it.
+    /// The register of the second device.
     pub right: &'a Register,
-    /// In what they differ; at least one fact.
+    /// The facts that differ; at least one.
     pub differences: Vec<Difference>,
 }
 
-/// A fact that is not the same for both.
+/// A fact that differs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Difference {
-    /// What it is about.
+    /// The fact's name.
     pub fact: String,
-    /// What holds for the first; [`NONE`] or [`NOT_TOLD`] where nothing does.
+    /// The fact of the first device; [`NONE`] or [`NOT_TOLD`] if it has none.
     pub left: String,
-    /// What holds for the second; [`NONE`] or [`NOT_TOLD`] where nothing does.
+    /// The fact of the second device; [`NONE`] or [`NOT_TOLD`] if it has none.
     pub right: String,
 }
 
 impl<'a> Diff<'a> {
-    /// What differs between `left` and `right`. Citations, errata and titles are passed over.
+    /// The differences between `left` and `right`. Citations, errata and titles are ignored.
     #[must_use]
     pub fn of(left: &'a Device, right: &'a Device) -> Self {
         let changed = left.registers.iter().filter_map(|register| {
@@ -125,7 +125,7 @@ enum Side {
     Right,
 }
 
-/// `listed` tells whether the document would have told the fact of the device if it held.
+/// `listed` says whether the document would state the fact if the device had it.
 fn differences<K: Ord + fmt::Display>(
     left: &Facts<K>,
     right: &Facts<K>,
@@ -148,7 +148,7 @@ fn differences<K: Ord + fmt::Display>(
         .collect()
 }
 
-/// A fact about a device, in the order in which it is told.
+/// A fact about a device, in the order of the output.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum DeviceFact {
     Wire,
@@ -175,7 +175,8 @@ impl fmt::Display for DeviceFact {
 }
 
 impl DeviceFact {
-    /// Whether the document lists what is of this kind, so that absence is an answer.
+    /// Whether the document lists all facts of this kind, so that a missing one is known not to
+    /// hold.
     fn is_listed(&self, device: &Device) -> bool {
         match self {
             Self::Instruction(_) => true,
@@ -210,7 +211,7 @@ fn device_facts(device: &Device) -> Facts<DeviceFact> {
     facts
 }
 
-/// A fact about a register, in the order in which it is told.
+/// A fact about a register, in the order of the output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum RegisterFact {
     Name,
@@ -245,7 +246,8 @@ impl fmt::Display for RegisterFact {
 }
 
 impl RegisterFact {
-    /// Whether a register's row or table has it, so that absence is an answer.
+    /// Whether the document lists this fact for every register, so that a missing one is known not
+    /// to hold.
     const fn is_listed(&self) -> bool {
         matches!(self, Self::Bit(_) | Self::BitValue(..) | Self::Value(_))
     }

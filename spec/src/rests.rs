@@ -11,7 +11,7 @@ use crate::wire::Wire;
 pub enum Rests<'a> {
     /// A requirement.
     Requirement(&'a Requirement),
-    /// A golden packet.
+    /// A test vector.
     Vector(&'a Vector),
     /// A device as a whole.
     Device(&'a Device),

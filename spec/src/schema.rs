@@ -1,5 +1,5 @@
 //! JSON Schemas, derived from the model: of the YAML files, so that editors complete and check
-//! them, and of the exports, for whoever reads those.
+//! them, and of the exports, for their readers.
 
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, SchemaGenerator};
@@ -12,12 +12,12 @@ use crate::model::{
 };
 use crate::wire::Wire;
 
-/// A schema as a file.
+/// A schema file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SchemaFile {
     /// Its path below the spec folder, with forward slashes.
     pub path: String,
-    /// Its whole text.
+    /// Its text.
     pub text: String,
 }
 
@@ -39,8 +39,7 @@ pub fn all() -> Vec<SchemaFile> {
     wires.into_iter().chain(others).collect()
 }
 
-/// The path below the spec folder of the schema that a YAML file has to fit; `path` is below the
-/// spec folder too.
+/// The path of the schema of a YAML file. Both paths are relative to the spec folder.
 #[must_use]
 pub fn of_source(path: &str) -> Option<String> {
     let name = match path.split_once('/') {
@@ -55,12 +54,12 @@ fn file_name(name: &str) -> String {
     format!("schema/{name}.schema.json")
 }
 
-/// The schema of what is read.
+/// The schema of input.
 fn source<T: JsonSchema>(name: &str) -> SchemaFile {
     SchemaFile { path: file_name(name), text: of_read::<T>() }
 }
 
-/// The schema of what is written.
+/// The schema of output.
 fn export<T: JsonSchema>(name: &str) -> SchemaFile {
     SchemaFile { path: file_name(&format!("export/{name}")), text: of_written::<T>() }
 }
@@ -80,7 +79,7 @@ pub(crate) fn variants<T: JsonSchema>(generator: &mut SchemaGenerator) -> Vec<Va
     }
 }
 
-/// The text of the schema of what is written: every field is there, if only with `null`.
+/// The text of the schema of output, in which every field is required and may be `null`.
 #[must_use]
 pub fn of_written<T: JsonSchema>() -> String {
     text::<T>(SchemaSettings::draft2020_12().for_serialize())
@@ -88,7 +87,7 @@ pub fn of_written<T: JsonSchema>() -> String {
 
 fn text<T: JsonSchema>(settings: SchemaSettings) -> String {
     let schema = settings.into_generator().into_root_schema_for::<T>();
-    // A schema has string keys only, so it can be written. `{:#}` indents it.
-    // The model's documentation links as rustdoc does, which nobody else follows.
+    // A schema has string keys only, so it can be written; `{:#}` indents it. The model's
+    // documentation has rustdoc links, which no other tool follows.
     format!("{:#}\n", schema.as_value()).replace("[`", "`").replace("`]", "`")
 }

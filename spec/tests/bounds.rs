@@ -1,4 +1,4 @@
-//! YAML that is made to exhaust its reader ends with a defect, and soon.
+//! YAML that is made to exhaust its reader is refused quickly.
 
 #![allow(clippy::unwrap_used)] // tests may stop at a surprise
 
@@ -11,8 +11,8 @@ use actucheck_spec::load::Source;
 use actucheck_spec::{Diagnostic, Spec};
 
 const DEEP: usize = 100_000;
-/// Ten times what the slowest takes, so that a busy machine fails nothing; without bounds it takes
-/// minutes.
+/// Ten times the time of the slowest case, so that a busy machine fails nothing. Without the limits
+/// it takes minutes.
 const LIMIT: Duration = Duration::from_secs(10);
 
 /// The defects of a device, in the small spec of `tests/base`.
@@ -42,7 +42,7 @@ fn defects(device: &str) -> Vec<Diagnostic> {
 #[test]
 fn what_nests_deep_is_refused() {
     for deep in ["[", "{a: ", "- ", "[{a: ", "? "] {
-        // Of the last only one of two readers says that it is no YAML.
+        // Only one of the two readers rejects the last one.
         for before in ["", "device: ", "device:\tmotor\n"] {
             let found = defects(&format!("{before}{}", deep.repeat(DEEP)));
             assert_eq!(found.len(), 1, "{found:?}");
@@ -67,7 +67,7 @@ fn aliases_of_aliases_are_refused() {
 fn a_long_file_is_refused() {
     let found = defects(&"#\n".repeat(1 << 20));
     let messages: Vec<_> = found.iter().map(|defect| &defect.message[..]).collect();
-    assert_eq!(messages, ["2097152 bytes, 1048576 are the most: split the file"]);
+    assert_eq!(messages, ["2097152 bytes; at most 1048576 are allowed: split the file"]);
 }
 
 /// A defect's place is looked up without reading the whole file for each.

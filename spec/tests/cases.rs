@@ -1,6 +1,6 @@
-//! Defects of a spec, a folder each: `input.yaml` takes the place of the file that its first line
-//! names in the small spec of `tests/base`, and `diagnostics.txt` is what must be said about it.
-//! Generation cases have `expected.rs` instead.
+//! Defects of a spec, one folder per case: `input.yaml` replaces the file that its first line names
+//! in the small spec of `tests/base`, and `diagnostics.txt` has the expected messages. Generation
+//! cases have `expected.rs` instead.
 //!
 //! `ACCEPT=1 cargo test -p actucheck-spec --test cases` writes the expected files anew; read the
 //! difference before you commit it.

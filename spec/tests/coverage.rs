@@ -1,4 +1,4 @@
-//! What requirements name as their tests is there.
+//! The tests that requirements name exist.
 
 #![allow(clippy::unwrap_used)] // tests may stop at a surprise
 

@@ -1,8 +1,7 @@
-//! The documents, the YAML and the register of errata prove each other, as far as arithmetic
-//! goes: a defect that a test can find is an erratum with a `proof`, and an erratum with a
-//! `proof` is a defect that a test still finds.
+//! The documents, the YAML and the errata agree as far as arithmetic can show: every defect that a
+//! test finds has an erratum with a `proof`, and a test still finds every defect with a `proof`.
 //!
-//! The tests that read the documents need their folder; without it they say so and pass.
+//! The tests that read the documents need their folder; without it they print a note and pass.
 
 #![allow(
     clippy::expect_used,
@@ -34,7 +33,7 @@ fn wire(spec: &Spec) -> &Dynamixel2 {
     &spec.wires.dynamixel2.content
 }
 
-/// Each document with the device that it is about; empty where the documents are not there.
+/// Each document with its device; empty if the documents are not available.
 fn documents(spec: &Spec) -> Vec<(Document, &Device)> {
     let Some(documents) = document::read(spec, &DOCUMENTS.map(|(id, _)| id)) else {
         return Vec::new();

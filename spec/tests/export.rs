@@ -1,4 +1,4 @@
-//! The exports say what the documents say, and a C compiler takes the header.
+//! The exports have the facts of the spec, and a C compiler accepts the header.
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
@@ -94,7 +94,7 @@ fn the_markdown_has_a_row_for_each_register_and_command() {
     }
 }
 
-/// Whether there is a C compiler; says so past the test harness if there is none.
+/// Whether there is a C compiler. If not, prints a note, which the test harness does not hide.
 fn compiler() -> Option<String> {
     let name = env::var("CC").unwrap_or_else(|_| "cc".to_owned());
     if Command::new(&name).arg("--version").output().is_ok() {
@@ -105,7 +105,7 @@ fn compiler() -> Option<String> {
     None
 }
 
-/// A C program that prints a line a fact, and the lines that it must print.
+/// A C program that prints one line per fact, and the lines that it must print.
 #[derive(Default)]
 struct Facts {
     statements: String,
@@ -177,7 +177,7 @@ fn a_c_program_prints_what_the_yaml_says() {
     let Some(compiler) = compiler() else { return };
     let spec = spec();
     let mut facts = Facts::default();
-    // Of the documents, so that not everything goes through the same names.
+    // Numbers from the documents, as an independent check.
     facts.add("JA40_GOAL_POSITION_ADDRESS", 564);
     facts.add("JA40_MODEL_NUMBER", 5210);
     facts.add("DYNAMIXEL2_INSTRUCTION_FAST_SYNC_READ", 0x8A);

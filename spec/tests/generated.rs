@@ -1,4 +1,4 @@
-//! One whole device as the codec gets it, kept in the tree to be read.
+//! The generated module of one device, kept in the tree for readers.
 
 use actucheck_spec::{Spec, generate};
 

@@ -1,4 +1,4 @@
-//! What is generated into this folder is fresh, and what stands in it fits its schema.
+//! The generated files in this folder are up to date, and the YAML files fit their schemas.
 //!
 //! `ACCEPT=1 cargo test -p actucheck-spec --test published` writes the files anew.
 
@@ -32,7 +32,7 @@ fn validator(path: &str) -> Validator {
     jsonschema::validator_for(&schema).unwrap()
 }
 
-/// What a schema says against a value, with the places.
+/// The errors of a value by a schema, with their places.
 fn faults(validator: &Validator, value: &Value) -> Vec<String> {
     let faults = validator.iter_errors(value);
     faults.map(|fault| format!("{}: {fault}", fault.instance_path())).collect()

@@ -1,4 +1,4 @@
-//! The reference models against the documents: every golden vector, built and read.
+//! The reference models against the documents: every test vector is built and read.
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
@@ -44,7 +44,8 @@ fn the_reference_finds_packets_among_noise() {
     assert_eq!(reference::packets(&stream), [status(1), status(2)]);
 }
 
-/// A bad packet behind which each receiver goes on as it likes, and one that leads some astray.
+/// A bad packet after which every receiver finds the next packets, and one after which some
+/// receivers miss them.
 #[test]
 fn the_reference_knows_which_packets_every_receiver_finds() {
     let good =
@@ -57,7 +58,7 @@ fn the_reference_knows_which_packets_every_receiver_finds() {
         ([&header(5)[..], &[0x55, 0, 0, 0]].concat(), false),
         // Shorter than any status packet.
         (header(0).to_vec(), false),
-        // Its bytes are all there, but another header among them claims more.
+        // All its bytes are present, but a header inside has a length beyond them.
         ([&header(11)[..], &header(11), &[0x55, 0, 0, 0]].concat(), false),
     ] {
         let stream = [&before[..], &good].concat();
@@ -67,7 +68,7 @@ fn the_reference_knows_which_packets_every_receiver_finds() {
     }
 }
 
-/// Packets that the documents print, and what they ask for, read by hand.
+/// Packets that the documents print, and their calls, worked out by hand.
 const CALLS: [(&str, &str); 15] = [
     ("dynamixel2.ping.1.instruction", r#"{"name":"ping"}"#),
     ("dynamixel2.read.instruction", r#"{"name":"read","address":132,"length":4}"#),

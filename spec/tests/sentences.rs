@@ -1,6 +1,6 @@
 //! Every sentence of the documents is written down in `sentences/`, and nothing else is.
 //!
-//! The tests that read the documents need their folder; without it they say so and pass.
+//! The tests that read the documents need their folder; without it they print a note and pass.
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use actucheck_spec::Spec;
 
-/// Ten times what a release build is to take, so that a busy machine fails nothing.
+/// Ten times the limit of a release build, so that a busy machine fails nothing.
 const LIMIT: Duration = Duration::from_secs(1);
 
 #[test]
@@ -16,7 +16,7 @@ fn the_spec_is_loaded_and_checked_at_once() {
         start.elapsed()
     });
     let fastest = fastest.min().unwrap_or_default();
-    // Past the test harness, which hides what a test that passes prints.
+    // Written directly, as the test harness hides the output of a passing test.
     let mut out = stderr();
     let told = writeln!(out, "loading and checking the spec takes {fastest:.1?}");
     assert!(told.is_ok());

@@ -1,5 +1,5 @@
-//! Documents, wires, devices, requirements and errata as one JSON file. Every field is always there; what
-//! the documents do not tell is `null` or an empty list.
+//! Documents, wires, devices, requirements and errata as one JSON file. Every field is always
+//! present; a fact that the documents do not state is `null` or an empty list.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -9,7 +9,7 @@ use crate::Spec;
 use crate::model::{Device, Document, Erratum, Requirement};
 use crate::wire::Wires;
 
-/// Version of the file's form. It changes when a field goes or takes another meaning.
+/// Version of the file's format. It changes when a field is removed or gets another meaning.
 pub const VERSION: u32 = 2;
 
 /// What `actucheck spec export json` writes.

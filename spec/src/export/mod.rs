@@ -1,4 +1,4 @@
-//! The spec in other forms, for those who use it without this crate. The same from run to run.
+//! Exports the spec in other formats, for use without this crate. The output is deterministic.
 
 pub mod c_header;
 pub mod json;
@@ -9,7 +9,7 @@ use std::fmt;
 
 use serde::Serialize;
 
-/// Why there is no export.
+/// Why the spec can't be exported.
 #[derive(Debug)]
 pub enum ExportError {
     /// Two things in the spec would have this name in C.

@@ -1,4 +1,4 @@
-//! Every golden packet as one JSON file, for the tests of any implementation.
+//! Exports every test vector as one JSON file, for the tests of any implementation.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -8,20 +8,20 @@ use crate::Spec;
 use crate::model::{Citation, Fault, HexBytes, Outcome, Vector, VectorsFile};
 use crate::wire::{Direction, Packet, Wire};
 
-/// Version of the file's form. It changes when a field goes or takes another meaning.
+/// Version of the file's format. It changes when a field is removed or gets another meaning.
 pub const VERSION: u32 = 1;
 
-/// Golden packets: frames with what an implementation has to make of them. Every field is always
-/// there; what a vector does not have is `null` or an empty list.
+/// Test vectors: frames, and what an implementation must do with them. Every field is always
+/// present; a field that a vector does not have is `null` or an empty list.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct VectorsExport<'a> {
-    /// Version of the file's form; 1. It changes when a field goes or takes another meaning.
+    /// Version of the file's format: 1. It changes when a field is removed or gets another meaning.
     pub version: u32,
-    /// One row a packet.
+    /// One row per packet.
     pub vectors: Vec<VectorRow<'a>>,
 }
 
-/// A golden packet.
+/// A test vector.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct VectorRow<'a> {
     /// Permanent id.
@@ -30,42 +30,42 @@ pub struct VectorRow<'a> {
     pub wire: Wire,
     /// The frame's bytes.
     pub input: HexBytes,
-    /// What is to happen to the frame: build it and read it (`valid`), reject it (`invalid`), or
-    /// either (`acceptable`).
+    /// What an implementation must do with the frame: build it and read it (`valid`), reject it
+    /// (`invalid`), or either (`acceptable`).
     pub result: Outcome,
-    /// What the frame means; `null` for an invalid one.
+    /// The frame's meaning; `null` for an invalid frame.
     pub expected: Option<&'a Packet>,
     /// For an invalid frame: what is wrong with it.
     pub fault: Option<Fault>,
-    /// For an invalid frame of a wire whose frames do not tell which way they go: the way.
+    /// For an invalid frame of a wire whose frames do not state their direction: the direction.
     pub direction: Option<Direction>,
-    /// Where the bytes come from.
+    /// The origin of the bytes.
     pub origin: Origin,
     /// For a corrected frame: the bytes as the document prints them.
     pub printed: Option<HexBytes>,
-    /// For a corrected frame: what is wrong with the printed bytes. They are to be rejected.
+    /// For a corrected frame: what is wrong with the printed bytes. They must be rejected.
     pub printed_fault: Option<Fault>,
     /// Ids of the errata that it depends on.
     pub errata: &'a [String],
-    /// Id of the requirement that it shows, if it is not the document's general one.
+    /// Id of the requirement that it tests, if it is not the document's general one.
     pub requirement: Option<&'a str>,
     /// Title of the document.
     pub document: &'a str,
     /// The section, by its number or its heading.
     pub section: &'a str,
-    /// What a reader should know about it.
+    /// A note for readers.
     pub note: Option<&'a str>,
 }
 
-/// Where a vector's bytes come from.
+/// The origin of a vector's bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Origin {
     /// The document prints them.
     Printed,
-    /// The document prints others, which an erratum corrects.
+    /// The document prints other bytes, which an erratum corrects.
     Corrected,
-    /// They follow from the document's rules.
+    /// They were derived from the document's rules.
     Derived,
 }
 

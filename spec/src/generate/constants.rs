@@ -1,4 +1,4 @@
-//! The constants that both wires have: those of the CRC and of the length field.
+//! The constants that every wire has: those of the CRC and of the length field.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -22,7 +22,7 @@ pub(crate) fn crc(crc: &Crc) -> TokenStream {
         pub const CRC_INITIAL: u16 = #initial;
         /// Whether the CRC takes and gives the lowest bit of a byte first.
         pub const CRC_REFLECTED: bool = #reflected;
-        /// What the CRC's last value is xored with.
+        /// The value that is xored with the CRC's last value.
         pub const CRC_FINAL_XOR: u16 = #final_xor;
         /// The CRC of the nine ASCII characters `123456789`.
         pub const CRC_CHECK: u16 = #check;
@@ -31,7 +31,7 @@ pub(crate) fn crc(crc: &Crc) -> TokenStream {
     }
 }
 
-/// `source` is where the framing stands.
+/// `source` is the citation of the framing.
 pub(crate) fn length(length: &Length, source: &str) -> TokenStream {
     let (size, low_byte_first) = (usize::from(length.size), length.byte_order == ByteOrder::Little);
     let doc = format!(" Bytes of the length field, which counts {}.", length.covers);

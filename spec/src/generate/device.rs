@@ -142,7 +142,7 @@ fn meaning(device: &Device, meaning: &Meaning) -> TokenStream {
     quote!(Meaning { when: #condition, range: #range, unit: #unit })
 }
 
-/// A checked spec has the register and the bits; else the source won't compile.
+/// A validated spec has the register and the bits; otherwise the generated source does not compile.
 fn condition(device: &Device, condition: &Condition) -> TokenStream {
     let Some(register) = device.register(&condition.register) else {
         return quote!(compile_error!("unknown register"));
@@ -174,7 +174,8 @@ fn range(device: &Device, range: &Range) -> TokenStream {
     quote!(Range::Between { min: #min, max: #max })
 }
 
-/// A checked spec has both bounds and every register that they name; else the source won't compile.
+/// A validated spec has both bounds and every register that they name; otherwise the generated
+/// source does not compile.
 fn bound(device: &Device, bound: Option<&Bound>) -> TokenStream {
     match bound {
         Some(Bound::Value(value)) => {

@@ -1,5 +1,5 @@
-//! Turns the spec into the Rust source of the codec's tables: one file a module, formatted,
-//! sorted as the YAML is, the same from run to run.
+//! Generates the Rust source of the codec's tables from the spec: one file per module, formatted
+//! and in the order of the YAML. The output is deterministic.
 
 pub(crate) mod constants;
 mod device;
@@ -21,13 +21,14 @@ pub(crate) use token::words;
 /// One generated file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Module {
-    /// Its name, to which `.rs` belongs.
+    /// Its name, without `.rs`.
     pub name: String,
-    /// Its whole text.
+    /// Its text.
     pub source: String,
 }
 
-/// What can't be generated: names in the spec that are no Rust names, or two that become one.
+/// Source that can't be generated: a name in the spec yields no Rust name, or two names yield the
+/// same one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GenerateError {
     module: String,

@@ -12,9 +12,9 @@ pub(crate) fn type_name(name: &str) -> Ident {
     ident(&name)
 }
 
-/// The name of a value as a variant: `Torque on, EEPROM area locked` as `TorqueOn`. What stands in
-/// parentheses or behind a comma explains the name; a number in front goes to the end, so
-/// `9,600 bps` becomes `Bps9600`.
+/// The name of a value as a variant: `Torque on, EEPROM area locked` as `TorqueOn`. Text in
+/// parentheses or after a comma explains the name and is left out. A leading number moves to the
+/// end, so `9,600 bps` becomes `Bps9600`.
 pub(crate) fn value_name(name: &str) -> Ident {
     let name = name.split(" (").next().unwrap_or(name);
     let name = name.split(", ").next().unwrap_or(name).replace(',', "");
@@ -36,12 +36,12 @@ pub(crate) fn module_name(name: &str) -> Ident {
     ident(&words(name).join("_").to_lowercase())
 }
 
-/// A byte as the documents write it: `0x8A`.
+/// A byte in the documents' notation: `0x8A`.
 pub(crate) fn hex8(value: u8) -> impl ToTokens {
     hex(&format!("{value:#04X}"))
 }
 
-/// Two bytes as the documents write them: `0x8005`.
+/// Two bytes in the documents' notation: `0x8005`.
 pub(crate) fn hex16(value: u16) -> impl ToTokens {
     hex(&format!("{value:#06X}"))
 }
@@ -67,7 +67,7 @@ pub(crate) fn named_values(values: &[NamedValue]) -> TokenStream {
 }
 
 fn hex(text: &str) -> TokenStream {
-    // The text is digits behind 0x, so it always parses; an empty stream would not compile.
+    // The text is 0x and digits, so it always parses; an empty stream would not compile.
     text.parse().unwrap_or_default()
 }
 
@@ -78,7 +78,7 @@ pub(crate) fn words(name: &str) -> Vec<&str> {
         .collect()
 }
 
-/// The same text with a capital letter at its front.
+/// The same text with a capital first letter.
 pub(crate) fn capitalised(word: &str) -> String {
     let mut letters = word.chars();
     letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect()

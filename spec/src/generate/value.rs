@@ -11,7 +11,7 @@ pub(super) fn of(register: &Register) -> Ident {
     if has_type(register) { type_name(&register.name) } else { number_type(register.kind) }
 }
 
-/// The types that the register's module has to declare for it: none for a number.
+/// The types that the register's module must declare for it: none for a number.
 pub(super) fn declarations(register: &Register) -> TokenStream {
     if !has_type(register) {
         return TokenStream::new();
@@ -42,7 +42,7 @@ pub(super) fn declarations(register: &Register) -> TokenStream {
     }
 }
 
-/// Bits are those of an unsigned number; a signed register with bits stays a number.
+/// Sets of bits are unsigned; a signed register with bits stays a number.
 fn has_type(register: &Register) -> bool {
     let unsigned = matches!(register.kind, Type::U8 | Type::U16 | Type::U32);
     if register.bits.is_empty() { !register.values.is_empty() } else { unsigned }
@@ -67,7 +67,7 @@ fn number_type(kind: Type) -> Ident {
     )
 }
 
-/// An enum of the values that have a name, which keeps the values that have none.
+/// An enum of the named values, which keeps unnamed values too.
 fn named(name: &Ident, doc: &str, raw: &Ident, rows: &[NamedValue]) -> TokenStream {
     let variants: Vec<_> = rows.iter().map(|row| value_name(&row.name)).collect();
     let docs = rows.iter().map(|row| format!(" `{}`: {}.", row.value, row.name));
@@ -81,12 +81,12 @@ fn named(name: &Ident, doc: &str, raw: &Ident, rows: &[NamedValue]) -> TokenStre
                 #[doc = #docs]
                 #variants,
             )*
-            /// A value that the documents give no name.
+            /// A value without a name in the documents.
             Unknown(#raw),
         }
 
         impl #name {
-            /// What this number stands for.
+            /// The value with this number.
             #[must_use]
             pub const fn from_raw(raw: #raw) -> Self {
                 match raw {
@@ -109,7 +109,7 @@ fn named(name: &Ident, doc: &str, raw: &Ident, rows: &[NamedValue]) -> TokenStre
     }
 }
 
-/// What the values come to in fact, if the documents say so of any.
+/// The actual quantities of the values, if the documents state any.
 fn actual(rows: &[NamedValue], variants: &[Ident]) -> TokenStream {
     let arms: Vec<_> = rows
         .iter()
@@ -123,7 +123,7 @@ fn actual(rows: &[NamedValue], variants: &[Ident]) -> TokenStream {
         return TokenStream::new();
     }
     quote! {
-        /// What it comes to in fact, in the unit of its name, where the document says so.
+        /// The actual quantity, in the unit of its name, if the document states it.
         #[must_use]
         pub const fn actual(self) -> Option<i64> {
             match self {
@@ -134,7 +134,7 @@ fn actual(rows: &[NamedValue], variants: &[Ident]) -> TokenStream {
     }
 }
 
-/// All bits of a register, with methods for those that have a name.
+/// All bits of a register, with methods for the named ones.
 fn bit_set(name: &Ident, raw: &Ident, register: &Register) -> TokenStream {
     let doc = format!(" The bits of {}.", register.name);
     let types = register.bits.iter().filter(|field| !field.values.is_empty()).map(|field| {
@@ -150,7 +150,7 @@ fn bit_set(name: &Ident, raw: &Ident, register: &Register) -> TokenStream {
         pub struct #name(pub #raw);
 
         impl #name {
-            /// What this number stands for.
+            /// The value with this number.
             #[must_use]
             pub const fn from_raw(raw: #raw) -> Self {
                 Self(raw)
@@ -162,7 +162,7 @@ fn bit_set(name: &Ident, raw: &Ident, register: &Register) -> TokenStream {
                 self.0
             }
 
-            /// The bits that the documents give no name, in their places.
+            /// The bits without a name in the documents, in their places.
             #[must_use]
             pub const fn unnamed(self) -> #raw {
                 self.0 & !#mask
@@ -215,6 +215,6 @@ fn bit_field_docs(field: &BitField) -> (String, String) {
 }
 
 fn hex(mask: u64) -> TokenStream {
-    // The text is digits behind 0x, so it always parses; an empty stream would not compile.
+    // The text is 0x and digits, so it always parses; an empty stream would not compile.
     format!("{mask:#04X}").parse().unwrap_or_default()
 }

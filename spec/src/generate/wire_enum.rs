@@ -5,7 +5,7 @@ use quote::quote;
 
 use super::token::{hex8, type_name};
 
-/// An enum of the bytes that have a name, which keeps the bytes that have none.
+/// An enum of the named bytes, which keeps unnamed bytes too.
 pub(crate) fn wire_enum(name: &Ident, doc: &str, rows: &[(u8, &str, String)]) -> TokenStream {
     let count = rows.len();
     let variants: Vec<_> = rows.iter().map(|(_, name, _)| type_name(name)).collect();
@@ -17,15 +17,15 @@ pub(crate) fn wire_enum(name: &Ident, doc: &str, rows: &[(u8, &str, String)]) ->
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub enum #name {
             #(#[doc = #docs] #variants,)*
-            /// A byte that the documents give no name.
+            /// A byte without a name in the documents.
             Unknown(u8),
         }
 
         impl #name {
-            /// Every one with a name, by rising code.
+            /// Every named one, by ascending code.
             pub const ALL: [Self; #count] = [#(Self::#variants),*];
 
-            /// What this byte stands for.
+            /// The value with this byte.
             #[must_use]
             pub const fn from_code(code: u8) -> Self {
                 match code {

@@ -1,25 +1,26 @@
-//! What no YAML text may exceed, looked at before it is read.
+//! Limits of YAML texts, which are checked before a text is read.
 //!
-//! The reader (libyaml) takes time that grows with the square of how deep brackets nest: minutes
-//! for 100 kB of them. What aliases make of a text, it bounds itself.
+//! The reader (libyaml) takes time that grows with the square of the nesting depth: minutes for 100
+//! kB of brackets. It limits the expansion of aliases itself.
 
 use saphyr_parser::{Event, Parser, ScanError};
 use serde::de::IgnoredAny;
 
 use super::{Defect, defect};
 
-/// The longest text in bytes, some twenty times the longest file of the spec folder.
+/// The longest text in bytes, about twenty times the longest file of the spec folder.
 const MAX_SIZE: usize = 1 << 20;
-/// The deepest nesting of lists and maps, some four times the model's own.
+/// The deepest nesting of lists and maps, about four times the model's own.
 const MAX_DEPTH: usize = 32;
 
-/// Walks through the text, to where it is no YAML or too deep.
+/// Walks through the text and checks the limits.
 ///
 /// # Errors
-/// What is wrong there.
+/// The limit that the text exceeds, or why it is not YAML.
 pub(super) fn check(text: &str) -> Result<(), Defect> {
     if text.len() > MAX_SIZE {
-        let message = format!("{} bytes, {MAX_SIZE} are the most: split the file", text.len());
+        let message =
+            format!("{} bytes; at most {MAX_SIZE} are allowed: split the file", text.len());
         return Err(((1, 1), message));
     }
     let mut depth = 0;
@@ -38,12 +39,12 @@ pub(super) fn check(text: &str) -> Result<(), Defect> {
     Ok(())
 }
 
-/// In libyaml's words, which say more, if it stops there too or before. It sees nothing that lies
-/// behind, as that may be too deep for it.
+/// Uses libyaml's message, which says more, if libyaml stops at this place or before it. It is
+/// given only the text up to there, as the rest may be too deep for it.
 fn no_yaml(text: &str, error: &ScanError) -> Defect {
     let at = error.marker();
     let place = (at.line(), at.col() + 1);
-    // A colon is one by what follows it.
+    // Whether a colon is an indicator depends on the next character.
     let head: String = text.chars().take(at.index() + 2).collect();
     match serde_yaml::from_str::<IgnoredAny>(&head).map_err(|error| defect(&error)) {
         Err((other, message)) if other <= place => (other, message),

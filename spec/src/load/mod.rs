@@ -29,8 +29,8 @@ pub struct Source {
 }
 
 impl Source {
-    /// A source from its parts. `path` is relative to the spec folder and tells what the file
-    /// is: `documents.yaml`, `errata.yaml`, or a file in `wires`, `devices`, `vectors`,
+    /// A source from its parts. `path` is relative to the spec folder and determines the kind of
+    /// the file: `documents.yaml`, `errata.yaml`, or a file in `wires`, `devices`, `vectors`,
     /// `requirements` or `sentences`.
     #[must_use]
     pub fn new(path: &str, text: &str) -> Self {
@@ -47,14 +47,14 @@ pub fn embedded() -> Vec<Source> {
     EMBEDDED.iter().map(|(path, text)| Source::new(path, text)).collect()
 }
 
-/// What one YAML file says, with the text that it was read from.
+/// The content of one YAML file, with its text.
 #[derive(Clone, Debug)]
 pub struct File<T> {
     path: String,
     text: Arc<str>,
-    /// Looked up for the first defect.
+    /// Computed for the first defect.
     places: OnceLock<Places>,
-    /// What the file says.
+    /// The file's content.
     pub content: T,
 }
 
@@ -75,8 +75,8 @@ impl<T> File<T> {
         &self.path
     }
 
-    /// A defect at the node that `node` names, such as `registers[3].range.min`; at the nearest
-    /// node around it if there is no such node.
+    /// A defect at the node with the path `node`, such as `registers[3].range.min`, or at the
+    /// nearest existing node around it.
     #[must_use]
     pub fn diagnostic(&self, node: &str, message: String) -> Diagnostic {
         let places = self.places.get_or_init(|| Places::of(&self.text));
@@ -84,7 +84,7 @@ impl<T> File<T> {
     }
 }
 
-/// What the file says.
+/// The file's content.
 impl<T: Serialize> Serialize for File<T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         self.content.serialize(serializer)
@@ -101,10 +101,10 @@ impl<T: JsonSchema> JsonSchema for File<T> {
     }
 }
 
-/// Line and column, both from 1, and what is wrong there.
+/// Line and column, both from 1, and the reader's message.
 type Defect = ((usize, usize), String);
 
-/// What the reader says. It ends its messages with the place.
+/// The reader's message, which ends with the place.
 fn defect(error: &serde_yaml::Error) -> Defect {
     let place = error.location().map_or((1, 1), |at| (at.line(), at.column()));
     let mut message = error.to_string();
@@ -112,18 +112,18 @@ fn defect(error: &serde_yaml::Error) -> Defect {
     (place, message)
 }
 
-/// Everything that the spec folder says, read and checked.
+/// The content of the spec folder, read and validated.
 #[derive(Clone, Debug)]
 pub struct Spec {
     /// The documents that citations point to.
     pub documents: File<DocumentsFile>,
     /// The wires, a file each.
     pub wires: Wires,
-    /// The control tables, a file a device.
+    /// The control tables, one file per device.
     pub devices: Vec<File<Device>>,
-    /// The golden packets, a file a document section.
+    /// The test vectors, one file per section of a document.
     pub vectors: Vec<File<VectorsFile>>,
-    /// The normative statements, a file a document.
+    /// The requirements, one file per document.
     pub requirements: Vec<File<RequirementsFile>>,
     /// The documents' defects.
     pub errata: File<ErrataFile>,
@@ -135,15 +135,15 @@ impl Spec {
     /// The spec that this crate was built with.
     ///
     /// # Errors
-    /// Every defect found: of the YAML itself first, then of what it says.
+    /// All defects found: those of the YAML first, then those of its content.
     pub fn embedded() -> Result<Self, Vec<Diagnostic>> {
         Self::read(&embedded())
     }
 
-    /// Reads and checks `sources`.
+    /// Reads and validates `sources`.
     ///
     /// # Errors
-    /// Every defect found: of the YAML itself first, then of what it says.
+    /// All defects found: those of the YAML first, then those of its content.
     pub fn read(sources: &[Source]) -> Result<Self, Vec<Diagnostic>> {
         let spec = Self::parse(sources)?;
         let defects = validate::all(&spec);
@@ -222,7 +222,7 @@ impl Spec {
         self.errata.content.errata.iter().find(|erratum| erratum.id == id)
     }
 
-    /// Whether the documents agree on a range: no open erratum is behind it.
+    /// Whether the documents agree on a range: it depends on no open erratum.
     #[must_use]
     pub fn settles(&self, range: &Range) -> bool {
         let open = |id: &String| self.erratum(id).is_some_and(|row| row.status == Status::Open);
@@ -235,7 +235,7 @@ impl Spec {
         self.sentences.iter().map(|file| &file.content).find(|file| file.document == document)
     }
 
-    /// Every vector with the file it stands in, in the order of files and of rows.
+    /// Every vector with its file, in the order of files and of rows.
     pub fn vectors(&self) -> impl Iterator<Item = (&VectorsFile, &Vector)> {
         self.vectors
             .iter()
@@ -252,7 +252,7 @@ impl Spec {
     }
 }
 
-/// Reads files one after the other and keeps what is wrong with them.
+/// Reads files one after the other and collects their defects.
 pub(crate) struct Reader<'a> {
     sources: &'a [Source],
     defects: Vec<Diagnostic>,

@@ -1,5 +1,5 @@
-//! Where the nodes of a YAML text stand. The deserialiser tells places only while it reads, so
-//! rules that find a defect later ask here, and only then.
+//! The places of the nodes of a YAML text. The deserialiser knows places only while it reads, so
+//! they are looked up here when a rule finds a defect.
 
 use std::collections::BTreeMap;
 
@@ -10,14 +10,14 @@ use saphyr_parser::{Event, Parser, Span};
 pub(super) struct Places(BTreeMap<String, (usize, usize)>);
 
 impl Places {
-    /// The nodes of a text, as far as it is YAML.
+    /// The nodes of a text, as far as it is valid YAML.
     pub(super) fn of(text: &str) -> Self {
         let mut walk = Walk { parser: Parser::new_from_str(text), places: BTreeMap::new() };
         walk.document();
         Self(walk.places)
     }
 
-    /// The place of the node that `path` names, or of the nearest node around it.
+    /// The place of the node with this path, or of the nearest node around it.
     pub(super) fn find(&self, mut path: &str) -> (usize, usize) {
         loop {
             if let Some(place) = self.0.get(path) {

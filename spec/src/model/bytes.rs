@@ -5,17 +5,17 @@ use std::ops::Deref;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 
-/// Bytes as hex digits in a text: `FF FF FD 00` or `fffffd00`. Written in the second form.
+/// Bytes as hex digits in a text: `FF FF FD 00` or `fffffd00`. They are written in the second form.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Deserialize, Serialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct HexBytes(pub Vec<u8>);
 
-/// Why a text is no hex bytes.
+/// Why a text is not bytes in hex.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum HexError {
     /// A character that is neither a hex digit nor white space, and its position from 0.
     Digit(char, usize),
-    /// A byte with one digit only.
+    /// A byte with a single digit.
     OddDigits,
 }
 
@@ -36,7 +36,7 @@ impl fmt::Display for HexError {
 impl std::error::Error for HexError {}
 
 impl HexBytes {
-    /// Reads pairs of hex digits; white space between them is passed over.
+    /// Reads pairs of hex digits; white space between them is ignored.
     ///
     /// # Errors
     /// On any other character, or an odd number of digits.

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A place in a document, written `DOCUMENT §SECTION`: `ja40 §1.6.1`. A heading that is not in
-/// English has its meaning behind it: `dynamixel2 §Packet 처리 (packet handling)`.
+/// English is followed by its meaning: `dynamixel2 §Packet 처리 (packet handling)`.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize, JsonSchema)]
 #[serde(try_from = "String", into = "String")]
 #[schemars(extend("pattern" = r"^.+? §.*\S"))]

@@ -16,24 +16,24 @@ pub struct Device {
     pub title: String,
     /// The wire that it speaks.
     pub wire: Wire,
-    /// Where this stands.
+    /// The sections that say so.
     pub source: Vec<Citation>,
-    /// What Ping answers; absent where the document names none.
+    /// The model number that Ping returns; absent if the document states none.
     pub model_number: Option<u16>,
     /// Ids of the errata that it depends on.
     #[serde(default)]
     pub errata: Vec<String>,
-    /// Names of the instructions that it obeys.
+    /// Names of the instructions that it supports.
     pub instructions: Vec<String>,
     /// The register that keeps the EEPROM area read-only while it is not 0.
     pub eeprom_lock: Option<String>,
-    /// Registers of the RAM area that a backup holds beside the whole EEPROM area.
+    /// Registers of the RAM area that a backup contains, in addition to the whole EEPROM area.
     #[serde(default)]
     pub backup: Vec<String>,
     /// Bits that the device sets when a measurement passes a limit.
     #[serde(default)]
     pub alarms: Vec<Alarm>,
-    /// The control table, by rising address.
+    /// The control table, in ascending order of address.
     pub registers: Vec<Register>,
 }
 
@@ -57,7 +57,7 @@ pub struct Alarm {
     pub below: Option<String>,
     /// The register that holds the largest value without an alarm.
     pub above: Option<String>,
-    /// What has to hold besides; absent where nothing has to.
+    /// A further condition for the alarm; absent if there is none.
     pub when: Option<Condition>,
     /// Ids of the errata that it depends on.
     #[serde(default)]
@@ -82,22 +82,22 @@ impl Alarm {
     }
 }
 
-/// What another register has to hold: `{register: Drive Mode, bits: Profile Configuration,
-/// one_of: [1]}`.
+/// A condition on the value of another register: `{register: Drive Mode, bits: Profile
+/// Configuration, one_of: [1]}`.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Condition {
     /// The register.
     pub register: String,
-    /// The bits of it that count, if not all do.
+    /// The bits of the register that are compared; absent means all bits.
     pub bits: Option<String>,
-    /// The values for which the condition holds; those of the bits shifted down to bit 0.
+    /// The values for which the condition holds; values of bits are shifted down to bit 0.
     pub one_of: Vec<i64>,
 }
 
 impl Condition {
-    /// The condition in words, with the names that `device` gives the values:
-    /// `Operating Mode is Position Control Mode`.
+    /// The condition in words, with `device`'s names of the values: `Operating Mode is Position
+    /// Control Mode`.
     #[must_use]
     pub fn in_words(&self, device: &Device) -> String {
         let values = self.values_in_words(device);
@@ -125,17 +125,17 @@ impl Condition {
     }
 }
 
-/// What a register's value means while a condition holds, where that is not what it means else.
+/// The range and unit of a register while a condition holds, where they differ from its usual ones.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Meaning {
     /// When it holds.
     pub when: Condition,
-    /// The values that the register then may have; as else if absent.
+    /// The values that the register may have then; the usual ones if absent.
     pub range: Option<Range>,
-    /// What one count then is; as else if absent.
+    /// The physical value of one count then; the usual one if absent.
     pub unit: Option<Unit>,
-    /// Where this stands.
+    /// The sections that say so.
     pub source: Vec<Citation>,
     /// Ids of the errata that it depends on.
     #[serde(default)]
@@ -153,21 +153,21 @@ pub struct Register {
     /// Size and signedness; the low byte comes first.
     #[serde(rename = "type")]
     pub kind: Type,
-    /// Whether it outlives a power cycle.
+    /// The memory area, which decides whether the value survives a power cycle.
     pub area: Area,
-    /// What hosts may do with it.
+    /// Whether hosts may write it.
     pub access: Access,
-    /// The value that it starts with.
+    /// The initial value.
     pub initial: Option<i64>,
     /// The values that it may have, if the document limits them.
     pub range: Option<Range>,
-    /// What one count of its value is.
+    /// The physical value of one count.
     pub unit: Option<Unit>,
-    /// What else its range and its unit are while another register holds something; the first
-    /// whose condition holds counts.
+    /// Other ranges and units that apply while another register has a certain value. The first one
+    /// whose condition holds applies.
     #[serde(default)]
     pub meanings: Vec<Meaning>,
-    /// Where this stands.
+    /// The sections that say so.
     pub source: Vec<Citation>,
     /// Ids of the errata that it depends on.
     #[serde(default)]
@@ -175,7 +175,7 @@ pub struct Register {
     /// Values with a name.
     #[serde(default)]
     pub values: Vec<NamedValue>,
-    /// Bits with a meaning of their own, by rising place.
+    /// Named bit fields, in ascending order.
     #[serde(default)]
     pub bits: Vec<BitField>,
 }
@@ -187,7 +187,8 @@ impl Register {
         self.bits.iter().find(|bits| bits.name == name)
     }
 
-    /// Ids of all errata that it depends on: its own, and those of its range and its meanings.
+    /// Ids of all errata that it depends on: its own, and those of its range and of its conditional
+    /// meanings.
     pub fn all_errata(&self) -> impl Iterator<Item = &String> {
         let ranges = self.range.iter().chain(self.meanings.iter().flat_map(|row| &row.range));
         let meanings = self.meanings.iter().flat_map(|row| &row.errata);
@@ -249,7 +250,7 @@ impl Type {
         }
     }
 
-    /// The smallest and the largest value that it holds.
+    /// The smallest and the largest value of this size.
     #[must_use]
     pub fn limits(self) -> (i64, i64) {
         match self {
@@ -262,7 +263,7 @@ impl Type {
         }
     }
 
-    /// Whether it holds this value.
+    /// Whether this size can hold the value.
     #[must_use]
     pub fn holds(self, value: i64) -> bool {
         let (min, max) = self.limits();
@@ -270,13 +271,13 @@ impl Type {
     }
 }
 
-/// Whether a register outlives a power cycle.
+/// The memory area of a register.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Area {
-    /// It does; it can be locked.
+    /// EEPROM area: the value survives a power cycle; writing can be locked.
     Eeprom,
-    /// It does not.
+    /// RAM area: the value is lost at a power cycle.
     Ram,
 }
 
@@ -289,13 +290,13 @@ impl fmt::Display for Area {
     }
 }
 
-/// What hosts may do with a register.
+/// Whether hosts may write a register.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Access {
-    /// Read it.
+    /// Read-only.
     R,
-    /// Read and write it.
+    /// Read and write.
     Rw,
 }
 
@@ -318,8 +319,8 @@ pub struct Range {
     pub max: Option<Bound>,
     /// All of them.
     pub one_of: Option<Vec<i64>>,
-    /// Ids of the errata that it rests on. While one of them is open, who writes is not held to
-    /// the range.
+    /// Ids of the errata that it depends on. While one of them is open, the range is not enforced
+    /// on writers.
     #[serde(default)]
     pub errata: Vec<String>,
 }
@@ -339,13 +340,13 @@ impl fmt::Display for Range {
     }
 }
 
-/// An end of a range.
+/// A bound of a range.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(untagged, expecting = "a bound is a number or a register's name, `-` before it to negate")]
 pub enum Bound {
     /// A number.
     Value(i64),
-    /// The value of another register, negated if a `-` stands before its name.
+    /// The value of another register, negated if its name has a `-` before it.
     Register(String),
 }
 
@@ -358,7 +359,7 @@ impl fmt::Display for Bound {
     }
 }
 
-/// What one count of a value is.
+/// The physical value of one count.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Unit {
@@ -382,18 +383,18 @@ pub struct NamedValue {
     pub value: i64,
     /// Its name.
     pub name: String,
-    /// What it comes to in fact, where the document says so (a baud rate in bit/s).
+    /// The actual quantity, if the document states one (a baud rate in bit/s).
     pub actual: Option<i64>,
 }
 
 impl fmt::Display for NamedValue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.name)?;
-        self.actual.map_or(Ok(()), |actual| write!(f, ", in fact {actual}"))
+        self.actual.map_or(Ok(()), |actual| write!(f, ", actually {actual}"))
     }
 }
 
-/// Neighbouring bits with a meaning of their own.
+/// Neighbouring bits with a name.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BitField {

@@ -5,21 +5,21 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DocumentsFile {
-    /// One row a document.
+    /// One row per document.
     pub documents: Vec<Document>,
 }
 
-/// A document that the spec was taken from.
+/// A source document of the spec.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Document {
-    /// What citations call it.
+    /// Its id in citations.
     pub id: String,
     /// Its title in English.
     pub title: String,
     /// The language that it is written in.
     pub language: String,
-    /// Name of the file that it was read from.
+    /// Name of its file.
     pub file: String,
 }
 

@@ -9,27 +9,27 @@ use super::Citation;
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ErrataFile {
-    /// One row a defect.
+    /// One row per defect.
     pub errata: Vec<Erratum>,
 }
 
-/// A place where a document is wrong, contradicts itself or leaves a question open.
+/// A place where a document is wrong, contradicts itself or leaves something unspecified.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Erratum {
-    /// Permanent id; begins with the document's.
+    /// Permanent id; begins with the document's id.
     pub id: String,
     /// Where it stands.
     pub source: Citation,
     /// What the document prints.
     pub printed: String,
-    /// What this project holds to be right.
+    /// The reading that this project takes as right.
     pub held_right: String,
-    /// Why.
+    /// The reasons for this reading.
     pub evidence: String,
-    /// How sure that is.
+    /// How certain this reading is.
     pub status: Status,
-    /// How a test finds the defect by itself, where it can.
+    /// How a test finds the defect, if a test can.
     pub proof: Option<Proof>,
 }
 
@@ -37,40 +37,40 @@ pub struct Erratum {
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Proof {
-    /// What it looks at.
+    /// The kind of defect that the test looks for.
     pub kind: ProofKind,
-    /// The document's lines on which it finds the defect, from 1.
+    /// The lines of the document with the defect, from 1.
     #[serde(default)]
     pub lines: Vec<usize>,
 }
 
-/// What a test looks at to find a defect.
+/// A kind of defect that a test can find.
 #[derive(
     Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize, JsonSchema,
 )]
 #[serde(rename_all = "lowercase")]
 pub enum ProofKind {
-    /// A printed packet whose length or CRC does not compute.
+    /// A printed packet with a wrong length or CRC.
     Packet,
     /// A number printed in decimal and in hexadecimal that are not equal.
     Number,
     /// A register's name with an address that is not its own.
     Reference,
-    /// A row of a control table that is not the register held right.
+    /// A row of a control table that differs from the register in this spec.
     Row,
-    /// A register's range that its own bits or named values do not fit; found without the document.
+    /// A register's range that excludes its own bits or named values; found without the document.
     Range,
 }
 
-/// How sure the right reading of an erratum is.
+/// How certain the right reading of an erratum is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
     /// One reading is provably right.
     Resolved,
-    /// A reading was picked.
+    /// This project chose a reading.
     Chosen,
-    /// More than one reading stands; vectors that depend on it are acceptable in each.
+    /// More than one reading is possible; vectors that depend on it are acceptable in each.
     Open,
 }
 

@@ -66,15 +66,15 @@ pub struct Crc {
     pub initial: u16,
     /// Whether bits are taken and given lowest first.
     pub reflected: bool,
-    /// What the last value is xored with.
+    /// The value that is xored with the last value.
     pub final_xor: u16,
     /// The CRC of the nine ASCII characters `123456789`.
     pub check: u16,
     /// Order of its bytes on the wire.
     pub byte_order: ByteOrder,
-    /// What it runs over, in words.
+    /// The bytes that it covers, in words.
     pub covers: String,
-    /// Where this stands.
+    /// The sections that say so.
     pub source: Vec<Citation>,
     /// Ids of the errata that it depends on.
     #[serde(default)]

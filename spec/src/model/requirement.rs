@@ -9,34 +9,36 @@ use super::Citation;
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RequirementsFile {
-    /// One row a normative statement.
+    /// One row per requirement.
     pub requirements: Vec<Requirement>,
 }
 
-/// A normative statement of a document, in our own words.
+/// A requirement: a normative statement of a document, in our own words.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Requirement {
-    /// Permanent id; begins with the document's.
+    /// Permanent id; begins with the document's id.
     pub id: String,
-    /// How binding it is.
+    /// How strict it is.
     pub level: Level,
-    /// What is demanded.
+    /// What is required.
     pub text: String,
-    /// Where the document demands it.
+    /// Where the document requires it.
     pub source: Citation,
-    /// Ids of the errata that it rests on: what it says differs with how they are decided.
+    /// Ids of the errata that it depends on: with another reading of these, the requirement would
+    /// be different.
     #[serde(default)]
     pub errata: Vec<String>,
-    /// Who has to obey.
+    /// The roles that it binds.
     pub binds: Vec<Role>,
-    /// Tests of this repository that hold the built-in codec to it, beside the suite's checks,
-    /// which any codec can take: `FILE::TEST`.
+    /// Tests of this repository that check the built-in codec, in addition to the suite's checks,
+    /// which any codec can be asked: `FILE::TEST`.
     #[serde(default)]
     pub tests: Vec<String>,
-    /// What else checks it; said where neither a vector nor a test names it.
+    /// What else checks it; given if neither a vector nor a test names it.
     pub checked_by: Option<CheckedBy>,
-    /// Another document's requirement that demands the same, so that its checks show this one too.
+    /// A requirement of another document that requires the same, so that its checks count for this
+    /// one too.
     pub checked_with: Option<String>,
 }
 
@@ -44,13 +46,13 @@ pub struct Requirement {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum CheckedBy {
-    /// Checks that the suite makes without a vector.
+    /// Checks of the suite that need no vector.
     Suite,
     /// Nothing yet.
     Nothing,
 }
 
-/// How binding a requirement is.
+/// How strict a requirement is.
 #[derive(
     Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Deserialize, Serialize, JsonSchema,
 )]
@@ -65,7 +67,7 @@ pub enum Level {
 }
 
 impl Level {
-    /// Every level, the most binding one first.
+    /// Every level, the strictest first.
     pub const ALL: [Self; 3] = [Self::Must, Self::Should, Self::May];
 }
 
@@ -79,15 +81,15 @@ impl fmt::Display for Level {
     }
 }
 
-/// Whom a requirement binds.
+/// The role that a requirement binds.
 #[derive(
     Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Deserialize, Serialize, JsonSchema,
 )]
 #[serde(rename_all = "lowercase")]
 pub enum Role {
-    /// Whoever builds or reads packets.
+    /// A library that builds or reads packets.
     Codec,
-    /// Whoever sends instructions.
+    /// A program that sends instructions.
     Host,
     /// The actuator.
     Device,

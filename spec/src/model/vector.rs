@@ -6,19 +6,19 @@ use serde::{Deserialize, Serialize};
 use super::{Citation, HexBytes};
 use crate::wire::{Context, Direction, Packet, Wire};
 
-/// A file of `vectors/`: the golden packets of one section.
+/// A file of `vectors/`: the test vectors of one section.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct VectorsFile {
-    /// The section, for every vector that names no other.
+    /// The section, for every vector that names no other section.
     pub source: Citation,
     /// The wire.
     pub wire: Wire,
-    /// One row a packet.
+    /// One row per packet.
     pub vectors: Vec<Vector>,
 }
 
-/// A golden packet: bytes that a document prints or that arithmetic yields, with their meaning.
+/// A test vector: bytes that a document prints or that follow from its rules, with their meaning.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Vector {
@@ -26,34 +26,34 @@ pub struct Vector {
     pub id: String,
     /// The section, if it is not the file's.
     pub source: Option<Citation>,
-    /// What a reader should know about it.
+    /// A note for readers.
     pub note: Option<String>,
-    /// The bytes as the document prints them; absent where the document prints none.
+    /// The bytes as the document prints them; absent if it prints none.
     pub printed: Option<HexBytes>,
-    /// The bytes held right, where they differ from the printed ones or none are printed.
+    /// The right bytes, if they differ from the printed ones or none are printed.
     pub bytes: Option<HexBytes>,
-    /// What is to happen to [`Vector::frame`].
+    /// What an implementation must do with [`Vector::frame`].
     #[serde(default)]
     pub result: Outcome,
     /// For an invalid frame: what is wrong with it.
     pub fault: Option<Fault>,
-    /// Where `bytes` corrects `printed`: what is wrong with the printed bytes.
+    /// If `bytes` corrects `printed`: what is wrong with the printed bytes.
     pub printed_fault: Option<Fault>,
     /// Ids of the errata that it depends on.
     #[serde(default)]
     pub errata: Vec<String>,
-    /// Id of the requirement that it shows, if it is not the wire's general one.
+    /// Id of the requirement that it tests, if it is not the wire's general one.
     pub requirement: Option<String>,
-    /// For an invalid frame of a wire whose frames do not tell which way they go: the way.
+    /// For an invalid frame of a wire whose frames do not state their direction: the direction.
     #[serde(rename = "kind")]
     pub direction: Option<Direction>,
-    /// What the frame means; absent for an invalid one.
+    /// The frame's meaning; absent for an invalid frame.
     pub packet: Option<Packet>,
 }
 
 impl Vector {
-    /// The bytes that count: those held right, else those printed. Empty if there are neither,
-    /// which [`crate::validate`] does not let pass.
+    /// The right bytes, or else the printed ones. Empty if there are neither, which
+    /// [`crate::validate`] does not let pass.
     #[must_use]
     pub fn frame(&self) -> &[u8] {
         self.bytes.as_ref().or(self.printed.as_ref()).map_or(&[], |bytes| bytes)
@@ -66,14 +66,14 @@ impl Vector {
         of_packet.unwrap_or(Context { direction: self.direction, fast: None })
     }
 
-    /// The printed bytes where they are not the right ones.
+    /// The printed bytes, if they are not the right ones.
     #[must_use]
     pub fn defective(&self) -> Option<&[u8]> {
         self.bytes.as_ref().and(self.printed.as_deref())
     }
 }
 
-/// What an implementation has to do with a frame.
+/// What an implementation must do with a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Outcome {
@@ -82,29 +82,29 @@ pub enum Outcome {
     Valid,
     /// Reject it.
     Invalid,
-    /// Build and read it as given, or reject it; the documents leave it open.
+    /// Build and read it as given, or reject it; the documents leave it unspecified.
     Acceptable,
 }
 
-/// What is wrong with a frame: the error classes of the adapter protocol.
+/// What is wrong with a frame; these are the error classes of the adapter protocol.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Fault {
     /// It does not begin with a header.
     Header,
-    /// An ID that no packet may have.
+    /// It has an ID that no packet may have.
     Id,
-    /// A length that no packet may have.
+    /// It has a length that no packet may have.
     Length,
-    /// It ends before its length says.
+    /// It is shorter than its length field states.
     Truncated,
-    /// Bytes follow it.
+    /// There are extra bytes after it.
     Trailing,
     /// It is longer than the receiver takes.
     Oversize,
     /// The CRC does not match.
     Crc,
-    /// The pattern stands in the body without its stuffing.
+    /// The body has the pattern without stuffing.
     Stuffing,
     /// An instruction that the receiver does not know.
     Instruction,
@@ -112,7 +112,7 @@ pub enum Fault {
     Parameter,
     /// It does not end with the end byte.
     Tail,
-    /// The implementation broke down.
+    /// The implementation failed with an exception or a crash.
     Internal,
 }
 

@@ -1,4 +1,4 @@
-//! Everything cites a document that there is.
+//! Rule: every citation names an existing document.
 
 use super::sentence;
 use crate::model::Citation;

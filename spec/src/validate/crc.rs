@@ -1,4 +1,4 @@
-//! A CRC's parameters yield its check value.
+//! Rule: a CRC's parameters yield its check value.
 
 use crate::model::Crc;
 

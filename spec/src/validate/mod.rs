@@ -1,5 +1,6 @@
-//! What serde can't see: rules over whole files and between them, one a file. Each returns what it finds
-//! wrong, with its place. Rules for one wire alone are in the wire's folder.
+//! Rules that serde can't check: over whole files and between files, one rule per module. Each rule
+//! returns the defects that it finds, with their places. Rules for one wire alone are in the wire's
+//! folder.
 
 mod citation;
 pub(crate) mod crc;
@@ -18,7 +19,7 @@ use crate::{Diagnostic, Spec};
 
 pub(crate) use unique::repeated;
 
-/// Every defect that the rules find, in the order of the rules.
+/// All defects that the rules find, in the order of the rules.
 #[must_use]
 pub fn all(spec: &Spec) -> Vec<Diagnostic> {
     let rules: [fn(&Spec) -> Vec<Diagnostic>; 11] = [

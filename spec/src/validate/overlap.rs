@@ -1,4 +1,4 @@
-//! Registers stand by rising address and share no byte.
+//! Rule: registers are in ascending order of address and don't overlap.
 
 use crate::{Diagnostic, Spec};
 
@@ -12,7 +12,7 @@ pub(super) fn check(spec: &Spec) -> Vec<Diagnostic> {
             let node = format!("registers[{}].address", index + 1);
             if later.address < earlier.address {
                 let message = format!(
-                    "{}({}) stands after {}({}); registers stand by rising address",
+                    "{}({}) is after {}({}); registers are in ascending order of address",
                     later.name, later.address, earlier.name, earlier.address
                 );
                 defects.push(file.diagnostic(&node, message));

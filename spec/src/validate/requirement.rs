@@ -1,5 +1,6 @@
-//! A requirement is used: a vector or a test names it, or its row says what else checks it. One that
-//! is checked with another is as binding for no more than those whom the other binds.
+//! Rule: a vector or a test names each requirement, or its row says what else checks it. A
+//! requirement that is checked with another one is not stricter than that one, and binds no role
+//! that the other does not bind.
 
 use std::collections::BTreeSet;
 
@@ -39,7 +40,7 @@ pub(super) fn check(spec: &Spec) -> Vec<Diagnostic> {
     defects
 }
 
-/// Why a requirement can't be checked with another one.
+/// Why a requirement can't be checked with another requirement.
 fn not_with(spec: &Spec, row: &Requirement, other: &str) -> Option<String> {
     let Some(with) = spec.requirement(other) else {
         return Some(format!("is checked with `{other}`, which is no requirement"));

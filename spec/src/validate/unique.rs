@@ -1,4 +1,4 @@
-//! Names, addresses, codes and ids are given once.
+//! Rule: names, addresses, codes and ids are unique.
 
 use std::collections::BTreeMap;
 use std::fmt::Display;
@@ -27,7 +27,7 @@ pub(super) fn check(spec: &Spec) -> Vec<Diagnostic> {
     defects
 }
 
-/// A defect for each row whose key an earlier row of any of the files has.
+/// A defect for each row that has the key of an earlier row in any of the files.
 pub(crate) fn repeated<'a, T: 'a, R: 'a, K: Ord + Display>(
     files: impl IntoIterator<Item = (&'a File<T>, &'a [R])>,
     list: &str,
@@ -40,7 +40,7 @@ pub(crate) fn repeated<'a, T: 'a, R: 'a, K: Ord + Display>(
         for (index, row) in rows.iter().enumerate() {
             let key = key(row);
             if let Some(earlier) = seen.get(&key) {
-                let message = format!("{field} {key} is already that of {earlier}");
+                let message = format!("{field} {key} already belongs to {earlier}");
                 defects.push(file.diagnostic(&format!("{list}[{index}].{field}"), message));
             } else {
                 seen.insert(key, format!("row {} in {}", index + 1, file.path()));

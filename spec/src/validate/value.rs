@@ -1,4 +1,4 @@
-//! Defaults, ranges, named values and bits fit their register.
+//! Rule: initial values, ranges, named values and bits fit their register.
 
 use crate::load::File;
 use crate::model::{Bound, Device, Range, Register};
@@ -128,7 +128,7 @@ impl Row<'_> {
     }
 }
 
-/// Whether the numbers of a range exclude a value; bounds that are registers do not count.
+/// Whether the numbers of a range exclude a value. Bounds that are registers are ignored.
 fn outside(range: &Range, value: i64) -> bool {
     let below = matches!(range.min, Some(Bound::Value(min)) if value < min);
     let above = matches!(range.max, Some(Bound::Value(max)) if value > max);

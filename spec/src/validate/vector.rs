@@ -1,4 +1,4 @@
-//! A vector's bytes and fields say the same, and its kind of result has what it needs.
+//! Rule: a vector's bytes and fields agree, and its result has the fields that it needs.
 
 use crate::load::File;
 use crate::model::{HexBytes, Outcome, Vector, VectorsFile};
@@ -26,7 +26,7 @@ fn defect(file: &File<VectorsFile>, node: &str, vector: &Vector, message: &str) 
     file.diagnostic(node, format!("{}: {message}", vector.id))
 }
 
-/// Whether the fields that its result needs are there, and no others.
+/// Whether the vector has exactly the fields that its result needs.
 fn shape(vector: &Vector) -> Option<String> {
     let invalid = vector.result == Outcome::Invalid;
     let message = match (&vector.printed, &vector.bytes) {
@@ -52,7 +52,7 @@ fn shape(vector: &Vector) -> Option<String> {
     Some(message.to_owned())
 }
 
-/// Whether a damaged frame says which way it goes, where no frame tells so itself.
+/// Whether an invalid frame has a direction, if the frames of its wire don't state one.
 fn direction(wire: Wire, vector: &Vector) -> Option<String> {
     let needed = !wire.tells_direction() && vector.result == Outcome::Invalid;
     let message = match (needed, vector.direction.is_some()) {
@@ -63,7 +63,7 @@ fn direction(wire: Wire, vector: &Vector) -> Option<String> {
     Some(message.to_owned())
 }
 
-/// Whether the packet's fields, put together by the wire's rules, yield the frame.
+/// Whether the packet's fields yield the frame by the wire's rules.
 fn contents(spec: &Spec, wire: Wire, vector: &Vector) -> Option<String> {
     let packet = vector.packet.as_ref()?;
     let frames = wire.frames(spec, packet);
@@ -77,7 +77,7 @@ fn contents(spec: &Spec, wire: Wire, vector: &Vector) -> Option<String> {
     }
     let at = built.iter().zip(given).take_while(|(built, given)| built == given).count();
     Some(format!(
-        "the fields yield {}, the bytes are {}; they part at byte {at}",
+        "the fields yield {}, the bytes are {}; they differ from byte {at} on",
         HexBytes(built.clone()),
         HexBytes(given.to_vec())
     ))

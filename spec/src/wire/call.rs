@@ -32,7 +32,8 @@ pub struct Call {
     pub devices: Option<Vec<Target>>,
 }
 
-/// One device of a call for several. The data of a write says its own length; a read has no data.
+/// One device in a call for several devices. The data of a write has its own length; a read has no
+/// data.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Target {
     /// Its ID.

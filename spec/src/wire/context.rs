@@ -26,12 +26,12 @@ impl From<Fast> for Context {
     }
 }
 
-/// The request that a fast status packet answers, without which it can't be taken apart.
+/// The request that a fast status packet answers. The packet can't be read without it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Fast {
     /// Bytes of data a block; 0 for Fast Sync Write.
     pub length: u16,
-    /// The devices in the order asked for.
+    /// The devices in the order of the request.
     pub ids: Vec<u8>,
 }
 

@@ -1,7 +1,7 @@
-//! The wires: what is peculiar to each is in its folder, and this file lists them.
+//! The wires. The code of each wire is in its folder, and this file lists them.
 //!
-//! Whoever does not mean one wire in particular takes a [`Wire`] and asks it; [`Rules`] says what
-//! can be asked. To add a wire, add a folder beside the others and a line to each list here.
+//! Code that works with any wire takes a [`Wire`]; [`Rules`] lists what a wire provides. To add a
+//! wire, add a folder beside the others and a line to each list here.
 
 mod call;
 mod context;
@@ -23,7 +23,7 @@ pub use rules::{Ask, Cited, Rules};
 use crate::load::{File, Reader};
 
 impl Wire {
-    /// Every wire. The first is meant where none is named.
+    /// Every wire. The first one is the default.
     pub const ALL: [Self; 2] = [dynamixel2::WIRE, innfos::WIRE];
 }
 
@@ -43,8 +43,8 @@ impl Wires {
     }
 }
 
-/// A packet by its fields, before stuffing and CRC. The same object stands in the vectors' YAML
-/// and in the adapter protocol's JSON; its `kind` tells the wire.
+/// A packet as its fields, before stuffing and CRC. The vectors' YAML and the adapter protocol's
+/// JSON have the same object; its `kind` determines the wire.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(untagged)]
 pub enum Packet {
@@ -55,7 +55,7 @@ pub enum Packet {
 }
 
 impl Packet {
-    /// The wire that it is of.
+    /// The packet's wire.
     #[must_use]
     pub const fn wire(&self) -> Wire {
         match self {

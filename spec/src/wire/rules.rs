@@ -70,10 +70,10 @@ pub trait Rules: Sync + RefUnwindSafe {
         None
     }
 
-    /// The bytes of a packet; `None` for one of another wire or longer than its length can tell.
+    /// The bytes of a packet; `None` if it is too long for its length field.
     fn encode(&self, packet: &Packet) -> Option<Vec<u8>>;
 
-    /// The packet that `bytes` are, one whole frame.
+    /// The packet in `bytes`, which must be one whole frame.
     ///
     /// # Errors
     /// The first rule that they break.
@@ -154,7 +154,7 @@ pub struct Ask<'a> {
 /// A part of a wire's file with what it cites.
 #[derive(Clone, Debug)]
 pub struct Cited<'a> {
-    /// Where it stands in the file.
+    /// Its path in the file.
     pub node: String,
     /// What it is called, with the wire.
     pub name: String,

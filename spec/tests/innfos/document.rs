@@ -7,14 +7,14 @@ use std::{env, fs};
 /// A table as rows of cells, without tags.
 pub(crate) type Table = Vec<Vec<String>>;
 
-/// The document; `None` with a printed line where it is not at hand.
+/// The document; if it is not available, prints a note and returns `None`.
 pub(crate) fn read(spec: &actucheck_spec::Spec) -> Option<String> {
     let file = &spec.document("innfos").expect("no such document").file;
     let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/documents");
     let path = env::var_os("ACTUCHECK_DOCUMENTS").map_or_else(beside, PathBuf::from).join(file);
     let text = fs::read_to_string(&path).ok();
     if text.is_none() {
-        // Past the test harness, which hides what a test that passes prints.
+        // Written directly, as the test harness hides the output of a passing test.
         let _ = writeln!(stderr(), "skipped: {} is not there", path.display());
     }
     text

@@ -1,5 +1,5 @@
-//! What arithmetic can prove of the INNFOS files: of the YAML alone, and against the document
-//! where the workspace stands beside it.
+//! What arithmetic can prove about the INNFOS files: from the YAML alone, and against the document
+//! if it is available.
 
 #![allow(
     clippy::expect_used,

@@ -70,7 +70,7 @@ fn the_speed_at_the_output_is_the_motors_over_the_gear() {
     }
 }
 
-/// The two bytes of the table's row: what the document calls the high and the low one.
+/// The two bytes of the table's row, which the document calls the high and the low one.
 fn row(index: u8) -> [u8; 2] {
     let mut crc = u16::from(index);
     for _ in 0..8 {

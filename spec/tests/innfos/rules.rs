@@ -3,7 +3,7 @@
 use actucheck_spec::Spec;
 use actucheck_spec::load::{Source, embedded};
 
-/// The message about the files after `from` is replaced by `to` in one of them.
+/// The message after `from` is replaced by `to` in one of the files.
 fn broken(file: &str, from: &str, to: &str) -> String {
     let path = format!("spec/{file}");
     let sources: Vec<_> = embedded()
@@ -24,12 +24,12 @@ fn broken(file: &str, from: &str, to: &str) -> String {
 #[test]
 fn a_defect_of_the_protocol_is_found() {
     let cases = [
-        ("code: 0x55", "code: 0x71", "code 113 is already that of row"),
-        ("name: Last shutdown state", "name: Mode", "name Mode (read) is already that of row"),
-        ("code: 2, name: Speed", "code: 1, name: Speed", "code 1 is already"),
-        ("mask: 0x0002", "mask: 0x0001", "mask 1 is already"),
+        ("code: 0x55", "code: 0x71", "code 113 already belongs to row"),
+        ("name: Last shutdown state", "name: Mode", "name Mode (read) already belongs to row"),
+        ("code: 2, name: Speed", "code: 1, name: Speed", "code 1 already belongs to"),
+        ("mask: 0x0002", "mask: 0x0001", "mask 1 already belongs to"),
         ("mask: 0x0002", "mask: 0x0003", "Undervoltage: 0x0003 is no single bit"),
-        ("name: DD-2305", "name: DD-3510", "name DD-3510 is already"),
+        ("name: DD-2305", "name: DD-3510", "name DD-3510 already belongs to"),
         ("source: [innfos §Appendix B]", "source: []", "no citation"),
         ("[innfos §A.1.1]", "[innfoss §A.1.1]", "unknown document `innfoss`"),
         ("innfos.profile.scale", "innfos.profil", "unknown erratum `innfos.profil`"),
@@ -79,9 +79,9 @@ fn a_defect_of_a_vector_is_found() {
             "position",
             "printed: EE 06 07 00 01 06 3F 42 ED",
             "printed: EE 06 07 00 01 06 ED",
-            "part at byte 6",
+            "differ from byte 6",
         ),
-        ("position", "EE 06 07 00 01 01 ED", "EE 06 07 00 01 01 7E 80 ED", "part at byte 6"),
+        ("position", "EE 06 07 00 01 01 ED", "EE 06 07 00 01 01 7E 80 ED", "differ from byte 6"),
         ("handshake", "    result: acceptable\n", "", "can only be `acceptable`"),
         ("handshake", "01 00 00 ED", "01 00 01 ED", "fields yield"),
         ("query", "kind: request", "kind: status", "unknown field `address`"),

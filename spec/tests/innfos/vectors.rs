@@ -7,7 +7,7 @@ use crate::{document, spec, vectors};
 /// Address, command and data.
 type Fields = (u8, u8, Vec<u8>);
 
-/// Which way the vector's packet goes, its address, command and data.
+/// Direction, address, command and data of the vector's packet.
 fn packet(vector: &Vector) -> Option<(Direction, Fields)> {
     let Some(Packet::Innfos(packet)) = &vector.packet else { return None };
     let innfos::Packet { direction, address, command, data } = packet;
@@ -17,7 +17,7 @@ fn packet(vector: &Vector) -> Option<(Direction, Fields)> {
 #[test]
 fn what_depends_on_an_open_erratum_is_acceptable() {
     let spec = spec();
-    // These leave the meaning of the bytes open, not the frame.
+    // These errata concern the meaning of the bytes, not the frame.
     let of_meaning = ["innfos.bandwidth.range"];
     for vector in vectors(&spec) {
         let open = vector.errata.iter().any(|id| {

@@ -1,4 +1,4 @@
-//! A document's lines with the headings above them.
+//! A document's lines with their headings.
 
 use std::fs;
 
@@ -18,7 +18,7 @@ pub(crate) struct Document {
 pub(crate) struct Line {
     /// From 1.
     pub(crate) number: usize,
-    /// The headings that it stands under, the outermost first.
+    /// Its headings, the outermost first.
     pub(crate) headings: Vec<String>,
     /// The line itself.
     pub(crate) text: String,
@@ -45,7 +45,7 @@ impl Document {
 }
 
 impl Line {
-    /// Whether the line stands in a section, given by its number or its heading.
+    /// Whether the line is in a section, given by its number or its heading.
     pub(crate) fn is_under(&self, section: &str) -> bool {
         self.headings.iter().any(|heading| {
             heading
@@ -73,7 +73,7 @@ fn heading(line: &str) -> Option<(usize, String)> {
     Some((level, words.replace(['*', '['], "").trim().to_owned()))
 }
 
-/// The documents with these ids; `None`, and a line that says so, where the folder is not there.
+/// The documents with these ids; if the folder is missing, prints a note and returns `None`.
 pub(crate) fn read(spec: &Spec, ids: &[&str]) -> Option<Vec<Document>> {
     let folder = folder::documents()?;
     let documents = ids.iter().map(|id| {

@@ -1,4 +1,4 @@
-//! Reads the documents themselves, to compare them with what the YAML says of them.
+//! Reads the documents, to compare them with the YAML.
 
 pub(crate) mod document;
 mod folder;
@@ -12,7 +12,7 @@ use std::fmt;
 
 use actucheck_spec::model::ProofKind;
 
-/// A defect found without the register of errata.
+/// A defect found without the errata.
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Finding {
     /// Id of the document.

@@ -38,7 +38,7 @@ pub(crate) fn examples<'a>(wire: &Dynamixel2, document: &'a Document) -> Vec<Exa
     examples
 }
 
-/// The bytes of a row of which every cell holds bytes or nothing.
+/// The bytes of a row in which every cell has bytes or is empty.
 fn row(line: &Line) -> Option<Vec<u8>> {
     let mut bytes = Vec::new();
     for cell in line.cells() {
@@ -51,7 +51,8 @@ fn row(line: &Line) -> Option<Vec<u8>> {
     Some(bytes)
 }
 
-/// Whether header, length and CRC hold. In a fast status packet the last CRC covers the others.
+/// Whether header, length and CRC are right. In a fast status packet the last CRC covers the
+/// others.
 pub(crate) fn is_intact(wire: &Dynamixel2, bytes: &[u8]) -> bool {
     let header = wire.framing.header.len();
     let Some((covered, crc)) = bytes.split_last_chunk::<2>() else {

@@ -1,8 +1,8 @@
-//! Ranges that a register's own bits and named values do not fit. Needs no document.
+//! Ranges that exclude the register's own bits or named values. Needs no document.
 
 use actucheck_spec::model::{Bound, Register};
 
-/// What of a register's range does not fit, if anything.
+/// Why a register's range does not fit, if it does not.
 pub(crate) fn defect(register: &Register) -> Option<String> {
     let range = register.range.as_ref()?;
     let mask = register.bits.iter().fold(0, |all, bit| all | bit.mask());

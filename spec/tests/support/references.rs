@@ -6,7 +6,7 @@ use actucheck_spec::model::{Device, ProofKind, Register};
 use super::Finding;
 use super::document::{Document, Line};
 
-/// The references to what is no register.
+/// The references to addresses without a register.
 pub(crate) fn findings(device: &Device, document: &Document) -> Vec<Finding> {
     let mut findings = Vec::new();
     for line in &document.lines {
@@ -31,15 +31,15 @@ pub(crate) fn findings(device: &Device, document: &Document) -> Vec<Finding> {
     findings
 }
 
-/// What stands in the parentheses.
+/// The content of the parentheses.
 struct Reference {
     address: u16,
     size: Option<u16>,
 }
 
 impl Reference {
-    /// Reads `(512)`, which is an address only where the text is about the control table, and
-    /// `(564, 0x0234, 4[byte])`.
+    /// Reads `(512)`, which is an address only if the text is about the control table, and `(564,
+    /// 0x0234, 4[byte])`.
     fn parse(line: &Line, text: &str) -> Option<Self> {
         let inside = text.strip_prefix('(')?.split(')').next()?;
         if let Some((inside, _)) = inside.split_once("[byte]") {
@@ -53,7 +53,7 @@ impl Reference {
 
     fn is_right(&self, device: &Device, before: &str) -> bool {
         let register = device.registers.iter().find(|register| {
-            // Headings use the plural where they name several.
+            // Headings use the plural for several registers.
             register.address == self.address
                 && before
                     .strip_suffix('s')

@@ -1,4 +1,4 @@
-//! Rows of the documents' control tables, held against the registers of the YAML.
+//! Compares the rows of the documents' control tables with the registers of the YAML.
 
 use actucheck_spec::model::{Access, Bound, Device, ProofKind, Range, Register};
 
@@ -10,7 +10,7 @@ const COLUMNS: usize = 7;
 
 /// A row as it is printed.
 pub(crate) struct Row<'a> {
-    /// Where it stands.
+    /// Its line.
     pub(crate) line: &'a Line,
     /// The address of its register.
     pub(crate) address: u16,
@@ -28,7 +28,7 @@ pub(crate) fn rows(document: &Document) -> Vec<Row<'_>> {
 }
 
 impl Row<'_> {
-    /// What the row prints other than the register.
+    /// The facts of the row that differ from the register.
     pub(crate) fn differences(&self, register: &Register) -> Vec<String> {
         let printed: Vec<_> = self.cells.iter().map(|cell| plain(cell)).collect();
         let right = [
@@ -71,7 +71,7 @@ fn plain(cell: &str) -> String {
     ends.join(" ~ ").replace('、', " ")
 }
 
-/// A register's name without the address behind it.
+/// A register's name without the address after it.
 fn bare(name: &str) -> &str {
     name.split('(').next().unwrap_or(name)
 }

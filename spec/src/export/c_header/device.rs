@@ -101,7 +101,7 @@ const fn c_type(kind: Type) -> &'static str {
     }
 }
 
-/// A number of this type as C has it, also where `int` has 16 bits.
+/// A number of this type as a C constant, which is valid even if `int` has 16 bits.
 fn number(kind: Type, value: i64) -> String {
     let magnitude = value.unsigned_abs();
     match kind {

@@ -1,5 +1,5 @@
-//! Codes, numbers, addresses and ranges as one C99 header. What has no value in C, such as a
-//! range that another register sets, stands in a comment.
+//! Exports codes, numbers, addresses and ranges as one C99 header. Facts without a value in C, such
+//! as a range that another register limits, are in comments.
 
 mod device;
 mod writer;

@@ -4,14 +4,14 @@ use std::fmt::Write as _;
 use super::super::ExportError;
 use crate::generate::words;
 
-/// A header as it grows.
+/// A header under construction.
 pub struct Header {
     text: String,
     names: BTreeSet<String>,
     clash: Option<String>,
 }
 
-/// A name with its value in C, and what it is.
+/// A name with its value in C, and a comment.
 pub(crate) struct Constant {
     pub(crate) name: String,
     pub(crate) value: String,
@@ -32,7 +32,7 @@ const HEAD: &str = "\
 #include <stdint.h>
 ";
 
-/// C99 lets a compiler tell names apart by so many characters only.
+/// A C99 compiler may ignore all characters of a name after this many.
 const SIGNIFICANT: usize = 63;
 
 impl Header {
@@ -40,7 +40,7 @@ impl Header {
         Self { text: HEAD.to_owned(), names: BTreeSet::new(), clash: None }
     }
 
-    /// A line above what belongs together.
+    /// A comment above a group of lines.
     pub(crate) fn title(&mut self, text: &str) {
         self.line("");
         self.line(&format!("/* {} */", harmless(text)));
@@ -54,7 +54,7 @@ impl Header {
     }
 
     pub(crate) fn enumeration(&mut self, tag: &str, constants: &[Constant]) {
-        // C has no enumeration of nothing.
+        // C has no empty enumeration.
         if constants.is_empty() {
             return;
         }
@@ -91,7 +91,7 @@ impl Header {
     }
 }
 
-/// `Goal Position` as `GOAL_POSITION`. What stands in brackets is left out.
+/// `Goal Position` as `GOAL_POSITION`. Text in brackets is left out.
 pub(crate) fn upper(name: &str) -> String {
     let plain = name.split(" (").next().unwrap_or(name);
     words(plain).join("_").to_uppercase()
@@ -106,7 +106,7 @@ fn trailing(comment: &str) -> String {
     if comment.is_empty() { String::new() } else { format!(" /* {} */", harmless(comment)) }
 }
 
-/// A text that does not end the comment that it stands in.
+/// A text that does not end the comment around it.
 fn harmless(text: &str) -> String {
     text.replace("*/", "* /").replace("/*", "/ *")
 }

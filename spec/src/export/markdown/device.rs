@@ -49,7 +49,7 @@ fn cells(row: &Register) -> Vec<String> {
     ]
 }
 
-/// A row for each value with a name, each bit, and each value of a bit.
+/// One row per named value, per bit field, and per value of a bit field.
 fn meanings(register: &Register) -> Vec<Vec<String>> {
     let row = |bit: String, value: Option<&NamedValue>, meaning: String| {
         vec![register.name.clone(), bit, or_nothing(value.map(|row| row.value)), meaning]

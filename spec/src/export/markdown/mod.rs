@@ -1,4 +1,4 @@
-//! The control tables, instructions and commands as tables that a forge shows.
+//! Exports the control tables, instructions and commands as Markdown tables.
 
 mod device;
 mod writer;

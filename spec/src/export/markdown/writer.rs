@@ -1,4 +1,4 @@
-/// A text as it grows.
+/// A text under construction.
 #[derive(Default)]
 pub struct Text(String);
 
@@ -39,12 +39,12 @@ fn row(cells: &[impl AsRef<str>]) -> String {
     format!("| {} |", cells.join(" | "))
 }
 
-/// A cell that stays one.
+/// Escapes a text so that it stays one cell.
 fn escaped(cell: &str) -> String {
     cell.replace('|', r"\|").replace('<', "&lt;").replace('\n', " ")
 }
 
-/// What may be there, or nothing.
+/// An optional text; empty if there is none.
 pub(crate) fn or_nothing(value: Option<impl ToString>) -> String {
     value.map(|value| value.to_string()).unwrap_or_default()
 }

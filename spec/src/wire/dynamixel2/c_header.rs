@@ -35,7 +35,7 @@ pub(super) fn write(wire: &Dynamixel2, header: &mut Header) {
         }
     }
     let errors = status.errors.iter().map(|row| {
-        // The names of most end with the word, which the prefix has already.
+        // Most names end with the word that the prefix already has.
         let name = row.name.strip_suffix(" Error").unwrap_or(&row.name);
         let name = format!("{prefix}_ERROR_{}", upper(name));
         Constant::new(name, format!("{:#04X}", row.number), &row.summary)

@@ -48,7 +48,7 @@ fn constants_of(wire: &Dynamixel2) -> TokenStream {
     let alert = hex8(alert);
     let status_source = format!(" {}.", places(&wire.status.source));
     quote! {
-        /// What every packet begins with, the reserved byte included.
+        /// The first bytes of every packet, including the reserved byte.
         ///
         #[doc = #framing_source]
         pub const HEADER: [u8; #header_size] = [#(#header),*];
@@ -61,14 +61,14 @@ fn constants_of(wire: &Dynamixel2) -> TokenStream {
         #length
         /// The smallest length that a packet may have.
         pub const MIN_LENGTH: u16 = #minimum;
-        /// The bytes that never stand in a body without [`STUFFING_BYTE`] behind them.
+        /// The bytes after which a body always has [`STUFFING_BYTE`].
         ///
         #[doc = #stuffing_source]
         pub const STUFFING_PATTERN: [u8; #pattern_size] = [#(#pattern),*];
-        /// The byte that stuffing puts behind [`STUFFING_PATTERN`].
+        /// The byte that stuffing inserts after [`STUFFING_PATTERN`].
         pub const STUFFING_BYTE: u8 = #insert;
         #crc
-        /// The bit of a status packet's error byte that tells of a hardware error.
+        /// The bit of a status packet's error byte that signals a hardware error.
         ///
         #[doc = #status_source]
         pub const ALERT_BIT: u8 = #alert;
@@ -88,7 +88,7 @@ fn instructions(wire: &Dynamixel2) -> TokenStream {
     rows.push((wire.status.instruction, "Status", status));
     rows.sort_by_key(|(code, ..)| *code);
     let name = type_name("Instruction");
-    let declaration = wire_enum(&name, " What a packet asks for, or that it is an answer.", &rows);
+    let declaration = wire_enum(&name, " The instruction of a packet.", &rows);
     let options = wire.instructions.iter().flat_map(options);
     let fixed = wire.instructions.iter().flat_map(fixed);
 
@@ -129,8 +129,8 @@ fn instructions(wire: &Dynamixel2) -> TokenStream {
                 }
             }
 
-            /// Layout of the parameters of a device's status packet; `None` if it answers with
-            /// no packet of its own.
+            /// Layout of the parameters of a device's status packet; `None` if a device sends no
+            /// status packet of its own.
             #[must_use]
             pub const fn status(self) -> Option<&'static [Field]> {
                 match self {
@@ -139,8 +139,8 @@ fn instructions(wire: &Dynamixel2) -> TokenStream {
                 }
             }
 
-            /// Layout of one device's block in the status packet that all devices share; `None`
-            /// if they share none.
+            /// Layout of one device's block in a fast status packet; `None` if the answer is not
+            /// one.
             #[must_use]
             pub const fn fast_status(self) -> Option<&'static [Field]> {
                 match self {
@@ -149,13 +149,13 @@ fn instructions(wire: &Dynamixel2) -> TokenStream {
                 }
             }
 
-            /// Whether it goes to the broadcast ID only.
+            /// Whether it may be sent to the broadcast ID only.
             #[must_use]
             pub const fn broadcast_only(self) -> bool {
                 #broadcast_only
             }
 
-            /// Whether devices answer it when it goes to the broadcast ID.
+            /// Whether devices answer it when it is sent to the broadcast ID.
             #[must_use]
             pub const fn answers_broadcast(self) -> bool {
                 #answers_broadcast
@@ -164,7 +164,7 @@ fn instructions(wire: &Dynamixel2) -> TokenStream {
     }
 }
 
-/// An enum for each parameter of one byte whose values have names: `FactoryResetOption`.
+/// An enum for each parameter of one byte with named values, such as `FactoryResetOption`.
 fn options(instruction: &Instruction) -> Vec<TokenStream> {
     let one_byte = |field: &&Field| field.size == Some(Size::Bytes(1)) && !field.values.is_empty();
     let fields = instruction.parameters.iter().filter(one_byte);
@@ -189,7 +189,7 @@ fn options(instruction: &Instruction) -> Vec<TokenStream> {
     options.collect()
 }
 
-/// A constant for each parameter whose bytes the document gives: `CLEAR_KEY`.
+/// A constant for each parameter with fixed bytes, such as `CLEAR_KEY`.
 fn fixed(instruction: &Instruction) -> Vec<TokenStream> {
     let constant = |field: &Field| {
         let bytes = field.fixed.as_ref()?;
@@ -214,7 +214,7 @@ fn errors(wire: &Dynamixel2) -> TokenStream {
     rows.extend(
         wire.status.errors.iter().map(|row| (row.number, row.name.as_str(), row.summary.clone())),
     );
-    let doc = " How an instruction went: a status packet's error byte without the alert bit.";
+    let doc = " The result of an instruction: a status packet's error byte without the alert bit.";
     wire_enum(&type_name("Error Number"), doc, &rows)
 }
 

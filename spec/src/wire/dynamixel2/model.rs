@@ -11,15 +11,15 @@ use crate::model::{Citation, Crc, HexBytes, Id, Length, NamedValue};
 pub struct Dynamixel2 {
     /// Its name.
     pub title: String,
-    /// What a packet begins with.
+    /// The start of a packet.
     pub framing: Framing,
-    /// What a packet ends with.
+    /// The end of a packet.
     pub crc: Crc,
-    /// What keeps the header out of bodies.
+    /// Byte stuffing, which keeps the header out of bodies.
     pub stuffing: Stuffing,
-    /// What devices answer.
+    /// The status packet.
     pub status: StatusFormat,
-    /// What hosts may ask, by rising code.
+    /// The instructions of hosts, by ascending code.
     pub instructions: Vec<Instruction>,
 }
 
@@ -27,13 +27,13 @@ pub struct Dynamixel2 {
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Framing {
-    /// The first bytes, the reserved one included.
+    /// The first bytes, including the reserved byte.
     pub header: Vec<u8>,
     /// The IDs that packets may have.
     pub id: Id,
     /// The length field.
     pub length: Length,
-    /// Where this stands.
+    /// The sections that say so.
     pub source: Vec<Citation>,
     /// Ids of the errata that it depends on.
     #[serde(default)]
@@ -44,13 +44,13 @@ pub struct Framing {
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Stuffing {
-    /// The bytes that must not stand in a body alone.
+    /// The bytes after which a body must have the stuffing byte.
     pub pattern: Vec<u8>,
-    /// The byte that is put behind them.
+    /// The byte that is inserted after them.
     pub insert: u8,
-    /// Where the pattern is looked for, in words.
+    /// The bytes that are searched for the pattern, in words.
     pub covers: String,
-    /// Where this stands.
+    /// The sections that say so.
     pub source: Vec<Citation>,
     /// Ids of the errata that it depends on.
     #[serde(default)]
@@ -63,11 +63,11 @@ pub struct Stuffing {
 pub struct StatusFormat {
     /// Its instruction.
     pub instruction: u8,
-    /// The bit of the error byte that tells of a hardware error.
+    /// The bit of the error byte that signals a hardware error.
     pub alert_bit: u8,
     /// The values of the error byte's other bits.
     pub errors: Vec<ErrorNumber>,
-    /// Where this stands.
+    /// The sections that say so.
     pub source: Vec<Citation>,
     /// Ids of the errata that it depends on.
     #[serde(default)]
@@ -78,7 +78,7 @@ pub struct StatusFormat {
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ErrorNumber {
-    /// The number, alert bit aside.
+    /// The number, without the alert bit.
     pub number: u8,
     /// Its name.
     pub name: String,
@@ -86,7 +86,7 @@ pub struct ErrorNumber {
     pub summary: String,
 }
 
-/// What a host may ask.
+/// A command of a host.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Instruction {
@@ -98,28 +98,28 @@ pub struct Instruction {
     pub summary: String,
     /// The sections that describe it.
     pub source: Vec<Citation>,
-    /// Whether it may go to the broadcast ID only.
+    /// Whether it may be sent to the broadcast ID only.
     #[serde(default)]
     pub broadcast_only: bool,
-    /// Whether devices answer it when it goes to the broadcast ID.
+    /// Whether devices answer it when it is sent to the broadcast ID.
     #[serde(default)]
     pub answers_broadcast: bool,
-    /// Whether a device answers it whatever its Status Return Level is.
+    /// Whether a device answers it at every Status Return Level.
     #[serde(default)]
     pub always_answered: bool,
     /// Layout of its parameters.
     #[serde(default)]
     pub parameters: Vec<Field>,
-    /// Layout of the status packets' parameters, if a device answers with one of its own.
+    /// Layout of the status packet's parameters, if each device sends its own status packet.
     pub status: Option<Vec<Field>>,
-    /// Layout of one device's block, if the devices answer with one status packet together.
+    /// Layout of one device's block, if the devices answer with a fast status packet.
     pub fast_status: Option<Vec<Field>>,
     /// Ids of the errata that it depends on.
     #[serde(default)]
     pub errata: Vec<String>,
 }
 
-/// A field of a layout: of `size`, or `each` for a group that repeats to the end.
+/// A field of a layout: with a `size`, or `each` for a group that repeats up to the end.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Field {
@@ -130,10 +130,10 @@ pub struct Field {
     /// The fields that repeat for each device.
     #[serde(default)]
     pub each: Vec<Field>,
-    /// Whether the layout may end before it.
+    /// Whether the field may be missing at the end.
     #[serde(default)]
     pub optional: bool,
-    /// The bytes that it always has, if the document gives them.
+    /// The fixed bytes of the field, if the document states them.
     pub fixed: Option<HexBytes>,
     /// Values with a name.
     #[serde(default)]
@@ -149,6 +149,6 @@ pub struct Field {
 pub enum Size {
     /// So many.
     Bytes(u8),
-    /// As many as an earlier field says, or the `rest`.
+    /// The name of an earlier field that holds the number, or `rest`.
     Named(String),
 }

@@ -10,27 +10,27 @@ use crate::wire::Fast;
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Packet {
-    /// What a host sends.
+    /// An instruction packet, which a host sends.
     Instruction {
-        /// Whom it is for; 254 is the broadcast ID.
+        /// The ID of the device that it is for; 254 is the broadcast ID.
         id: u8,
         /// The instruction's code.
         instruction: u8,
         /// Everything between the instruction and the CRC.
         params: HexBytes,
     },
-    /// What a device answers.
+    /// A status packet, which a device answers.
     Status {
-        /// Who answers.
+        /// The ID of the device that answers.
         id: u8,
         /// The whole error byte, alert bit included.
         error: u8,
         /// Everything between the error and the CRC.
         params: HexBytes,
     },
-    /// What several devices answer together to Fast Sync Read or Fast Sync Write.
+    /// A fast status packet, with which several devices answer Fast Sync Read or Fast Sync Write.
     FastStatus {
-        /// One block a device, in the order asked for.
+        /// One block per device, in the order of the request.
         blocks: Vec<Block>,
     },
 }
@@ -77,8 +77,8 @@ impl Packet {
 pub struct Block {
     /// The whole error byte, alert bit included.
     pub error: u8,
-    /// Who answers.
+    /// The ID of the device that answers.
     pub id: u8,
-    /// What was read; empty for Fast Sync Write.
+    /// The data that was read; empty for Fast Sync Write.
     pub data: HexBytes,
 }

@@ -49,7 +49,7 @@ pub(super) fn write(innfos: &Innfos, header: &mut Header) {
     }
 }
 
-/// A name is given once in each direction.
+/// A command's name is unique per access.
 fn name(prefix: &str, row: &Command) -> String {
     format!("{prefix}_{}_{}", upper(&row.direction.to_string()), upper(&row.name))
 }
@@ -66,7 +66,7 @@ fn commands(innfos: &Innfos, prefix: &str, tag: &str, header: &mut Header) {
         let request =
             Constant::new(format!("{name}_REQUEST_SIZE"), format!("{}U", row.request), "");
         header.define(&request);
-        // Where a reply may have several sizes, a buffer for the largest holds it.
+        // If a reply may have several sizes, the largest is the size of the buffer.
         let largest = row.reply.iter().max().copied().unwrap_or(0);
         let (constant, value) = (format!("{name}_REPLY_SIZE"), format!("{largest}U"));
         header.define(&Constant::new(constant, value, several(&row.reply)));

@@ -58,15 +58,15 @@ fn constants_of(innfos: &Innfos) -> TokenStream {
         pub const BROADCAST_ADDRESS: u8 = #broadcast;
         #length
         #crc
-        /// From so many bytes of data on a request has a CRC.
+        /// A request with at least this many bytes of data has a CRC.
         ///
         #[doc = #presence_source]
         pub const REQUEST_CRC_FROM: usize = #request;
-        /// From so many bytes of data on a reply has a CRC.
+        /// A reply with at least this many bytes of data has a CRC.
         ///
         #[doc = #presence_source]
         pub const REPLY_CRC_FROM: usize = #reply;
-        /// The commands whose shorter replies may have one, or zeros in its place.
+        /// The commands whose shorter replies may have a CRC, or zeros in its place.
         ///
         #[doc = #presence_source]
         pub const OPEN_REPLIES: [u8; #count] = [#(#open),*];
@@ -81,7 +81,7 @@ fn constants_of(innfos: &Innfos) -> TokenStream {
     }
 }
 
-/// A name is given once in each direction, so the verb belongs to it where a value does.
+/// A command's name is unique per access only, so a command with a value has the verb in its name.
 fn command_name(command: &Command) -> String {
     match (command.format, command.direction) {
         (None, _) => command.name.clone(),
@@ -98,7 +98,7 @@ fn commands(commands: &[Command]) -> TokenStream {
         .map(|(row, name)| (row.code, name.as_str(), command_doc(row)))
         .collect();
     rows.sort_by_key(|(code, ..)| *code);
-    let declaration = wire_enum(&type_name("Command"), " What a host asks.", &rows);
+    let declaration = wire_enum(&type_name("Command"), " A command of a host.", &rows);
     let arms = commands.iter().zip(&names).map(|(row, name)| {
         let (variant, row) = (type_name(name), command_row(row));
         quote!(Self::#variant => &#row,)
@@ -107,7 +107,7 @@ fn commands(commands: &[Command]) -> TokenStream {
         #declaration
 
         impl Command {
-            /// What the documents say of it; `None` for an unknown one.
+            /// The facts about the command; `None` for an unknown one.
             #[must_use]
             pub const fn row(self) -> Option<&'static CommandRow> {
                 Some(match self {
@@ -146,7 +146,7 @@ fn command_row(command: &Command) -> TokenStream {
         Format::Iq8 => quote!(Format::Iq8),
         Format::Iq24 => quote!(Format::Iq24),
         Format::Scaled => {
-            // A checked spec has a factor where the format is this.
+            // A validated spec has a factor for this format.
             let factor = Literal::f64_unsuffixed(command.factor.unwrap_or(1.0));
             quote!(Format::Scaled { factor: #factor })
         }
@@ -212,7 +212,7 @@ fn alarms(alarms: &Alarms) -> TokenStream {
         pub struct Alarms(pub u16);
 
         impl Alarms {
-            /// What is set, by name: each that has one, then the one name of all others.
+            /// The names of the set bits: one name per named bit, then one name for all other bits.
             pub fn names(self) -> impl Iterator<Item = &'static str> {
                 let rows = [#((#masks, #names),)* (!#known, #other_name)];
                 rows.into_iter().filter(move |row: &(u16, _)| self.0 & row.0 != 0).map(|row| row.1)

@@ -14,23 +14,23 @@ use crate::model::{Citation, Crc, Id, Length};
 pub struct Innfos {
     /// Its name.
     pub title: String,
-    /// What a frame is made of.
+    /// The structure of a frame.
     pub framing: Envelope,
-    /// What guards the data.
+    /// The CRC of the data.
     pub crc: Crc,
     /// Which frames carry a CRC.
     pub crc_presence: CrcPresence,
-    /// How frames travel.
+    /// How frames are transported.
     pub udp: Udp,
-    /// The ways to write a value into the data, one row a format.
+    /// The formats of values in the data, one row per format.
     pub formats: Vec<FormatRow>,
-    /// What hosts may ask, in the order of the document's tables.
+    /// The commands of hosts, in the order of the document's tables.
     pub commands: Vec<Command>,
     /// The values of the format `mode`.
     pub modes: Modes,
     /// The bits of the format `alarms`.
     pub alarms: Alarms,
-    /// The models, whose full scales give relative values their size.
+    /// The models, with the full scales of relative values.
     pub actuators: Actuators,
 }
 
@@ -56,11 +56,11 @@ pub struct Envelope {
     pub header: u8,
     /// The addresses that frames may have.
     pub address: Id,
-    /// The length field, which stands behind address and command.
+    /// The length field, which comes after address and command.
     pub length: Length,
     /// The last byte.
     pub tail: u8,
-    /// Where this stands.
+    /// The sections that say so.
     pub source: Vec<Citation>,
     /// Ids of the errata that it depends on.
     #[serde(default)]
@@ -71,13 +71,13 @@ pub struct Envelope {
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CrcPresence {
-    /// Data bytes from which on a request has one.
+    /// A request with at least this many bytes of data has a CRC.
     pub request: u16,
-    /// Data bytes from which on a reply has one.
+    /// A reply with at least this many bytes of data has a CRC.
     pub reply: u16,
-    /// The commands whose shorter replies may come without, with zeros in its place, or with it.
+    /// The commands whose shorter replies may have no CRC, zeros in its place, or a CRC.
     pub open: Vec<u8>,
-    /// Where this stands.
+    /// The sections that say so.
     pub source: Vec<Citation>,
     /// Ids of the errata that it depends on.
     #[serde(default)]
@@ -92,24 +92,24 @@ pub struct Udp {
     pub address: Ipv4Addr,
     /// The board's port.
     pub port: u16,
-    /// Where frames for every board go.
+    /// The broadcast address, for frames to every board.
     pub broadcast: Ipv4Addr,
-    /// The mask of the network that both are in.
+    /// The network mask of board and host.
     pub netmask: Ipv4Addr,
     /// The network's gateway.
     pub gateway: Ipv4Addr,
-    /// The host's last number is larger than this.
+    /// The last byte of the host's address is larger than this.
     pub host_above: u8,
     /// How long the board takes to find its actuators.
     pub query_milliseconds: u32,
-    /// Where this stands.
+    /// The sections that say so.
     pub source: Vec<Citation>,
     /// Ids of the errata that it depends on.
     #[serde(default)]
     pub errata: Vec<String>,
 }
 
-/// How a value stands in the data; the high byte comes first.
+/// The format of a value in the data; the high byte comes first.
 #[derive(
     Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Deserialize, Serialize, JsonSchema,
 )]
@@ -151,24 +151,24 @@ impl fmt::Display for Format {
 pub struct FormatRow {
     /// The format.
     pub format: Format,
-    /// How many bytes it may have.
+    /// The number of bytes that it may have.
     pub sizes: Vec<u16>,
-    /// For a fixed-point number: how many of its bits stand behind the point.
+    /// For a fixed-point number: the number of fractional bits.
     pub fraction_bits: Option<u8>,
-    /// Where this stands.
+    /// The sections that say so.
     pub source: Vec<Citation>,
     /// Ids of the errata that it depends on.
     #[serde(default)]
     pub errata: Vec<String>,
 }
 
-/// What a host may ask.
+/// A command of a host.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Command {
     /// The command byte.
     pub code: u8,
-    /// Its name, given once in each direction.
+    /// Its name, which is unique per access.
     pub name: String,
     /// Whether it reads a value or writes one.
     pub direction: Operation,
@@ -176,15 +176,15 @@ pub struct Command {
     pub request: u16,
     /// The sizes that the reply's data may have; empty if no reply comes.
     pub reply: Vec<u16>,
-    /// Format of the value read or written. What answers a write is a flag.
+    /// Format of the value that is read or written. A write is answered with a flag.
     pub format: Option<Format>,
-    /// For the format `scaled`: the number on the wire of the value 1.
+    /// For the format `scaled`: the number that represents the value 1.
     pub factor: Option<f64>,
     /// The value's unit, if the document names one.
     pub unit: Option<String>,
-    /// The quantity whose full scale is the value 1.0, if the value is relative.
+    /// For a relative value: the quantity whose full scale is 1.0.
     pub full_scale: Option<FullScale>,
-    /// The table that has it.
+    /// The table that lists it.
     pub source: Vec<Citation>,
     /// Ids of the errata that it depends on.
     #[serde(default)]
@@ -226,12 +226,12 @@ pub enum FullScale {
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Modes {
-    /// Where this stands.
+    /// The sections that say so.
     pub source: Vec<Citation>,
     /// Ids of the errata that it depends on.
     #[serde(default)]
     pub errata: Vec<String>,
-    /// One row a mode.
+    /// One row per mode.
     pub rows: Vec<Mode>,
 }
 
@@ -245,18 +245,18 @@ pub struct Mode {
     pub name: String,
 }
 
-/// What an actuator warns of.
+/// The alarms of an actuator.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Alarms {
-    /// Where this stands.
+    /// The sections that say so.
     pub source: Vec<Citation>,
     /// Ids of the errata that it depends on.
     #[serde(default)]
     pub errata: Vec<String>,
-    /// What any other bit means.
+    /// The meaning of any other bit.
     pub other: String,
-    /// One row a bit.
+    /// One row per bit.
     pub rows: Vec<AlarmBit>,
 }
 
@@ -266,7 +266,7 @@ pub struct Alarms {
 pub struct AlarmBit {
     /// The bit.
     pub mask: u16,
-    /// What it warns of.
+    /// Its meaning.
     pub name: String,
 }
 
@@ -274,12 +274,12 @@ pub struct AlarmBit {
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Actuators {
-    /// Where this stands.
+    /// The sections that say so.
     pub source: Vec<Citation>,
     /// Ids of the errata that it depends on.
     #[serde(default)]
     pub errata: Vec<String>,
-    /// One row a model.
+    /// One row per model.
     pub rows: Vec<Actuator>,
 }
 
@@ -291,8 +291,8 @@ pub struct Actuator {
     pub name: String,
     /// Current in A.
     pub current: f64,
-    /// Speed of the motor in revolutions a minute; relative speeds refer to it.
+    /// Speed of the motor in revolutions per minute; relative speeds refer to it.
     pub motor_speed: f64,
-    /// Speed behind the gear in revolutions a minute.
+    /// Speed after the gear in revolutions per minute.
     pub output_speed: f64,
 }

@@ -1,5 +1,5 @@
-//! The slow, obviously right model: CRC and frames as the document describes them, a byte at a time.
-//! It shares no code with the codec and none with the generator.
+//! The reference model: CRC and frames as the document describes them, byte by byte. It is slow and
+//! obviously right, and shares no code with the codec or the generator.
 
 use crate::model::{Fault, HexBytes};
 use crate::wire::Direction;
@@ -11,7 +11,7 @@ const HEADER: u8 = 0xEE;
 const TAIL: u8 = 0xED;
 /// Bytes of header, address, command and length.
 const PREFIX: usize = 5;
-/// The commands whose replies of one byte may have a CRC or not.
+/// The commands whose replies of one byte may or may not have a CRC.
 const OPEN: [u8; 2] = [0x02, 0x44];
 
 /// CRC-16/MODBUS, lowest bit first, bit by bit.
@@ -36,14 +36,14 @@ pub fn encode(packet: &Packet) -> Option<Vec<u8>> {
     frame.extend(length.to_be_bytes());
     frame.extend(data.iter());
     if has_crc(*direction, data) {
-        // The low byte of CRC-16/MODBUS first, which the document calls the high one.
+        // The low byte of CRC-16/MODBUS comes first; the document calls it the high byte.
         frame.extend(crc(data).to_le_bytes());
     }
     frame.push(TAIL);
     Some(frame)
 }
 
-/// A request with data has a CRC, a reply only from two bytes of data on.
+/// A request with data has a CRC; a reply has one if it has at least two bytes of data.
 fn has_crc(direction: Direction, data: &[u8]) -> bool {
     match direction {
         Direction::Request => !data.is_empty(),
@@ -51,7 +51,7 @@ fn has_crc(direction: Direction, data: &[u8]) -> bool {
     }
 }
 
-/// Whether a reply may come without a CRC, with zeros in its place, or with it.
+/// Whether a reply may have no CRC, zeros in its place, or a CRC.
 fn is_open(direction: Direction, command: u8, data: &[u8]) -> bool {
     direction == Direction::Reply && data.len() == 1 && OPEN.contains(&command)
 }
@@ -62,14 +62,14 @@ pub fn is_unspecified(packet: &Packet) -> bool {
     is_open(packet.direction, packet.command, &packet.data)
 }
 
-/// Whether zeros or the CRC of the data, and the end, are what stands behind the data: all that
-/// tells a reply with a CRC from one without, as another frame may follow.
+/// Whether zeros or the CRC, then the end byte, follow the data. Only this distinguishes a reply
+/// with a CRC from one without, as another frame may follow.
 fn looks_like_crc(data: &[u8], behind: &[u8]) -> bool {
     let ends = |crc: [u8; 2]| behind.starts_with(&[&crc[..], &[TAIL]].concat());
     ends([0, 0]) || ends(crc(data).to_le_bytes())
 }
 
-/// The packet that `bytes` are, one whole frame.
+/// The packet in `bytes`, which must be one whole frame.
 ///
 /// # Errors
 /// The first rule that they break: header, length, tail, trailing bytes, CRC.
@@ -81,7 +81,7 @@ pub fn decode(direction: Direction, bytes: &[u8]) -> Result<Packet, Fault> {
     if first.crc_matches { Ok(first.packet) } else { Err(Fault::Crc) }
 }
 
-/// The packets of a datagram: frame behind frame, up to the first byte that begins none.
+/// The packets of a datagram, one frame after the other, up to the first byte that begins no frame.
 #[must_use]
 pub fn packets(direction: Direction, datagram: &[u8]) -> Vec<Packet> {
     let mut packets = Vec::new();
@@ -93,8 +93,8 @@ pub fn packets(direction: Direction, datagram: &[u8]) -> Vec<Packet> {
     packets
 }
 
-/// The packets of a datagram wherever they begin: where none does, the search goes on one byte
-/// further.
+/// The packets of a datagram at any place: if none begins at a byte, the search continues at the
+/// next byte.
 #[must_use]
 pub fn packets_anywhere(direction: Direction, datagram: &[u8]) -> Vec<Packet> {
     let mut packets = Vec::new();
@@ -112,17 +112,17 @@ pub fn packets_anywhere(direction: Direction, datagram: &[u8]) -> Vec<Packet> {
     packets
 }
 
-/// The packet that begins here if everything is right with it, and its size.
+/// The valid packet that begins here, and its size.
 fn whole(direction: Direction, bytes: &[u8]) -> Option<(Packet, usize)> {
     let first = first(direction, bytes).ok().filter(|first| first.crc_matches)?;
     Some((first.packet, first.size))
 }
 
-/// The packet that begins somewhere, and its size.
+/// The packet that begins at a place, and its size.
 struct First {
     packet: Packet,
     size: usize,
-    /// Right, or there is none.
+    /// The CRC is right, or the frame has none.
     crc_matches: bool,
 }
 

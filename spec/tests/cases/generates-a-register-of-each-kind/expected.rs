@@ -4,7 +4,7 @@
 pub mod dynamixel2 {
     use crate::layout::{Field, Size};
     use crate::register::NamedValue;
-    /// What every packet begins with, the reserved byte included.
+    /// The first bytes of every packet, including the reserved byte.
     ///
     /// book §1.
     pub const HEADER: [u8; 4usize] = [0xFF, 0xFF, 0xFD, 0x00];
@@ -22,11 +22,11 @@ pub mod dynamixel2 {
     pub const LENGTH_LOW_BYTE_FIRST: bool = true;
     /// The smallest length that a packet may have.
     pub const MIN_LENGTH: u16 = 3u16;
-    /// The bytes that never stand in a body without [`STUFFING_BYTE`] behind them.
+    /// The bytes after which a body always has [`STUFFING_BYTE`].
     ///
     /// book §1.
     pub const STUFFING_PATTERN: [u8; 3usize] = [0xFF, 0xFF, 0xFD];
-    /// The byte that stuffing puts behind [`STUFFING_PATTERN`].
+    /// The byte that stuffing inserts after [`STUFFING_PATTERN`].
     pub const STUFFING_BYTE: u8 = 0xFD;
     /// The polynomial of CRC-16/UMTS, highest power in the highest bit.
     ///
@@ -36,17 +36,17 @@ pub mod dynamixel2 {
     pub const CRC_INITIAL: u16 = 0x0000;
     /// Whether the CRC takes and gives the lowest bit of a byte first.
     pub const CRC_REFLECTED: bool = false;
-    /// What the CRC's last value is xored with.
+    /// The value that is xored with the CRC's last value.
     pub const CRC_FINAL_XOR: u16 = 0x0000;
     /// The CRC of the nine ASCII characters `123456789`.
     pub const CRC_CHECK: u16 = 0xFEE8;
     /// Whether the CRC's low byte comes first on the wire.
     pub const CRC_LOW_BYTE_FIRST: bool = true;
-    /// The bit of a status packet's error byte that tells of a hardware error.
+    /// The bit of a status packet's error byte that signals a hardware error.
     ///
     /// book §1.
     pub const ALERT_BIT: u8 = 0x80;
-    /// What a packet asks for, or that it is an answer.
+    /// The instruction of a packet.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum Instruction {
         /** `0x01`: Asks.
@@ -57,13 +57,13 @@ pub mod dynamixel2 {
 
  book §1.*/
         Status,
-        /// A byte that the documents give no name.
+        /// A byte without a name in the documents.
         Unknown(u8),
     }
     impl Instruction {
-        /// Every one with a name, by rising code.
+        /// Every named one, by ascending code.
         pub const ALL: [Self; 2usize] = [Self::Ping, Self::Status];
-        /// What this byte stands for.
+        /// The value with this byte.
         #[must_use]
         pub const fn from_code(code: u8) -> Self {
             match code {
@@ -101,8 +101,8 @@ pub mod dynamixel2 {
                 _ => None,
             }
         }
-        /// Layout of the parameters of a device's status packet; `None` if it answers with
-        /// no packet of its own.
+        /// Layout of the parameters of a device's status packet; `None` if a device sends no
+        /// status packet of its own.
         #[must_use]
         pub const fn status(self) -> Option<&'static [Field]> {
             match self {
@@ -110,39 +110,39 @@ pub mod dynamixel2 {
                 _ => None,
             }
         }
-        /// Layout of one device's block in the status packet that all devices share; `None`
-        /// if they share none.
+        /// Layout of one device's block in a fast status packet; `None` if the answer is not
+        /// one.
         #[must_use]
         pub const fn fast_status(self) -> Option<&'static [Field]> {
             match self {
                 _ => None,
             }
         }
-        /// Whether it goes to the broadcast ID only.
+        /// Whether it may be sent to the broadcast ID only.
         #[must_use]
         pub const fn broadcast_only(self) -> bool {
             matches!(self,)
         }
-        /// Whether devices answer it when it goes to the broadcast ID.
+        /// Whether devices answer it when it is sent to the broadcast ID.
         #[must_use]
         pub const fn answers_broadcast(self) -> bool {
             matches!(self,)
         }
     }
-    /// How an instruction went: a status packet's error byte without the alert bit.
+    /// The result of an instruction: a status packet's error byte without the alert bit.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum ErrorNumber {
         /// `0x00`: The instruction was carried out.
         None,
         /// `0x01`: It failed.
         ResultFail,
-        /// A byte that the documents give no name.
+        /// A byte without a name in the documents.
         Unknown(u8),
     }
     impl ErrorNumber {
-        /// Every one with a name, by rising code.
+        /// Every named one, by ascending code.
         pub const ALL: [Self; 2usize] = [Self::None, Self::ResultFail];
-        /// What this byte stands for.
+        /// The value with this byte.
         #[must_use]
         pub const fn from_code(code: u8) -> Self {
             match code {
@@ -203,21 +203,21 @@ pub mod innfos {
     pub const CRC_INITIAL: u16 = 0xFFFF;
     /// Whether the CRC takes and gives the lowest bit of a byte first.
     pub const CRC_REFLECTED: bool = true;
-    /// What the CRC's last value is xored with.
+    /// The value that is xored with the CRC's last value.
     pub const CRC_FINAL_XOR: u16 = 0x0000;
     /// The CRC of the nine ASCII characters `123456789`.
     pub const CRC_CHECK: u16 = 0x4B37;
     /// Whether the CRC's low byte comes first on the wire.
     pub const CRC_LOW_BYTE_FIRST: bool = true;
-    /// From so many bytes of data on a request has a CRC.
+    /// A request with at least this many bytes of data has a CRC.
     ///
     /// book §2.
     pub const REQUEST_CRC_FROM: usize = 1usize;
-    /// From so many bytes of data on a reply has a CRC.
+    /// A reply with at least this many bytes of data has a CRC.
     ///
     /// book §2.
     pub const REPLY_CRC_FROM: usize = 2usize;
-    /// The commands whose shorter replies may have one, or zeros in its place.
+    /// The commands whose shorter replies may have a CRC, or zeros in its place.
     ///
     /// book §2.
     pub const OPEN_REPLIES: [u8; 0usize] = [];
@@ -229,20 +229,20 @@ pub mod innfos {
     pub const EVERY_BOARD: [u8; 4] = [10u8, 0u8, 0u8, 255u8];
     /// The board's UDP port.
     pub const PORT: u16 = 2000;
-    /// What a host asks.
+    /// A command of a host.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum Command {
         /** `0x01`: State; the reply carries a value, flag.
 
  book §2.*/
         ReadState,
-        /// A byte that the documents give no name.
+        /// A byte without a name in the documents.
         Unknown(u8),
     }
     impl Command {
-        /// Every one with a name, by rising code.
+        /// Every named one, by ascending code.
         pub const ALL: [Self; 1usize] = [Self::ReadState];
-        /// What this byte stands for.
+        /// The value with this byte.
         #[must_use]
         pub const fn from_code(code: u8) -> Self {
             match code {
@@ -268,7 +268,7 @@ pub mod innfos {
         }
     }
     impl Command {
-        /// What the documents say of it; `None` for an unknown one.
+        /// The facts about the command; `None` for an unknown one.
         #[must_use]
         pub const fn row(self) -> Option<&'static CommandRow> {
             Some(
@@ -291,13 +291,13 @@ pub mod innfos {
     /// What the actuator controls (book §2).
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum Mode {
-        /// A byte that the documents give no name.
+        /// A byte without a name in the documents.
         Unknown(u8),
     }
     impl Mode {
-        /// Every one with a name, by rising code.
+        /// Every named one, by ascending code.
         pub const ALL: [Self; 0usize] = [];
-        /// What this byte stands for.
+        /// The value with this byte.
         #[must_use]
         pub const fn from_code(code: u8) -> Self {
             match code {
@@ -323,7 +323,7 @@ pub mod innfos {
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
     pub struct Alarms(pub u16);
     impl Alarms {
-        /// What is set, by name: each that has one, then the one name of all others.
+        /// The names of the set bits: one name per named bit, then one name for all other bits.
         pub fn names(self) -> impl Iterator<Item = &'static str> {
             let rows = [(!0x0000, "None")];
             rows.into_iter()
@@ -459,11 +459,11 @@ pub mod motor {
     pub enum Mode {
         /// `4`: Turning.
         Turning,
-        /// A value that the documents give no name.
+        /// A value without a name in the documents.
         Unknown(u8),
     }
     impl Mode {
-        /// What this number stands for.
+        /// The value with this number.
         #[must_use]
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
@@ -534,7 +534,7 @@ pub mod motor {
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
     pub struct State(pub u32);
     impl State {
-        /// What this number stands for.
+        /// The value with this number.
         #[must_use]
         pub const fn from_raw(raw: u32) -> Self {
             Self(raw)
@@ -544,7 +544,7 @@ pub mod motor {
         pub const fn raw(self) -> u32 {
             self.0
         }
-        /// The bits that the documents give no name, in their places.
+        /// The bits without a name in the documents, in their places.
         #[must_use]
         pub const fn unnamed(self) -> u32 {
             self.0 & !0x31
@@ -575,11 +575,11 @@ pub mod motor {
     pub enum Profile {
         /// `3`: Trapezoidal.
         Trapezoidal,
-        /// A value that the documents give no name.
+        /// A value without a name in the documents.
         Unknown(u32),
     }
     impl Profile {
-        /// What this number stands for.
+        /// The value with this number.
         #[must_use]
         pub const fn from_raw(raw: u32) -> Self {
             match raw {

@@ -1,4 +1,4 @@
-//! An instruction packet in words, for libraries that have a call an instruction rather than
+//! An instruction packet as a call, for libraries that have one function per instruction instead of
 //! packets.
 
 use crate::wire::dynamixel2::Packet;
@@ -18,7 +18,7 @@ pub fn call(packet: &Packet) -> Option<Call> {
         0x05 => plain("action", params),
         0x06 => factory_reset(params),
         0x08 => plain("reboot", params),
-        // The meaning of their bytes is a device's own; a call takes them as they are.
+        // The meaning of these bytes depends on the device; a call takes them as they are.
         0x10 => Some(with_params("clear", params)),
         0x20 => Some(with_params("control_table_backup", params)),
         0x82 => sync_read("sync_read", params),
@@ -107,7 +107,7 @@ fn bulk_write(params: &[u8]) -> Option<Vec<Target>> {
     Some(devices)
 }
 
-/// The first two bytes, low byte first, and what follows them.
+/// The first two bytes as a number, low byte first, and the rest.
 fn number(bytes: &[u8]) -> Option<(u16, &[u8])> {
     let (number, rest) = bytes.split_first_chunk()?;
     Some((u16::from_le_bytes(*number), rest))

@@ -1,7 +1,8 @@
-//! The slow, obviously right model: what the documents say, a byte at a time, for expected results.
+//! The reference model: slow and obviously right. It follows the documents byte by byte and yields
+//! expected results.
 //!
-//! It shares no code with the codec and none with the generator: whoever reads it beside the
-//! documents must be able to see that it is right. Speed is no aim.
+//! It shares no code with the codec or the generator. A reader with the documents at hand must be
+//! able to see that it is right; speed is not a goal.
 
 mod call;
 mod packet;
@@ -13,9 +14,9 @@ pub use packet::{
 };
 pub use stream::{Event, events, is_certain, packets, packets_behind_lengths};
 
-/// What every packet begins with.
+/// The first bytes of every packet.
 pub const HEADER: [u8; 4] = [0xFF, 0xFF, 0xFD, 0x00];
-/// The bytes that byte stuffing looks for.
+/// The pattern of byte stuffing.
 pub const PATTERN: [u8; 3] = [0xFF, 0xFF, 0xFD];
 /// The instruction of a status packet.
 pub const STATUS: u8 = 0x55;

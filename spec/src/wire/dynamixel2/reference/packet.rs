@@ -18,7 +18,7 @@ pub fn crc(bytes: &[u8]) -> u16 {
     crc
 }
 
-/// The body with FD behind every pattern.
+/// The body with FD after every pattern.
 #[must_use]
 pub fn stuff(body: &[u8]) -> Vec<u8> {
     let mut out = Vec::new();
@@ -33,10 +33,10 @@ pub fn stuff(body: &[u8]) -> Vec<u8> {
     out
 }
 
-/// The body without the FD behind every pattern.
+/// The body without the FD after every pattern.
 ///
 /// # Errors
-/// [`Fault::Stuffing`] if a pattern has no FD behind it.
+/// [`Fault::Stuffing`] if a pattern has no FD after it.
 pub fn unstuff(stuffed: &[u8]) -> Result<Vec<u8>, Fault> {
     let mut out: Vec<u8> = Vec::new();
     let mut bytes = stuffed.iter();
@@ -49,7 +49,7 @@ pub fn unstuff(stuffed: &[u8]) -> Result<Vec<u8>, Fault> {
     Ok(out)
 }
 
-/// A frame around a body that is sent as it is.
+/// A frame with this body, which is not stuffed.
 #[must_use]
 pub fn frame(id: u8, body: &[u8]) -> Vec<u8> {
     let length = u16::try_from(body.len() + 2).unwrap_or(u16::MAX);
@@ -93,10 +93,10 @@ fn encode_fast(blocks: &[Block]) -> Vec<u8> {
     frame
 }
 
-/// The packet that `bytes` are, one whole frame.
+/// The packet in `bytes`, which must be one whole frame.
 ///
 /// # Errors
-/// The first rule that they break, front to back.
+/// The first rule that they break, from front to back.
 pub fn decode(bytes: &[u8]) -> Result<Packet, Fault> {
     let (id, stuffed) = body(bytes)?;
     let body = unstuff(stuffed)?;
@@ -113,7 +113,7 @@ pub fn decode(bytes: &[u8]) -> Result<Packet, Fault> {
     }
 }
 
-/// The fast status packet that `bytes` are, if they answer a request for `fast`.
+/// The fast status packet in `bytes`, as the answer to the request `fast`.
 ///
 /// # Errors
 /// The first rule that they break.
@@ -149,7 +149,7 @@ pub fn decode_fast(bytes: &[u8], fast: &Fast) -> Result<Packet, Fault> {
     Ok(Packet::FastStatus { blocks })
 }
 
-/// ID and stuffed body of a frame whose header, ID, length, size and CRC are right.
+/// ID and stuffed body of a frame, after checking header, ID, length, size and CRC.
 fn body(bytes: &[u8]) -> Result<(u8, &[u8]), Fault> {
     if bytes.iter().zip(HEADER).any(|(found, expected)| *found != expected) {
         return Err(Fault::Header);

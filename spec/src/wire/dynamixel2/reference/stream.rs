@@ -1,27 +1,28 @@
-//! Packets in a stream, found the slow way: at each byte, is what begins here a whole packet?
+//! Packets in a stream, found the slow way: at each byte, test whether a whole packet begins.
 
 use super::{BROADCAST, HEADER, PREFIX, STATUS, crc, decode, unstuff};
 use crate::model::Fault;
 use crate::wire::dynamixel2::Packet;
 
-/// The shortest status packet. A receiver may take so many bytes before it looks at their length.
+/// The length of the shortest status packet. A receiver may read this many bytes before it looks at
+/// the length field.
 const SHORTEST: usize = 11;
 
-/// What a part of a stream is to a receiver.
+/// A part of a stream, as a receiver sees it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Event {
-    /// A packet: its bytes, and what it says.
+    /// A packet, and its bytes.
     Packet(Vec<u8>, Packet),
-    /// A status packet from the broadcast ID, whose header, length and last CRC are right. It takes
-    /// the request to read the rest.
+    /// A status packet from the broadcast ID with a right header, length and last CRC. Reading the
+    /// rest needs the request.
     FastStatus(Vec<u8>),
-    /// So many bytes belong to no packet, and why none begins with the first of them:
+    /// A number of bytes that belong to no packet, and why no packet begins at the first of them:
     /// [`Fault::Header`] where there is no header.
     Skipped(usize, Fault),
 }
 
 impl Event {
-    /// How many bytes of the stream it is.
+    /// Its size in bytes.
     #[must_use]
     pub fn size(&self) -> usize {
         match self {
@@ -31,9 +32,9 @@ impl Event {
     }
 }
 
-/// All that is certain of a stream so far, after which nothing comes if it is `quiet`, to a receiver
-/// of packets of at most `max_packet` bytes. From the front, byte by byte; every header is looked at
-/// afresh. Bytes that are skipped end at the next header.
+/// The parts of a stream that are certain so far, for a receiver of packets of at most `max_packet`
+/// bytes. `quiet` means that nothing follows. Works byte by byte from the front and examines every
+/// header anew. Skipped bytes end at the next header.
 #[must_use]
 pub fn events(stream: &[u8], quiet: bool, max_packet: usize) -> Vec<Event> {
     let mut events = Vec::new();
@@ -66,17 +67,17 @@ pub fn events(stream: &[u8], quiet: bool, max_packet: usize) -> Vec<Event> {
     events
 }
 
-/// What a header begins.
+/// The result of examining a header.
 enum Look {
     /// A packet.
     Event(Event),
-    /// None, and why.
+    /// Not a packet, and the reason.
     False(Fault),
-    /// It takes more bytes to say.
+    /// More bytes are needed to decide.
     Open,
 }
 
-/// Tries the rules one after the other, each as soon as its bytes are there.
+/// Checks the rules in order, each as soon as its bytes are available.
 fn look(bytes: &[u8], max_packet: usize) -> Look {
     let [_, _, _, _, id, ..] = *bytes else { return Look::Open };
     if id > 252 && id != BROADCAST {
@@ -91,7 +92,7 @@ fn look(bytes: &[u8], max_packet: usize) -> Look {
     }
     let Some(instruction) = bytes.get(PREFIX) else { return Look::Open };
     let fast = id == BROADCAST && *instruction == STATUS;
-    // A status packet has an error, a fast one an ID too.
+    // A status packet has an error byte; a fast status packet has an ID too.
     let shortest = if fast { 5 } else { 4 };
     if *instruction == STATUS && size < PREFIX + shortest {
         return Look::False(Fault::Length);
@@ -113,19 +114,19 @@ fn look(bytes: &[u8], max_packet: usize) -> Look {
     }
 }
 
-/// Whether stuffing is missing in the body, which ends at `end`, as far as it is there.
+/// Whether stuffing is missing in the available part of the body, which ends at `end`.
 fn lacks_stuffing(bytes: &[u8], end: usize) -> bool {
     let body = |end| bytes.get(PREFIX..end).unwrap_or_default();
     if bytes.len() > end {
         return unstuff(body(end)).is_err();
     }
-    // The stuffing of the last pattern may be still to come.
+    // The stuffing of the last pattern may not have arrived yet.
     unstuff(&[body(bytes.len()), &[0xFD, 0xFD]].concat()).is_err()
 }
 
-/// The packets of a stream, however it was cut into chunks. Where no packet begins, the search
-/// goes on one byte further; behind a packet, it goes on at its end. What is incomplete at the end
-/// of the stream is none, and what begins within it is searched for too.
+/// The packets of a stream, for any division into chunks. If no packet begins at a byte, the search
+/// continues at the next byte; after a packet it continues at the packet's end. An incomplete
+/// packet at the end of the stream does not count, but the search continues inside it.
 #[must_use]
 pub fn packets(stream: &[u8]) -> Vec<Packet> {
     let packet = |event| match event {
@@ -136,8 +137,8 @@ pub fn packets(stream: &[u8]) -> Vec<Packet> {
     events(stream, true, usize::MAX).into_iter().filter_map(packet).collect()
 }
 
-/// The packets that a receiver finds which believes every length: where a header is, it goes on
-/// behind the bytes that the length covers, whether they were a packet or not, and waits for them.
+/// The packets that a receiver finds if it trusts every length: after a header it waits for the
+/// bytes that the length covers and continues after them, whether they were a packet or not.
 #[must_use]
 pub fn packets_behind_lengths(stream: &[u8]) -> Vec<Packet> {
     let mut packets = Vec::new();
@@ -152,8 +153,8 @@ pub fn packets_behind_lengths(stream: &[u8]) -> Vec<Packet> {
     packets
 }
 
-/// Whether every receiver finds the packets of a stream, wherever it goes on behind what is none:
-/// no false header claims a byte of them.
+/// Whether every receiver finds all packets of a stream, wherever it continues after a false
+/// header: no false header's length covers a byte of a packet.
 #[must_use]
 pub fn is_certain(stream: &[u8]) -> bool {
     let (mut at, mut claimed) = (0, 0);
@@ -180,7 +181,7 @@ fn first(bytes: &[u8]) -> Option<(Packet, usize)> {
     Some((decode(frame).ok()?, size))
 }
 
-/// The size that the length claims.
+/// The size that the length field states.
 fn size(bytes: &[u8]) -> Option<usize> {
     let [_, _, _, _, _, low, high, ..] = *bytes else { return None };
     Some(PREFIX + usize::from(u16::from_le_bytes([low, high])))

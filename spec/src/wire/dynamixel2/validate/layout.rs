@@ -1,4 +1,4 @@
-//! The fields of a packet's layout have sizes that can be found out while reading it.
+//! Rule: the size of each field of a layout is known when the field is read.
 
 use crate::Diagnostic;
 use crate::load::File;
@@ -11,7 +11,7 @@ pub(super) fn check(file: &File<Dynamixel2>) -> Vec<Diagnostic> {
         let layouts = [
             ("parameters", Some(&instruction.parameters), Vec::new()),
             ("status", instruction.status.as_ref(), Vec::new()),
-            // A block's data is as long as the instruction asked for.
+            // The instruction states the length of a block's data.
             ("fast_status", instruction.fast_status.as_ref(), parameters),
         ];
         for (name, layout, known) in layouts {
@@ -26,7 +26,7 @@ pub(super) fn check(file: &File<Dynamixel2>) -> Vec<Diagnostic> {
     defects
 }
 
-/// The faults of a list of fields, each with the node that it is at.
+/// The faults of a list of fields, each with its node.
 fn fields<'a>(list: &'a [Field], node: &str, mut known: Vec<&'a str>) -> Vec<(String, String)> {
     let mut faults = Vec::new();
     for (index, field) in list.iter().enumerate() {

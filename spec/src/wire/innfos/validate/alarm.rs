@@ -1,4 +1,4 @@
-//! An alarm is one bit.
+//! Rule: an alarm is one bit.
 
 use crate::Diagnostic;
 use crate::load::File;

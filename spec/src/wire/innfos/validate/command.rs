@@ -1,4 +1,4 @@
-//! A command's sizes fit its format and its direction.
+//! Rule: a command's sizes fit its format and its access.
 
 use crate::Diagnostic;
 use crate::load::File;
@@ -16,7 +16,7 @@ pub(super) fn check(file: &File<Innfos>) -> Vec<Diagnostic> {
     defects
 }
 
-/// The faults of a command, each with the field that it is at.
+/// The faults of a command, each with its field.
 fn faults(innfos: &Innfos, command: &Command) -> Vec<(&'static str, String)> {
     let mut faults = Vec::new();
     let mut fault = |field, message: String| faults.push((field, message));

@@ -1,4 +1,4 @@
-//! A format has a size, and fractional bits if it is a fixed-point number.
+//! Rule: a format has a size, and fractional bits if it is a fixed-point number.
 
 use crate::Diagnostic;
 use crate::load::File;

@@ -1,4 +1,4 @@
-//! An actuator's full scales are larger than 0.
+//! Rule: an actuator's full scales are larger than 0.
 
 use crate::Diagnostic;
 use crate::load::File;
