@@ -219,7 +219,11 @@ impl<'a> Plan<'a> {
             pairs.take_while(|(letter, other)| letter == other).count()
         };
         let mut nearest = (id.len() / 2, None);
-        for other in self.ids() {
+        let half = id.get(..nearest.0).unwrap_or(id);
+        let may = |beginning: &str| beginning.starts_with(half) || half.starts_with(beginning);
+        let families = self.families.iter().filter(|family| may(&family.prefix));
+        let groups = families.flat_map(Family::named).filter(|group| may(&group.stem));
+        for other in groups.flat_map(|group| group.ids().collect::<Vec<_>>()) {
             let alike = alike(&other);
             if alike > nearest.0 {
                 nearest = (alike, Some(other));

@@ -81,13 +81,10 @@ impl Growth {
         hello: Option<&Hello>,
     ) -> Result<(Wire, Check), Failure> {
         let longest = Self { body_length: Some(Options::LONGEST_BODY), ..*self };
-        let growths = [*self, longest].into_iter();
-        let found = growths
-            .flat_map(|growth| Wire::ALL.map(|wire| (growth, wire)))
-            .find_map(|(growth, wire)| Some((wire, growth.plan(spec, wire, hello).find(id)?)));
+        let plan = |wire| longest.plan(spec, wire, hello);
+        let found = Wire::ALL.into_iter().find_map(|wire| Some((wire, plan(wire).find(id)?)));
         found.ok_or_else(|| {
-            let nearest = |wire| self.plan(spec, wire, hello).nearest(id);
-            let nearest = Wire::ALL.into_iter().find_map(nearest);
+            let nearest = Wire::ALL.into_iter().find_map(|wire| plan(wire).nearest(id));
             let hint = nearest.map(|other| format!("did you mean `{other}`? "));
             let hint = hint.unwrap_or_default();
             let message =
