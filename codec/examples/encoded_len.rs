@@ -19,7 +19,7 @@ fn main() -> Result<(), Error> {
     let mut buffer = vec![0; read.encoded_len()?];
     println!("a Bulk Read of {} bytes", read.encode(&mut buffer)?.len());
 
-    // A buffer that is too small is an error that tells the size, too.
+    // A buffer that is too small is an error, which has the size too.
     let Err(EncodeError::Buffer(error)) = read.encode(&mut [0; 10]) else { unreachable!() };
     println!("{error}");
     assert_eq!(error.needed, buffer.len());

@@ -31,7 +31,7 @@ fn main() -> Result<(), Error> {
     println!("answered {answered:?}");
     assert_eq!(answered, [Ok(vec![(1, 2_000), (2, 9)])]);
 
-    // An answer to another request is none to this one.
+    // An answer to another request is refused.
     let other = positions(ja40::PRESENT_POSITION.fast_sync_read([2, 1]), received);
     println!("refused  {other:?}");
     assert!(other.is_err());

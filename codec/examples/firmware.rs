@@ -16,7 +16,7 @@ struct Firmware {
 }
 
 impl Firmware {
-    /// The answer to a packet; `None` if there is none to give.
+    /// The answer to a packet; `None` if the device must not answer.
     fn answer<'b>(&mut self, packet: &[u8], out: &'b mut [u8]) -> Result<Option<&'b [u8]>, Error> {
         let frame = Frame::parse(packet)?;
         if frame.id() != self.id || !matches!(frame.kind(), Kind::Instruction(_)) {

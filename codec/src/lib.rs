@@ -19,9 +19,9 @@
 //! the crate is built. Everything works on the caller's buffers: nothing is allocated. The feature
 //! `std` only asks the processor at run time which instructions it has.
 //!
-//! Whatever bytes a function is given, it does not panic. Lengths that come from the wire are checked
-//! against the bytes that are there. A buffer that is too small is an error that tells the size
-//! needed; what the buffer holds then, and behind what was written to it, is unspecified.
+//! No function panics for any bytes. Lengths from the wire are checked against the available bytes.
+//! A buffer that is too small is an error that has the size needed. The content of a buffer is
+//! unspecified after an error, and after the written bytes.
 //!
 //! ```
 //! use actucheck_codec::dynamixel2::{Frame, Instruction};

@@ -1,4 +1,4 @@
-//! What `ARCHITECTURE.md` says of the whole, held against the manifests and the sources.
+//! Checks the invariants of `ARCHITECTURE.md` against the manifests and the sources.
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
@@ -92,7 +92,7 @@ fn the_codec_needs_nothing_at_run_time() {
     assert_eq!(members(&dependencies(&"build".into())["actucheck-codec"]), ["actucheck-spec"]);
 }
 
-/// Manifests tell what may be used, sources what is.
+/// The manifests show the allowed dependencies, the sources the actual ones.
 #[test]
 fn sources_use_no_more_than_they_may() {
     for (folder, may) in [
@@ -160,8 +160,8 @@ fn unsafe_code_is_in_few_places() {
     }
 }
 
-/// Where a wire is named outside of its own folders: registries, with a line a wire, and what is
-/// about one wire by its nature.
+/// The places outside a wire's own folders that name it: registries, with one line per wire, and
+/// code that is about one wire by its nature.
 const NAMED: [(&str, &str); 23] = [
     ("spec/src/wire/mod.rs", "registry"),
     ("spec/src/generate/device.rs", "control tables are of one wire"),

@@ -1,6 +1,6 @@
-//! Choices that an input leaves open, drawn from its own bytes: the same input, the same choices.
+//! Choices that are drawn from the bytes of an input: the same input yields the same choices.
 
-/// Numbers that look random (a linear congruential generator, its state's upper half).
+/// Pseudo-random numbers (the upper half of a linear congruential generator's state).
 pub(crate) struct Draw(u64);
 
 impl Draw {

@@ -21,15 +21,15 @@ pub use libfuzzer_sys;
 pub struct Target {
     /// Its name, which is that of its module, its binary and its folders too.
     pub name: &'static str,
-    /// Holds one input against the oracle.
+    /// Compares the code under test with the oracle for one input.
     ///
     /// # Panics
     /// If the code under test is wrong.
     pub check: fn(&[u8]),
-    /// Mends lengths and CRCs in an input, so that mutations get past them. It changes nothing but
-    /// bytes, and inputs reach [`Target::check`] without it too.
+    /// Mends lengths and CRCs in an input, so that mutations get past their checks. Inputs reach
+    /// [`Target::check`] without it too.
     pub repair: Option<fn(&mut [u8])>,
-    /// What its inputs look like: a folder of `seeds/`, and a dictionary of that name.
+    /// The family of its inputs: a folder of `seeds/`, and a dictionary of that name.
     pub seeds: Seeds,
     /// The longest input worth trying, in bytes.
     pub max_len: usize,
@@ -118,7 +118,7 @@ macro_rules! shim {
         use $crate::libfuzzer_sys; // where the macro looks for it
         libfuzzer_sys::fuzz_mutator!(|data: &mut [u8], size: usize, max_size: usize, seed: u32| {
             let size = libfuzzer_sys::fuzzer_mutate(data, size, max_size);
-            // Broken lengths and CRCs are to be tried too.
+            // Wrong lengths and CRCs must be tried too.
             if seed % 4 != 0 {
                 data.get_mut(..size).map($crate::targets::$name::repair);
             }

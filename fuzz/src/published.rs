@@ -1,4 +1,4 @@
-//! What is generated into this folder: seeds from the golden vectors, dictionaries from the spec,
+//! The generated files of this folder: seeds from the test vectors, dictionaries from the spec,
 //! libFuzzer's options from the table of targets.
 
 use std::fmt::Write;
@@ -10,7 +10,7 @@ use crate::dictionary::{self, Tokens};
 use crate::targets::spec_yaml;
 use crate::{Seeds, TARGETS, Target};
 
-/// Inputs of so many bytes are short.
+/// Inputs up to this many bytes are short.
 const SHORT: usize = 300;
 
 /// A generated file.
@@ -18,7 +18,7 @@ const SHORT: usize = 300;
 pub struct File {
     /// Its path below this folder, with forward slashes.
     pub path: String,
-    /// All of it.
+    /// Its content.
     pub bytes: Vec<u8>,
 }
 
@@ -39,8 +39,8 @@ pub fn all(spec: &Spec) -> Vec<File> {
     files
 }
 
-/// The seeds of a family by name: the vectors of a wire by their ids, the loader's files by their
-/// paths, or by the cases that they are of.
+/// The seeds of a family by name: a wire's vectors by their ids; the loader's files by their paths
+/// or by their cases.
 fn seeds(spec: &Spec, seeds: Seeds) -> Vec<(String, Vec<u8>)> {
     let Seeds::Wire(wire) = seeds else {
         let file = |(path, text): &(&str, &str)| {
@@ -52,7 +52,7 @@ fn seeds(spec: &Spec, seeds: Seeds) -> Vec<(String, Vec<u8>)> {
     vectors.map(|(_, vector)| (vector.id.clone(), vector.frame().to_vec())).collect()
 }
 
-/// The files of the loader's own cases, each with a defect or a register of each kind.
+/// The files of the loader's test cases, each with a defect or with a register of each kind.
 fn cases() -> Vec<(String, Vec<u8>)> {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../spec/tests/cases");
     let case = |entry: std::io::Result<fs::DirEntry>| {
@@ -63,12 +63,12 @@ fn cases() -> Vec<(String, Vec<u8>)> {
     fs::read_dir(folder).unwrap().map(case).collect()
 }
 
-/// What `ClusterFuzz` reads beside a target's binary, and `flags` here.
+/// The options file that `ClusterFuzz` reads next to a target's binary, and `flags` here.
 fn options(target: &Target) -> String {
     let Target { max_len, seeds, .. } = target;
     let mut text = format!("[libfuzzer]\nmax_len = {max_len}\ndict = {}.dict\n", seeds.name());
-    // To look for a shorter input of the same features takes a quarter of a short one's time, and
-    // pays for long ones alone.
+    // Searching for a shorter input with the same features takes a quarter of the time of a short
+    // input, and is worth it only for long ones.
     if *max_len <= SHORT {
         text.push_str("reduce_inputs = 0\n");
     }
@@ -96,7 +96,7 @@ fn dictionary(spec: &Spec, seeds: Seeds) -> String {
     text
 }
 
-/// The YAML's keys, and what YAML itself is made of.
+/// The keys of the files, and YAML's own syntax.
 fn keys() -> Tokens {
     let word = |character: char| character.is_ascii_lowercase() || character == '_';
     let mut tokens = Tokens::new();

@@ -1,4 +1,4 @@
-//! What the targets hold, where a test says it better than a corpus does.
+//! Laws of the targets for which a test is clearer than a corpus.
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
@@ -55,7 +55,7 @@ fn a_packet_cut_before_its_last_byte_takes_the_next_ones_first() {
 }
 
 proptest! {
-    // What fails is kept beside this file.
+    // Failing cases are saved next to this file.
     #![proptest_config(ProptestConfig {
         cases: 1000,
         failure_persistence: Some(Box::new(FileFailurePersistence::WithSource("regressions"))),

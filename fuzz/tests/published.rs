@@ -1,4 +1,4 @@
-//! What is generated into this folder is fresh.
+//! The generated files in this folder are up to date.
 //!
 //! `ACCEPT=1 cargo test -p actucheck-fuzz --test published` writes the files anew.
 
@@ -11,7 +11,7 @@ use std::path::Path;
 use actucheck_fuzz::published::{self, File};
 use actucheck_spec::Spec;
 
-/// The folders that hold nothing else.
+/// The folders with nothing but generated files.
 const FOLDERS: [&str; 3] = ["seeds", "dictionaries", "options"];
 
 fn generated() -> BTreeMap<String, Vec<u8>> {

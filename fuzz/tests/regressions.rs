@@ -32,7 +32,7 @@ macro_rules! regressions {
 regressions! {
     /// The reference took the end byte and the next frame's first for the CRC.
     innfos_stream: open_reply_before_another_frame;
-    /// The reference named the CRC, though the bytes behind the frame come first.
+    /// The reference reported the CRC, although the extra bytes after the frame come first.
     innfos_frame: wrong_crc_and_trailing_bytes;
     /// The codec named the ID, though the packet ends within its prefix.
     packet: prefix_that_ends_at_a_wrong_id;

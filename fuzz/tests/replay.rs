@@ -1,4 +1,4 @@
-//! Every seed and every file of the corpora goes through its target.
+//! Every seed and every file of the corpora is an input of its target's test.
 
 #![allow(clippy::unwrap_used, clippy::panic)] // tests may stop at a surprise
 
@@ -70,7 +70,7 @@ fn repair_gives_the_right_crc() {
     for (file, vector) in spec.vectors().filter(valid) {
         let (repairs, behind_crc) = match file.wire.id() {
             "dynamixel2" => (vec![packet::repair, stream_raw::repair], 0),
-            // Behind the CRC stands the end byte. A shorter frame may have none.
+            // The end byte follows the CRC. A shorter frame may have none.
             _ if vector.frame().len() > 9 => (vec![innfos_stream::repair as fn(&mut [u8])], 1),
             _ => continue,
         };

@@ -1,9 +1,9 @@
 //! The documents of robot actuators' protocols as data, and the code that reads them.
 //!
-//! [`load::Spec`] is everything that `spec/*.yaml` says, read and checked; [`generate`] turns it
-//! into the source of the codec's tables, [`export`] into files for others, and [`schema`] tells
-//! what the files may say. A [`wire`] has its reference model beside it, for expected results. The YAML is part of this crate, so nothing here needs the folder at run
-//! time.
+//! [`load::Spec`] is the content of `spec/*.yaml`, read and validated. [`generate`] turns it into
+//! the source of the codec's tables and [`export`] into files for others; [`schema`] has the JSON
+//! Schemas of the files. A [`wire`] has its reference model beside it, for expected results. The
+//! YAML is part of this crate, so nothing here needs the folder at run time.
 
 #![forbid(unsafe_code)]
 

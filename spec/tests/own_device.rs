@@ -1,4 +1,4 @@
-//! A device of the user's own: what is wrong with its YAML is told with its place.
+//! A user's own device: defects of its YAML are reported with their places.
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
@@ -6,7 +6,7 @@ use actucheck_spec::generate::device_from_yaml;
 
 const GRIPPER: &str = include_str!("../../codec/examples/own-device/gripper.yaml");
 
-/// What is told of the YAML with a text in another's place, which stands in it once.
+/// The defects of the YAML after replacing a text that occurs in it once.
 #[track_caller]
 fn defects(text: &str, other: &str) -> Vec<String> {
     assert_eq!(GRIPPER.matches(text).count(), 1, "{text}");

@@ -14,9 +14,9 @@ use actucheck_spec::Spec;
 /// A sentence of a document: the line that it begins on, from 1, and its text.
 type Sentence = (usize, String);
 
-/// The sentences of a document. Headings are none. A row of a table is one, and so is a block of
-/// code or what stands in front of the document; any other line ends at its full stops, and counts
-/// if it has a letter or a digit.
+/// The sentences of a document. Headings don't count. A row of a table, a block of code and the
+/// text before the document are one sentence each. Any other line is split at its full stops; a
+/// part counts if it has a letter or a digit.
 fn sentences(text: &str) -> Vec<Sentence> {
     let lines: Vec<_> = text.lines().collect();
     let indented = text.contains("<table");
@@ -150,7 +150,7 @@ fn every_section_begins_on_its_line() {
         let text = fs::read_to_string(folder.join(&document.file)).unwrap();
         let lines: Vec<_> = text.lines().collect();
         for section in &spec.sentences_of(&document.id).unwrap().sections {
-            // Behind a heading that is not in English stands its meaning.
+            // A heading that is not in English is followed by its meaning.
             let name = match section.section.rsplit_once(" (") {
                 Some((name, _)) if !name.is_ascii() => name,
                 _ => &section.section,

@@ -14,9 +14,9 @@ pub(crate) fn update<O: Order>(state: u16, bytes: &[u8]) -> u16 {
 
 /// The state after one byte.
 ///
-/// With b the byte plus the eight highest terms of the state, and p the sum of the terms of b,
-/// the quotient q of b x^16 by P satisfies q (x + 1) = b x + p. Then q P, but for what lies above
-/// x^15, is b x + b x^2 + p (x^15 + x + 1).
+/// With b the byte plus the eight highest terms of the state, and p the sum of the terms of b, the
+/// quotient q of b x^16 by P satisfies q (x + 1) = b x + p. Then q P, without its terms above x^15,
+/// is b x + b x^2 + p (x^15 + x + 1).
 #[inline]
 pub(crate) fn step<O: Order>(state: u16, byte: u8) -> u16 {
     let [high, low] = state.to_be_bytes();

@@ -169,7 +169,7 @@ impl<'a> Parts<'a> {
         let available = bytes.len();
         let truncated = |needed| FrameError::Truncated { available, needed };
         let header = Header::check(bytes);
-        // What ends within its prefix is truncated, whatever its ID.
+        // A packet that ends within its prefix is truncated, even if its ID is wrong.
         if available < PREFIX && !matches!(header, Err(FrameError::Header { .. })) {
             return Err(truncated(PREFIX));
         }
@@ -212,7 +212,7 @@ impl<'a> Parts<'a> {
 }
 
 /// Builds a packet in `buffer` from its parameters, which may come in several parts; returns the
-/// packet. What is behind it in `buffer` is lost.
+/// packet. The bytes after it in `buffer` are overwritten.
 ///
 /// ```
 /// use actucheck_codec::dynamixel2::{Instruction, frame};
@@ -255,8 +255,8 @@ pub fn encoded_len(instruction: Instruction, params: &[&[u8]]) -> Result<usize, 
     len_of(|buffer| encode(0, instruction, params, buffer))
 }
 
-/// How many bytes a packet with so many bytes of parameters has at most, whatever they are: a third
-/// of the body may be stuffing. For buffers whose size is a constant.
+/// The largest size in bytes of a packet with this many bytes of parameters, as stuffing may add a
+/// third of the body. For buffers of constant size.
 ///
 /// ```
 /// use actucheck_codec::dynamixel2::frame;

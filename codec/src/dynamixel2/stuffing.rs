@@ -1,8 +1,8 @@
 //! Byte stuffing, which keeps headers from appearing in a body (DYNAMIXEL Protocol 2.0, Packet 처리,
 //! "packet handling").
 //!
-//! A *body* is the bytes from the instruction up to the CRC. A sender puts FD behind every
-//! FF FF FD in it, a receiver removes it.
+//! A *body* is the bytes from the instruction up to the CRC. A sender inserts FD after every FF FF
+//! FD in it; a receiver removes it.
 
 mod insert;
 mod remove;
@@ -74,8 +74,8 @@ pub fn stuffed_len(body: &[u8]) -> usize {
     body.len() + insert::missing(body)
 }
 
-/// Writes `body` to `buffer` with FD after every FF FF FD. Returns the written bytes. What is
-/// behind it in `buffer` is lost.
+/// Writes `body` to `buffer` with FD after every FF FF FD. Returns the written bytes. The bytes
+/// after it in `buffer` are overwritten.
 ///
 /// ```
 /// use actucheck_codec::dynamixel2::stuffing::stuff;
@@ -95,8 +95,8 @@ pub fn stuff<'b>(body: &[u8], buffer: &'b mut [u8]) -> Result<&'b [u8], BufferTo
     buffer.get(..end).ok_or_else(too_small)
 }
 
-/// Writes a stuffed body to `buffer` without its stuffing. Returns the written bytes. What is
-/// behind it in `buffer` is lost.
+/// Writes a stuffed body to `buffer` without its stuffing. Returns the written bytes. The bytes
+/// after it in `buffer` are overwritten.
 ///
 /// ```
 /// use actucheck_codec::dynamixel2::stuffing::unstuff;

@@ -140,7 +140,7 @@ fn crc_len(kind: Kind, command: u8, length: usize, rest: &[u8]) -> usize {
     }
 }
 
-/// Whether a frame with so many bytes of data has a CRC (INNFOS document, Communication protocol
+/// Whether a frame with this many bytes of data has a CRC (INNFOS document, Communication protocol
 /// format and Protocol example).
 const fn has_crc(kind: Kind, length: usize) -> bool {
     let from = match kind {
@@ -156,7 +156,7 @@ fn is_open(kind: Kind, command: u8, length: usize) -> bool {
     kind == Kind::Reply && length > 0 && !has_crc(kind, length) && OPEN_REPLIES.contains(&command)
 }
 
-/// How many bytes a frame with so many bytes of data has.
+/// The size of a frame with this many bytes of data.
 #[must_use]
 pub const fn encoded_len(kind: Kind, data: usize) -> usize {
     PREFIX + data + if has_crc(kind, data) { size_of::<u16>() } else { 0 } + size_of_val(&TAIL)

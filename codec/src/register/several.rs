@@ -85,7 +85,7 @@ impl<T: Value, D: IntoIterator<Item: Borrow<(u8, T)>> + Clone> RegisterSyncWrite
     /// How many bytes the packet has, stuffing included.
     ///
     /// # Errors
-    /// As [`RegisterSyncWrite::encode`], whatever the size of its buffer.
+    /// As [`RegisterSyncWrite::encode`], except for the size of its buffer.
     pub fn encoded_len(&self) -> Result<usize, EncodeError> {
         frame::len_of(|buffer| self.encode(buffer))
     }

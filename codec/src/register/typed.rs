@@ -181,7 +181,7 @@ impl RegisterRead {
     /// How many bytes the packet has, stuffing included.
     ///
     /// # Errors
-    /// As `encode`, whatever the size of its buffer.
+    /// As `encode`, except for the size of its buffer.
     pub fn encoded_len(&self) -> Result<usize, EncodeError> {
         frame::len_of(|buffer| self.encode(buffer))
     }
@@ -221,7 +221,7 @@ impl RegisterWrite {
     /// How many bytes the packet has, stuffing included.
     ///
     /// # Errors
-    /// As `encode`, whatever the size of its buffer.
+    /// As `encode`, except for the size of its buffer.
     pub fn encoded_len(&self) -> Result<usize, EncodeError> {
         frame::len_of(|buffer| self.encode(buffer))
     }

@@ -1,7 +1,7 @@
 //! Searches in windows of 64 bytes, with the fastest instructions that the processor has.
 //!
 //! A [`Task`] is a loop over windows. [`run`] compiles it once for each back end and picks the one
-//! for this machine. A [`Backend`] tells where the pattern of byte stuffing stands in a window, and
+//! for this machine. A [`Backend`] finds the pattern of byte stuffing in a window, and checks
 //! whether a window ends in its CRC. All of the crate's `unsafe` is in `x86_64`; the arithmetic of
 //! CRCs is in [`crc`](crate::crc).
 

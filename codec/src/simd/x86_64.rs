@@ -25,8 +25,8 @@ use core::sync::atomic::{AtomicU8, Ordering};
 use super::Task;
 use crate::crc::order::Order;
 
-/// Whether the processor has all of the features: asked at run time with `std`, otherwise what
-/// the build was told.
+/// Whether the processor has all of the features: detected at run time with `std`, otherwise those
+/// enabled for the build.
 macro_rules! has {
     ($($feature:tt)*) => {{
         #[cfg(feature = "std")]

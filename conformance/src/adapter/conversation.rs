@@ -138,7 +138,7 @@ impl Conversation {
         }
     }
 
-    /// Waits for a line, whatever is in it; `None` if none came in time.
+    /// Waits for a line; `None` if there is none in time.
     pub(crate) fn hear(&mut self, limit: Duration) -> Option<Line> {
         let heard = self.running.receive(limit);
         if let (Some(Line::Text(line)), Some(said)) = (&heard, &mut self.said) {

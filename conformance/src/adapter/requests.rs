@@ -74,7 +74,7 @@ pub enum Question {
         /// For a fast status packet: the request that it answers.
         #[serde(skip_serializing_if = "Option::is_none")]
         fast: Option<Fast>,
-        /// Where a frame does not tell its direction: the direction of the frame.
+        /// The direction of the frame, if the frame itself does not state it.
         #[serde(skip_serializing_if = "Option::is_none")]
         kind: Option<Direction>,
     },
@@ -84,7 +84,7 @@ pub enum Question {
         wire: Wire,
         /// The stream in chunks; on a wire of datagrams each chunk is one.
         chunks: Vec<HexBytes>,
-        /// Where a frame does not tell its direction: the direction of the frames.
+        /// The direction of the frames, if the frames themselves do not state it.
         #[serde(skip_serializing_if = "Option::is_none")]
         kind: Option<Direction>,
     },

@@ -100,8 +100,8 @@ fn question(author: &Author<'_>, probe: &Probe) -> Option<Asked> {
         Probe::Stream(parts, cuts) => {
             let stream = joined(wire, parts)?;
             let packets = reference::packets(&stream);
-            // Where to go on behind a bad length is open, and a host need not read what
-            // hosts send.
+            // Where a search continues after a bad length is unspecified, and a host need not read
+            // instruction packets.
             if !reference::is_certain(&stream)
                 || !packets.iter().all(|packet| matches!(packet, Packet::Status { .. }))
                 || holds_unspecified(&stream)
@@ -127,7 +127,7 @@ fn is_stuffed(packet: &wire::Packet, frame: &[u8]) -> bool {
     frame.len() > PREFIX + fields + 2
 }
 
-/// Whether something in the stream would be a packet but for a rule that the documents leave open.
+/// Whether the stream has something that is a packet or not depending on an unspecified rule.
 fn holds_unspecified(stream: &[u8]) -> bool {
     (0..stream.len()).any(|from| {
         let rest = stream.get(from..).unwrap_or_default();

@@ -56,7 +56,8 @@ fn question(_author: &Author<'_>, probe: &Probe) -> Option<Asked> {
             let kind = context.direction;
             (requirement, Question::Decode { wire, bytes: frame.into(), fast: None, kind }, demand)
         }
-        // One datagram of good frames of one direction; what stands behind damage is open.
+        // One datagram of valid frames in one direction. What a receiver does after a damaged frame
+        // is unspecified.
         Probe::Stream(parts, _) => {
             let direction = parts.first()?.1.direction();
             let packets = parts.iter().map(|(_, packet, _)| packet);

@@ -116,7 +116,7 @@ impl Damage {
 }
 
 impl Probe {
-    /// The check that it is; `None` if the documents leave open what is right.
+    /// The check of this probe; `None` if the documents leave the right answer unspecified.
     pub(super) fn check(&self, author: &Author<'_>, id: String) -> Option<Check> {
         let (requirement, op, demand) = (wire::of(author.wire)?.question)(author, self)?;
         Some(author.check(id, &requirement, op, demand))

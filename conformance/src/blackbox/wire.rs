@@ -19,7 +19,7 @@ pub(super) struct Probes {
     pub(super) packet: fn() -> BoxedStrategy<Named>,
     /// Draws packets of which streams are made.
     pub(super) streamed: fn() -> BoxedStrategy<Packet>,
-    /// The question that a probe is; `None` if the documents leave open what is right.
+    /// The question of a probe; `None` if the documents leave the right answer unspecified.
     pub(super) question: fn(&Author<'_>, &Probe) -> Option<Asked>,
 }
 

@@ -59,7 +59,7 @@ pub(crate) struct Codec {
     /// How many processes of the adapter share the work
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u8).range(1..))]
     jobs: u8,
-    /// End the run after so many unexpected failures
+    /// End the run after this many unexpected failures
     #[arg(long, value_name = "N")]
     max_fail: Option<NonZeroUsize>,
     #[command(flatten)]

@@ -39,8 +39,8 @@ pub trait Subject {
 
 /// A source of questions, which takes the answers.
 pub trait Questions {
-    /// The number of the next question; `None` if there is none, or none before something that is
-    /// outstanding is answered.
+    /// The number of the next question; `None` if there is none, or if an outstanding question must
+    /// be answered first.
     fn next(&mut self) -> Option<usize>;
 
     /// The question with this number; `None` if there is no such question without an answer.

@@ -50,7 +50,7 @@ impl Options {
         Self { wire, seed: 1, cases: 1000, body_length, bare_length, max_packet: None }
     }
 
-    /// The same with all bodies of at most so many bytes, inside of packets and without.
+    /// The same with all bodies up to this many bytes, inside packets and alone.
     #[must_use]
     pub const fn with_bodies(self, length: u32) -> Self {
         Self { body_length: length, bare_length: length, ..self }

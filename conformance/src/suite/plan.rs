@@ -264,7 +264,7 @@ impl<'a> Family<'a> {
         Self::new(prefix, move || by_stem(checks()))
     }
 
-    /// Takes another way to the groups, for whoever needs their ids only.
+    /// Sets a cheaper way to the ids of the groups.
     pub(crate) fn with_names<I>(mut self, named: impl Fn() -> I + Send + Sync + 'a) -> Self
     where
         I: Iterator<Item = Group<'a>> + Send + 'a,

@@ -3,8 +3,8 @@ use actucheck_spec::model::{Bound, Register};
 
 use super::Tokens;
 
-/// Header, pattern and stuffing, IDs, codes, addresses, and the limits of the registers with what
-/// lies just outside.
+/// Header, pattern and stuffing, IDs, codes, addresses, and the limits of the registers with the
+/// values just outside.
 pub(super) fn packets(spec: &Spec) -> Tokens {
     let mut tokens = Tokens::new();
     let wire = &spec.wires.dynamixel2.content;
@@ -26,7 +26,7 @@ pub(super) fn packets(spec: &Spec) -> Tokens {
     tokens
 }
 
-/// The limits of a register and what lies just outside, as its bytes.
+/// The limits of a register and the values just outside, as bytes.
 fn values(register: &Register) -> impl Iterator<Item = Vec<u8>> {
     let size = usize::from(register.kind.size());
     let range = register.range.iter();

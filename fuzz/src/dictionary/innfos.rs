@@ -2,7 +2,8 @@ use actucheck_spec::Spec;
 
 use super::Tokens;
 
-/// Header and end, codes, commands with the length of their data, and how a frame of each begins.
+/// Header and end, codes, commands with the length of their data, and the beginning of a frame of
+/// each.
 pub(super) fn frames(spec: &Spec) -> Tokens {
     let innfos = &spec.wires.innfos.content;
     let (header, tail) = (innfos.framing.header, innfos.framing.tail);

@@ -1,14 +1,15 @@
-//! Both CRCs: the fast ways against the bitwise ones, wherever the bytes stand and are cut.
+//! Both CRCs: the fast implementations against the bitwise ones, for any alignment and division of
+//! the bytes.
 
 use actucheck_codec::crc::{self, Engine, MODBUS_INIT, UMTS_INIT};
 use actucheck_spec::wire::{dynamixel2, innfos};
 
 use crate::draw::Draw;
 
-/// The longest message, some of the time: long enough for every way of the engines.
+/// The longest message, used for some inputs: long enough for every path of the engines.
 const LONG: usize = 1200;
 
-/// The input is a message, or what a long one repeats.
+/// The input is a message, or the repeated part of a long one.
 ///
 /// # Panics
 /// If the codec is wrong.
@@ -22,8 +23,8 @@ pub fn check(input: &[u8]) {
     a_flipped_bit_is_found(message, draw.below(8 * LONG));
 }
 
-/// Holds a message that stands `place` bytes behind a multiple of 64 against the reference, whole
-/// and cut in two.
+/// Compares the CRCs of a message with the reference, whole and in two parts. The message begins
+/// `place` bytes after a multiple of 64.
 ///
 /// # Panics
 /// If the codec is wrong.

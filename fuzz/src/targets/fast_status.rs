@@ -1,5 +1,5 @@
-//! Fast status packets: there and back, against the reference, for the request that fits and for
-//! any other.
+//! Fast status packets: decoded and encoded, against the reference, for the fitting request and for
+//! others.
 
 use actucheck_codec::dynamixel2::FastStatus;
 use actucheck_codec::dynamixel2::fast_status::{self, Block};
@@ -20,7 +20,7 @@ const HEAD: usize = PREFIX + 1;
 /// Bytes of a block beside its data.
 const OVERHEAD: usize = 4;
 
-/// The input is a packet, and then what a packet is made of.
+/// The input is read as a packet, and then as choices from which a packet is built.
 ///
 /// # Panics
 /// If the codec is wrong.
@@ -33,9 +33,9 @@ pub fn check(input: &[u8]) {
     }
 }
 
-/// A request that could be answered so: of one of the numbers of devices that the packet has room
-/// for, with the IDs that stand where theirs would. And two that could not: with another last ID,
-/// and for other data.
+/// A request that the packet could answer: for a number of devices that fits its size, with the IDs
+/// at the places of the blocks. And two requests that it can't answer: one with another last ID,
+/// and one for another length.
 fn requests(bytes: &[u8]) -> Vec<Fast> {
     let room = bytes.len().saturating_sub(HEAD);
     let fits = |devices: &usize| room.is_multiple_of(*devices) && room / devices >= OVERHEAD;
@@ -56,8 +56,8 @@ fn request(length: usize, ids: Vec<u8>) -> Fast {
     Fast { length: u16::try_from(length).unwrap_or(u16::MAX), ids }
 }
 
-/// Codec and reference find the same blocks, or the same fault; but of several faults the reference
-/// finds that of the last CRC first.
+/// Codec and reference find the same blocks or the same fault. Of several faults, the reference
+/// reports that of the last CRC first.
 fn agree(bytes: &[u8], fast: &Fast) {
     let found = FastStatus::parse(bytes, fast.length, &fast.ids);
     let blocks = |status: FastStatus<'_>| status.blocks().map(owned).collect();
@@ -103,14 +103,14 @@ fn there_and_back(blocks: &[model::Block]) {
     let mut fast = request(length, blocks.iter().map(|block| block.id).collect());
     agree(&expected, &fast);
     assert!(FastStatus::parse(&expected, fast.length, &fast.ids).is_ok());
-    // The last is not the device that was asked.
+    // The last device is not the one that was asked.
     if let Some(id) = fast.ids.last_mut() {
         *id ^= 1;
     }
     agree(&expected, &fast);
 }
 
-/// Makes a fast status packet of it: of one block, or of two if that comes out even.
+/// Turns the input into a fast status packet of one block, or of two if the size is even.
 pub fn repair(input: &mut [u8]) {
     let Some(room) = input.len().checked_sub(HEAD).filter(|room| *room >= OVERHEAD) else { return };
     let length = u16::try_from(room + 1).unwrap_or(u16::MAX).to_le_bytes();

@@ -1,4 +1,4 @@
-//! INNFOS frames and messages: there and back, against the reference and the YAML.
+//! INNFOS frames and messages: decoded and encoded, against the reference and the YAML.
 
 use std::sync::LazyLock;
 
@@ -15,15 +15,16 @@ use crate::targets::shown;
 use crate::yaml;
 
 static INNFOS: LazyLock<Innfos> = LazyLock::new(|| yaml::read("wires/innfos.yaml"));
-/// Of each code and [way](WAYS), the sizes that the data may have; `None` if it does not go this way.
+/// For each code and [direction](WAYS), the sizes that the data may have; `None` if there is no
+/// such frame.
 static SIZES: LazyLock<Vec<[Option<&[u16]>; 2]>> =
     LazyLock::new(|| (0..=0xFF).map(|code| WAYS.map(|(kind, _)| sizes(kind, code))).collect());
 
-/// Both ways that a frame can go.
+/// Both directions of a frame.
 pub(super) const WAYS: [(Kind, Direction); 2] =
     [(Kind::Request, Direction::Request), (Kind::Reply, Direction::Reply)];
 
-/// The input is a frame, and then what a frame is made of.
+/// The input is read as a frame, and then as choices from which a frame is built.
 ///
 /// # Panics
 /// If the codec is wrong.
@@ -31,11 +32,11 @@ pub fn check(input: &[u8]) {
     for (kind, said) in WAYS {
         read(kind, said, input);
     }
-    // Choices may end early: then there is no frame.
+    // The choices may end early; then there is no frame.
     let _ = build(&mut Unstructured::new(input));
 }
 
-/// Bytes are the frame, or have the fault, that the reference finds.
+/// The codec finds the same frame or the same fault as the reference.
 fn read(kind: Kind, said: Direction, bytes: &[u8]) {
     let expected = reference::decode(said, bytes);
     let frame = match Frame::parse(kind, bytes) {
@@ -51,7 +52,7 @@ fn read(kind: Kind, said: Direction, bytes: &[u8]) {
     built(kind, frame.address(), frame.command(), frame.data());
 }
 
-/// What the frame says, in the YAML's words.
+/// The content of the frame, in the YAML's terms.
 pub(super) fn packet(frame: &Frame<'_>) -> Packet {
     let (address, command) = (frame.address(), frame.command().code());
     let data = frame.data().to_vec().into();
@@ -65,7 +66,7 @@ const fn direction(kind: Kind) -> Direction {
     }
 }
 
-/// The fault that the reference would name.
+/// The fault that the reference reports.
 const fn fault(error: FrameError) -> Fault {
     match error {
         FrameError::Header { .. } => Fault::Header,
@@ -76,7 +77,7 @@ const fn fault(error: FrameError) -> Fault {
     }
 }
 
-/// A message is what a row of the YAML allows, and says again what it was read from.
+/// A message is allowed by a row of the YAML, and encoding it yields the same bytes.
 fn understood(frame: &Frame<'_>) {
     let message = Message::parse(frame).inspect_err(shown);
     let way = usize::from(frame.kind() == Kind::Reply);
@@ -109,7 +110,7 @@ fn build(choices: &mut Unstructured<'_>) -> Result<()> {
     if choices.arbitrary()? {
         let command = Command::from_code(code);
         assert_eq!(command.code(), code);
-        // Now and then more than the length's low byte can tell.
+        // Sometimes more data than the low byte of the length can state.
         let most = if choices.ratio(1, 16)? { 280 } else { 12 };
         let size = choices.int_in_range(0..=most)?;
         built(kind, address, command, choices.bytes(size.min(choices.len()))?);
@@ -149,7 +150,8 @@ fn value(choices: &mut Unstructured<'_>, format: Format) -> Result<Value> {
     Ok(value)
 }
 
-/// A quantity is what the YAML makes of the number in the data, and gives the value back.
+/// A quantity follows from the number in the data and the YAML, and converting it back yields the
+/// value.
 fn physical(command: Command, value: Value, model: usize) {
     let (innfos, actuator) = (&*INNFOS, &ACTUATORS[model]);
     let said = innfos.command(command.code()).unwrap();
@@ -173,8 +175,8 @@ fn physical(command: Command, value: Value, model: usize) {
     assert_eq!(again, found.map(|_| value), "{command:?}");
 }
 
-/// What is built is what the reference builds, of the very size that is said to be needed, and is
-/// read again as the same.
+/// The built bytes are those of the reference, have exactly the size that an error states, and
+/// decode to the same content.
 fn built(kind: Kind, address: u8, command: Command, data: &[u8]) {
     let code = command.code();
     let packet_again =
@@ -188,11 +190,11 @@ fn built(kind: Kind, address: u8, command: Command, data: &[u8]) {
     assert_eq!(Frame::parse(kind, &expected).map(|frame| packet(&frame)), Ok(packet_again));
 }
 
-/// Makes a frame of it: a request, or a reply if its address is odd.
+/// Turns the input into a frame: a request, or a reply if its address is odd.
 pub fn repair(input: &mut [u8]) {
     let kind = if input.get(1).is_some_and(|address| address % 2 == 1) { 2 } else { 1 };
     let Some(room) = input.len().checked_sub(6) else { return };
-    // A CRC from so many bytes of data on.
+    // A CRC for at least this many bytes of data.
     let length = if room >= kind + 2 { room - 2 } else { room.min(kind - 1) };
     let [high, low] = u16::try_from(length).unwrap_or(u16::MAX).to_be_bytes();
     input[0] = 0xEE;

@@ -30,7 +30,7 @@ pub fn check(datagram: &[u8]) {
     }
 }
 
-/// Mends what begins with a header: the CRC that its length asks for, and the end byte behind it.
+/// Mends a frame after a header: the CRC if its length requires one, and the end byte after it.
 pub fn repair(input: &mut [u8]) {
     let mut start = 0;
     while let Some([0xEE, _, _, high, low, ..]) = input.get(start..) {

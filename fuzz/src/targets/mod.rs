@@ -1,4 +1,4 @@
-//! What each target does with its input.
+//! The targets.
 
 pub mod crc;
 pub mod fast_status;
@@ -16,12 +16,12 @@ pub mod stuffing;
 
 use std::fmt::{self, Display, Write};
 
-/// An error can be shown, and says something.
+/// Asserts that an error can be displayed and is not empty.
 ///
 /// # Panics
-/// If not.
+/// If it is empty.
 pub(crate) fn shown(error: &impl Display) {
-    /// Counts, as most errors are shown to nobody.
+    /// Only counts the bytes, as most errors are not shown.
     struct Length(usize);
     impl Write for Length {
         fn write_str(&mut self, text: &str) -> fmt::Result {
@@ -33,8 +33,8 @@ pub(crate) fn shown(error: &impl Display) {
     assert!(write!(length, "{error}").is_ok() && length.0 > 0, "an error without a word");
 }
 
-/// Does nothing: how fast libFuzzer itself is.
+/// Does nothing: measures the speed of libFuzzer itself.
 pub mod baseline {
-    /// Looks at nothing.
+    /// Ignores the input.
     pub const fn check(_input: &[u8]) {}
 }

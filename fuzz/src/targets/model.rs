@@ -1,4 +1,4 @@
-//! What the codec finds, in the words of the spec's model.
+//! The codec's results in the types of the spec's model.
 
 use actucheck_codec::dynamixel2::stream::{self, Reason};
 use actucheck_codec::dynamixel2::{Frame, FrameError};
@@ -19,7 +19,7 @@ pub(crate) fn packet(frame: &Frame<'_>) -> Packet {
     }
 }
 
-/// What is wrong with a frame.
+/// The fault of a frame.
 pub(crate) fn fault(error: &FrameError) -> Fault {
     match error {
         FrameError::Header { .. } => Fault::Header,
@@ -33,7 +33,7 @@ pub(crate) fn fault(error: &FrameError) -> Fault {
     }
 }
 
-/// An event of a stream. The parser does not tell a packet's bytes, so they are built anew.
+/// An event of a stream. The parser does not return a packet's bytes, so they are encoded again.
 pub(crate) fn event(event: stream::Event<'_>) -> Event {
     match event {
         stream::Event::Frame(frame) => {

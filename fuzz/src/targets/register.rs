@@ -1,4 +1,4 @@
-//! Values for registers, judged by the YAML as it stands there and not as it was generated.
+//! Values for registers, checked against the YAML itself and not against generated code.
 
 use std::fmt::Debug;
 use std::sync::LazyLock;
@@ -25,12 +25,12 @@ static OPEN: LazyLock<Vec<String>> = LazyLock::new(|| {
     open.map(|row| row.id).collect()
 });
 
-/// The input is a device, a register, what the registers hold that limit it, and a value.
+/// The input selects a device, a register, the values of the registers that limit it, and a value.
 ///
 /// # Panics
 /// If the codec is wrong.
 pub fn check(input: &[u8]) {
-    // Choices may end early: then there is no value.
+    // The choices may end early; then there is no value.
     let _ = choose(&mut Unstructured::new(input));
 }
 
@@ -42,7 +42,7 @@ fn choose(choices: &mut Unstructured<'_>) -> Result<()> {
     assert_eq!((row.name, row.kind.size()), (&register.name[..], register.kind.size()));
     assert_eq!(device.register_named(row.name), Some(row));
 
-    // What the registers hold that limit others; without, only the size limits.
+    // The values of the registers that limit others; if absent, only the size limits.
     let held: Option<[i32; 2]> = choices.arbitrary()?;
     let limits = Limits { device: said, held };
     let value = value(choices, register, &limits)?;
@@ -55,7 +55,7 @@ fn choose(choices: &mut Unstructured<'_>) -> Result<()> {
     Ok(())
 }
 
-/// What other registers hold: one number where the address is a multiple of 8, another elsewhere.
+/// The values of other registers: one number if the address is a multiple of 8, otherwise another.
 struct Limits<'a> {
     device: &'a model::Device,
     held: Option<[i32; 2]>,
@@ -66,7 +66,7 @@ impl Limits<'_> {
         self.held.map(|[even, odd]| if address.is_multiple_of(8) { even } else { odd }.into())
     }
 
-    /// The number that a bound stands for; `None` if there is no limit.
+    /// The number of a bound; `None` if there is no limit.
     fn of(&self, bound: &Bound) -> Option<i64> {
         match bound {
             Bound::Value(value) => Some(*value),
@@ -110,7 +110,7 @@ fn value(choices: &mut Unstructured<'_>, register: &Register, limits: &Limits<'_
     })
 }
 
-/// What so many bytes hold, from their number and sign alone.
+/// The smallest and largest value of this many bytes, computed from their number and sign alone.
 fn width(kind: Type) -> (i64, i64) {
     let bits = 8 * kind.size();
     match kind {
@@ -199,7 +199,7 @@ fn typed<T: Value + PartialEq + Debug>(
     let write = constant.write_within(1, typed, |address| limits.at(address));
     assert_eq!(write.is_ok(), allowed(register, limits, value), "{} = {value}", register.name);
     let Ok(write) = write.inspect_err(shown) else { return };
-    // What other registers hold can only forbid.
+    // The values of other registers can only restrict the range.
     assert_eq!(constant.write(1, typed), Ok(write));
     assert_eq!(write.data().as_ref(), bytes);
     let params = [&address, bytes].concat();
@@ -213,7 +213,7 @@ fn packet(instruction: u8, params: Vec<u8>) -> Vec<u8> {
     reference::encode(&packet).unwrap()
 }
 
-/// The registers that lie wholly in so many bytes.
+/// The registers that are wholly within this many bytes.
 fn neighbours(device: &Device, said: &model::Device, address: u16, length: u8) {
     let wholly_in = |register: &&Register| {
         let end = register.address + register.kind.size();
@@ -224,7 +224,7 @@ fn neighbours(device: &Device, said: &model::Device, address: u16, length: u8) {
     assert!(found.eq(expected), "{length} bytes from {address}");
 }
 
-/// Any bytes are a value of their width, and any other number of bytes is none.
+/// Bytes of the register's size are a value; any other number of bytes is an error.
 fn read(row: &Row, register: &Register, bytes: [u8; 5]) {
     let size = usize::from(register.kind.size());
     for wrong in (0..=bytes.len()).filter(|len| *len != size) {

@@ -1,4 +1,4 @@
-//! Streams as the reference reads them and as the parser does.
+//! Compares the stream parser with the reference.
 
 use actucheck_codec::dynamixel2::stream::Parser;
 use actucheck_spec::wire::dynamixel2::reference::{self, Event};
@@ -9,11 +9,12 @@ use crate::draw::Draw;
 /// The longest packet of a scenario.
 pub(crate) const MAX_PACKET: usize = 1024;
 
-/// The events of a stream, which are those of the reference however it is cut: whole, byte by byte,
-/// and in pieces drawn from the bytes themselves. Between each two of `busy` is a quiet time.
+/// The events of a stream. Asserts that the parser yields the events of the reference for the whole
+/// stream, byte by byte, and in pieces whose sizes are drawn from the bytes. There is a quiet time
+/// between each two of `busy`.
 ///
 /// # Panics
-/// If they are not.
+/// If they differ.
 pub(crate) fn events(busy: &[Vec<u8>]) -> Vec<Event> {
     let mut draw = Draw::of(&busy.concat());
     let events = expected(busy, MAX_PACKET);
@@ -21,7 +22,7 @@ pub(crate) fn events(busy: &[Vec<u8>]) -> Vec<Event> {
     for (sizes, patience) in [(&[usize::MAX][..], usize::MAX), (&[1], 1), (&sizes, 3)] {
         assert_eq!(parsed::<16>(busy, MAX_PACKET, sizes, patience), events, "pieces of {sizes:?}");
     }
-    // The smallest buffer, in which bytes are moved all the time, and a limit below its size.
+    // The smallest buffer, in which bytes are moved all the time, with a limit below its size.
     let limit = 12 + draw.below(60);
     let small = expected(busy, limit.min(64));
     assert_eq!(parsed::<1>(busy, limit, &sizes, 1), small, "at most {limit} bytes");
@@ -34,8 +35,8 @@ fn expected(busy: &[Vec<u8>], max_packet: usize) -> Vec<Event> {
     busy.flat_map(|(index, bytes)| reference::events(bytes, quiet(index), max_packet)).collect()
 }
 
-/// What a parser makes of a stream that comes in pieces of `sizes`, again and again, if it is asked
-/// for at most `patience` events after each.
+/// The events of a parser for a stream in pieces with the repeating `sizes`, if at most `patience`
+/// events are taken after each piece.
 fn parsed<const BLOCKS: usize>(
     busy: &[Vec<u8>],
     max_packet: usize,

@@ -1,4 +1,4 @@
-//! What the stream parser costs at most, counted in bytes looked at and bytes kept.
+//! The limit of the stream parser's cost, in bytes examined and bytes kept.
 
 use actucheck_codec::dynamixel2::stream::{DEFAULT_MAX_PACKET, Parser, meter};
 

@@ -37,7 +37,7 @@ pub fn check(input: &[u8]) {
     }
 }
 
-/// What was sent.
+/// The packets that were sent.
 struct Bus {
     /// The bytes between quiet times.
     busy: Vec<Vec<u8>>,
@@ -170,7 +170,7 @@ impl Bus {
 /// An instruction packet, a status packet, or a fast one.
 fn packet(choices: &mut Unstructured<'_>) -> Result<Vec<u8>> {
     let id = choices.int_in_range(0..=253)?;
-    // The broadcast ID is the one behind 253, which is none.
+    // The broadcast ID follows 253, which is not a valid ID.
     let id = if id == 253 { BROADCAST } else { id };
     let code = if choices.ratio(1, 3)? { STATUS } else { choices.arbitrary()? };
     let mut body = vec![code];
@@ -188,7 +188,7 @@ fn packet(choices: &mut Unstructured<'_>) -> Result<Vec<u8>> {
     Ok(reference::frame(id, &reference::stuff(&body)))
 }
 
-/// A packet that claims to be longer or shorter than it is, its CRC right where it stands.
+/// A packet with a wrong length and a right CRC at its real end.
 fn lying(choices: &mut Unstructured<'_>) -> Result<Vec<u8>> {
     let mut packet = packet(choices)?;
     packet[5..7].copy_from_slice(&choices.int_in_range(0..=300_u16)?.to_le_bytes());

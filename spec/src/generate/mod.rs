@@ -43,7 +43,7 @@ impl std::fmt::Display for GenerateError {
 
 impl std::error::Error for GenerateError {}
 
-/// The modules that the codec includes: one a wire, and `devices` with a module a device.
+/// The modules that the codec includes: one per wire, and `devices` with one module per device.
 ///
 /// # Errors
 /// If a name of the spec can't be turned into a Rust name.

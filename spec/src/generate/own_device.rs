@@ -157,7 +157,7 @@ impl Names {
         self.0.insert(ident.to_owned(), by.to_owned());
     }
 
-    /// Takes the name; or tells why it can't be taken.
+    /// Takes the name, or says why it can't be taken.
     fn add(&mut self, name: &str, ident: &Ident) -> Option<String> {
         let ident = ident.to_string();
         if ident == super::token::NOT_A_NAME {

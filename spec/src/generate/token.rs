@@ -84,7 +84,7 @@ pub(crate) fn capitalised(word: &str) -> String {
     letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect()
 }
 
-/// What a name becomes that is none in Rust: it says so, and does not compile.
+/// The identifier for a name that is not valid in Rust: it says so, and does not compile.
 pub(super) const NOT_A_NAME: &str = "not_a_rust_name";
 
 fn ident(name: &str) -> Ident {

@@ -127,7 +127,7 @@ pub struct Spec {
     pub requirements: Vec<File<RequirementsFile>>,
     /// The documents' defects.
     pub errata: File<ErrataFile>,
-    /// What became of each sentence, a file a document.
+    /// The use of each sentence, one file per document.
     pub sentences: Vec<File<SentencesFile>>,
 }
 
@@ -150,8 +150,8 @@ impl Spec {
         if defects.is_empty() { Ok(spec) } else { Err(defects) }
     }
 
-    /// The embedded spec's wires with a device that is not in it, read and checked. `path` is what
-    /// defects call the file. What the device cites are documents of its own.
+    /// The embedded spec's wires with a device that is not part of it, read and validated. `path`
+    /// is the file's name in defects. The device cites documents of its own.
     ///
     /// # Errors
     /// Every defect found in `text`.
@@ -229,7 +229,7 @@ impl Spec {
         !range.errata.iter().any(open)
     }
 
-    /// What became of each sentence of a document, if that was written down.
+    /// The use of each sentence of a document, if the file exists.
     #[must_use]
     pub fn sentences_of(&self, document: &str) -> Option<&SentencesFile> {
         self.sentences.iter().map(|file| &file.content).find(|file| file.document == document)
@@ -273,7 +273,7 @@ impl Reader<'_> {
         files.into_iter().next()
     }
 
-    /// A file of a wire that there is not.
+    /// A file of an unknown wire.
     fn other_wires(&mut self) {
         for source in self.sources {
             let name = source.path.strip_prefix("spec/wires/");

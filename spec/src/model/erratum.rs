@@ -19,7 +19,7 @@ pub struct ErrataFile {
 pub struct Erratum {
     /// Permanent id; begins with the document's id.
     pub id: String,
-    /// Where it stands.
+    /// The section.
     pub source: Citation,
     /// What the document prints.
     pub printed: String,

@@ -36,12 +36,12 @@ impl SentencesFile {
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Section {
-    /// What citations call it: its number, or its heading, with its meaning behind it where that
-    /// is not in English.
+    /// Its name in citations: its number or its heading, with the meaning after a heading that is
+    /// not in English.
     pub section: String,
     /// Its heading, where citations give the number.
     pub title: Option<String>,
-    /// How deep it lies; a section holds those behind it that lie deeper.
+    /// Its depth; a section contains the following sections that are deeper.
     pub level: u8,
     /// The line that it begins with, from 1.
     pub line: usize,

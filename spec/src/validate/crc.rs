@@ -2,7 +2,7 @@
 
 use crate::model::Crc;
 
-/// What is wrong with a CRC, and the node that it is at.
+/// A defect of a CRC, with its node.
 pub(crate) fn fault(crc: &Crc) -> Option<(&'static str, String)> {
     let computed = crc.compute(b"123456789");
     if crc.width != 16 {

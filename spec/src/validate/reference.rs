@@ -1,4 +1,4 @@
-//! What is named exists: registers, instructions, requirements, errata.
+//! Rule: every name refers to something that exists: registers, instructions, requirements, errata.
 
 use crate::load::File;
 use crate::model::{Area, Bound, Condition, Device};
@@ -95,7 +95,7 @@ fn alarms(file: &File<Device>, defects: &mut Vec<Diagnostic>) {
     }
 }
 
-/// What a condition is on exists.
+/// Rule: the register and bits of a condition exist.
 fn condition(file: &File<Device>, node: &str, condition: &Condition) -> Option<Diagnostic> {
     let device = &file.content;
     let Some(register) = device.register(&condition.register) else {

@@ -1,6 +1,5 @@
-//! What is written down of a document's sentences fits the spec, and the spec fits it: what they
-//! name exists, a citation's section is one of the document, and a requirement is demanded by a
-//! sentence of the section that it cites.
+//! Rule: the files of sentences and the spec agree. Every name in them exists, every cited section
+//! is in the document, and every requirement follows from a sentence of its cited section.
 
 use crate::load::File;
 use crate::model::{Citation, SentencesFile};

@@ -26,12 +26,13 @@ pub(super) fn check(spec: &Spec) -> Vec<Diagnostic> {
     defects
 }
 
-/// Whether this stands in the requirement's document.
+/// Whether this is in the requirement's document.
 fn cites(source: &[Citation], row: &Requirement) -> bool {
     source.iter().any(|citation| citation.document == row.source.document)
 }
 
-/// `Temperature Limit accepts 0 to 100`: of the register whose name stands right before.
+/// `Temperature Limit accepts 0 to 100`: a fact about the register that is named directly before
+/// it.
 fn accepts(device: &Device, row: &Requirement) -> Option<String> {
     let (before, behind) = row.text.split_once(" accepts ")?;
     let register = device

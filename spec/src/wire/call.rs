@@ -3,11 +3,11 @@ use serde::Serialize;
 
 use crate::model::HexBytes;
 
-/// A request in words, for libraries that have a call a request rather than packets. It has the
-/// fields that the documents give the request.
+/// A request as a call, for libraries that have one function per request instead of packets. It has
+/// the fields of the request in the documents.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Call {
-    /// What is asked for: `sync_read`.
+    /// The name of the request, such as `sync_read`.
     pub name: &'static str,
     /// Address of the first byte.
     #[serde(skip_serializing_if = "Option::is_none")]

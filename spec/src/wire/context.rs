@@ -3,13 +3,13 @@ use std::fmt;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What a reader of frames knows beside their bytes.
+/// Facts that a reader of frames needs in addition to their bytes.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Context {
-    /// For a fast status packet: what was asked for.
+    /// For a fast status packet: the request that it answers.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fast: Option<Fast>,
-    /// On a wire whose frames do not tell which way they go: the way.
+    /// On a wire whose frames do not state their direction: the direction.
     #[serde(rename = "kind", skip_serializing_if = "Option::is_none")]
     pub direction: Option<Direction>,
 }
@@ -35,7 +35,7 @@ pub struct Fast {
     pub ids: Vec<u8>,
 }
 
-/// Which way a packet goes.
+/// The direction of a packet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Direction {

@@ -10,8 +10,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::Rules;
 
-/// A wire: the way in which packets of one kind are laid out, of which a library may know several.
-/// What is peculiar to it, its [`Rules`] tell. Written as its id.
+/// A wire: a packet format. Its [`Rules`] have what is specific to it. It is written as its id.
 #[derive(Clone, Copy)]
 pub struct Wire(&'static dyn Rules);
 

@@ -27,7 +27,7 @@ impl Wire {
     pub const ALL: [Self; 2] = [dynamixel2::WIRE, innfos::WIRE];
 }
 
-/// What the files of `wires/` say.
+/// The content of the files of `wires/`.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Wires {
     /// DYNAMIXEL Protocol 2.0 and its JA dialect: instructions, error numbers.

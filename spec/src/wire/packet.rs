@@ -1,4 +1,4 @@
-//! Packets of all wires as one object, which tells by its `kind` of which wire it is.
+//! Packets of all wires as one object, whose `kind` determines the wire.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -13,13 +13,13 @@ use super::{Context, Direction, Packet, Wire};
 pub type Fields = serde_json::Map<String, Value>;
 
 impl Packet {
-    /// Which way it goes.
+    /// Its direction.
     #[must_use]
     pub fn direction(&self) -> Direction {
         self.wire().direction(self)
     }
 
-    /// What a reader has to know beside the bytes to read it.
+    /// The facts that a reader needs in addition to the bytes.
     #[must_use]
     pub fn context(&self) -> Context {
         self.wire().context(self)

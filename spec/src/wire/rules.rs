@@ -1,4 +1,4 @@
-//! What can be asked of a wire.
+//! The operations that every wire provides.
 
 use std::panic::RefUnwindSafe;
 
@@ -12,18 +12,18 @@ use crate::export::markdown::Text;
 use crate::model::{Citation, Fault, HexBytes, Requirement};
 use crate::{Diagnostic, Spec};
 
-/// The rules of a wire: its reference model, which goes a bit and a byte at a time, and what its
-/// file of `wires/` is good for.
+/// The rules of a wire: its reference model, which works bit by bit and byte by byte, and the uses
+/// of its file of `wires/`.
 pub trait Rules: Sync + RefUnwindSafe {
     /// Its id in the spec and in the adapter protocol.
     fn id(&self) -> &'static str;
 
-    /// What it is called, for people.
+    /// Its name for people.
     fn title(&self) -> &'static str;
 
     // Packets.
 
-    /// The kinds of its packets, by which they are told from those of other wires.
+    /// The kinds of its packets, which differ from those of every other wire.
     fn kinds(&self) -> &'static [&'static str];
 
     /// The packet with these fields, whose `kind` is one of this wire.
@@ -35,7 +35,7 @@ pub trait Rules: Sync + RefUnwindSafe {
     /// A JSON Schema for each kind of packet.
     fn packet_schemas(&self, generator: &mut SchemaGenerator) -> Vec<Value>;
 
-    /// Which way a packet of this wire goes.
+    /// The direction of a packet of this wire.
     fn direction(&self, packet: &Packet) -> Direction;
 
     /// The bytes in a packet whose number is not fixed: parameters, data.
@@ -44,10 +44,10 @@ pub trait Rules: Sync + RefUnwindSafe {
     /// The first field in which two packets of this wire differ, in words.
     fn difference(&self, expected: &Packet, actual: &Packet) -> &'static str;
 
-    /// What a reader has to know beside the bytes to read this packet.
+    /// The facts that a reader of this packet needs in addition to the bytes.
     fn context(&self, packet: &Packet) -> Context;
 
-    /// Whether a frame itself tells which way it goes; else [`Context::direction`] has to.
+    /// Whether a frame states its direction; otherwise [`Context::direction`] must be given.
     fn tells_direction(&self) -> bool;
 
     // The reference model.
@@ -93,15 +93,15 @@ pub trait Rules: Sync + RefUnwindSafe {
     /// The part of a whole frame that the byte at `offset` belongs to.
     fn part(&self, frame: &[u8], offset: usize) -> &'static str;
 
-    /// Makes the checksum of a frame right, so that what stands behind it is reached.
+    /// Mends the checksum of a frame, so that the code after its check is reached.
     fn repair(&self, frame: &mut [u8]);
 
     // Its file of the spec.
 
-    /// What its file cites, part by part.
+    /// The citations of its file, part by part.
     fn cited<'a>(&self, spec: &'a Spec) -> Vec<Cited<'a>>;
 
-    /// What is wrong with its file beside that.
+    /// The other defects of its file.
     fn validate(&self, spec: &Spec) -> Vec<Diagnostic>;
 
     /// A defect at a node of its file.
@@ -111,10 +111,10 @@ pub trait Rules: Sync + RefUnwindSafe {
     /// wire, several where the documents leave open which.
     fn frames(&self, spec: &Spec, packet: &Packet) -> Vec<Vec<u8>>;
 
-    /// What hosts may ask, in the order of the file.
+    /// The requests of hosts, in the order of the file.
     fn asks<'a>(&self, spec: &'a Spec) -> Vec<Ask<'a>>;
 
-    /// What a requirement's text says otherwise than its file.
+    /// The contradictions between a requirement's text and its file.
     fn misquoted(&self, spec: &Spec, requirement: &Requirement) -> Vec<String>;
 
     /// Its module of the codec's tables.
@@ -135,15 +135,15 @@ pub trait Rules: Sync + RefUnwindSafe {
 pub struct Ask<'a> {
     /// The wire's id and the word for it: `dynamixel2/Clear`.
     pub id: String,
-    /// What stands behind the id in a headline.
+    /// The text after the id in a headline.
     pub title: String,
     /// Its code.
     pub code: u8,
     /// Its name in the document.
     pub name: &'a str,
-    /// The word by which it is told from the others: its name, or its code.
+    /// The word that identifies it: its name or its code.
     pub word: String,
-    /// What the file says of it: labels with lines.
+    /// The file's facts about it: labels with lines.
     pub facts: Vec<(&'static str, Vec<String>)>,
     /// The sections of the documents that it is taken from.
     pub source: &'a [Citation],
@@ -156,7 +156,7 @@ pub struct Ask<'a> {
 pub struct Cited<'a> {
     /// Its path in the file.
     pub node: String,
-    /// What it is called, with the wire.
+    /// Its name, with the wire.
     pub name: String,
     /// The sections of the documents that it is taken from.
     pub source: &'a [Citation],

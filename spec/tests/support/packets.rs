@@ -13,7 +13,7 @@ const FEWEST: usize = 4;
 pub(crate) struct Example<'a> {
     /// The line of its first row.
     pub(crate) line: &'a Line,
-    /// The line of its last row, on which its CRC stands.
+    /// The line of its last row, which has its CRC.
     pub(crate) last: &'a Line,
     /// Its bytes; where a cell is empty, none.
     pub(crate) bytes: Vec<u8>,

@@ -85,8 +85,8 @@ fn put(pieces: Pieces<'_>, crc: u16, len: usize, room: &mut [u8; ROOM]) -> Optio
     Some(())
 }
 
-/// The same, with stuffing behind the patterns that begin at these places of the tail. A function of
-/// its own, as most packets need none.
+/// The same, with stuffing after the patterns that begin at these places of the tail. A separate
+/// function, as most packets need no stuffing.
 #[inline(never)]
 fn encode_stuffed(
     backend: impl Backend,

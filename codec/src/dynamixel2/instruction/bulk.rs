@@ -46,7 +46,7 @@ impl<D: IntoIterator<Item: Borrow<DeviceRange>> + Clone> BulkRead<D> {
     /// How many bytes the packet has, stuffing included.
     ///
     /// # Errors
-    /// As `encode`, whatever the size of its buffer.
+    /// As `encode`, except for the size of its buffer.
     pub fn encoded_len(&self) -> Result<usize, EncodeError> {
         len_of(|buffer| self.encode(buffer))
     }
@@ -112,7 +112,7 @@ impl<'d, D: IntoIterator<Item: Borrow<DeviceWrite<'d>>> + Clone> BulkWrite<D> {
     /// How many bytes the packet has, stuffing included.
     ///
     /// # Errors
-    /// As `encode`, whatever the size of its buffer.
+    /// As `encode`, except for the size of its buffer.
     pub fn encoded_len(&self) -> Result<usize, EncodeError> {
         len_of(|buffer| self.encode(buffer))
     }

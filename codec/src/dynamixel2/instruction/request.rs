@@ -135,7 +135,7 @@ impl<'a> Request<'a> {
     /// How many bytes the packet has, stuffing included.
     ///
     /// # Errors
-    /// As [`Request::encode`], whatever the size of its buffer.
+    /// As [`Request::encode`], except for the size of its buffer.
     pub fn encoded_len(&self) -> Result<usize, EncodeError> {
         frame::len_of(|buffer| self.encode(BROADCAST_ID, buffer))
     }

@@ -41,7 +41,7 @@ macro_rules! read {
             /// How many bytes the packet has, stuffing included.
             ///
             /// # Errors
-            /// As `encode`, whatever the size of its buffer.
+            /// As `encode`, except for the size of its buffer.
             pub fn encoded_len(&self) -> Result<usize, EncodeError> {
                 len_of(|buffer| self.encode(buffer))
             }
@@ -159,7 +159,7 @@ macro_rules! write {
             /// How many bytes the packet has, stuffing included.
             ///
             /// # Errors
-            /// As `encode`, whatever the size of its buffer.
+            /// As `encode`, except for the size of its buffer.
             pub fn encoded_len(&self) -> Result<usize, EncodeError> {
                 len_of(|buffer| self.encode(buffer))
             }

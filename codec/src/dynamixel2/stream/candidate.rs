@@ -72,8 +72,8 @@ impl Progress {
         Verdict::Whole(Whole { len, patterns: self.patterns, fast })
     }
 
-    /// Whether a pattern stands in the body without its stuffing. The next packet's header is such
-    /// a pattern, so a false header is found out when the next packet begins.
+    /// Whether the body has a pattern without its stuffing. The next packet's header is such a
+    /// pattern, so a false header is detected when the next packet begins.
     #[inline]
     fn find_bare_pattern(&mut self, bytes: &[u8], len: usize) -> bool {
         let body_end = len - CRC;

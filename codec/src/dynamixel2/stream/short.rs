@@ -11,7 +11,7 @@ use crate::simd::{Backend, Places, Task, WINDOW, meter, run};
 /// The number of packets that are examined at once.
 const AHEAD: usize = 16;
 
-/// Packets found ahead, one directly behind the other. Looking for several in one loop lets the
+/// Packets found in advance, one directly after the other. Looking for several in one loop lets the
 /// processor work on more than one at a time.
 #[derive(Clone, Debug)]
 pub(super) struct Ready {

@@ -7,7 +7,7 @@ use crate::simd::{Backend, Task, WINDOW, run};
 const PLACES: usize = WINDOW - (STUFFING_PATTERN.len() - 1);
 
 /// Inserts FD after every pattern in the bytes of `buffer` from `start` up to `end`. Returns the
-/// new end, or `None` if they do not fit. What is behind them in `buffer` is lost.
+/// new end, or `None` if they do not fit. The bytes after them in `buffer` are overwritten.
 #[inline]
 pub(crate) fn insert(buffer: &mut [u8], start: usize, end: usize) -> Option<usize> {
     run(Insert { buffer, start, end })

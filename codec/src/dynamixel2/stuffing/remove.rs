@@ -34,7 +34,7 @@ fn remove_slowly(bytes: &[u8], stuffed: usize, target: &mut [u8]) {
 /// The task that does so by moving whole windows; `None` if the body is too long, has no pattern or
 /// more than two, or ends too close to the end of `bytes`.
 ///
-/// No branch depends on where the patterns stand, as no processor could predict it.
+/// No branch depends on the places of the patterns, as no processor could predict it.
 struct Short<'a> {
     bytes: &'a [u8],
     stuffed: usize,
@@ -55,7 +55,7 @@ impl Task for Short<'_> {
         if stuffed > WINDOW || patterns == 0 || others & others.wrapping_sub(1) != 0 {
             return None;
         }
-        // Without a second pattern, the place behind the body.
+        // Without a second pattern, the place after the body.
         let stuffing = |patterns: u64| (patterns.trailing_zeros() as usize + 3).min(stuffed);
         let first = stuffing(patterns);
         let second = stuffing(others);
@@ -103,7 +103,7 @@ fn remove_any(body: &[u8], target: &mut [u8]) {
 }
 
 /// Writes a stuffed body without its stuffing to `buffer`, as far as it fits. Returns the unstuffed
-/// size. What is behind them in `buffer` is lost.
+/// size. The bytes after them in `buffer` are overwritten.
 ///
 /// # Errors
 /// The offset at which FD is missing after the first bare pattern.

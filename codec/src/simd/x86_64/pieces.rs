@@ -19,8 +19,7 @@ const BLOCK: usize = 16;
 const WORD: usize = 8;
 
 /// As [`constants`](super::constants) has them, but for a block at any place: the factors of one
-/// that ends n - 8 bytes before the end. Below eight, all that it has behind the end is zeros.
-/// 1168 bytes.
+/// that ends n - 8 bytes before the end. Below eight, it has only zeros after the end. 1168 bytes.
 static FACTORS: [[u8; BLOCK]; WORD + WINDOW + 1] = {
     let mut factors = [[0; BLOCK]; WORD + WINDOW + 1];
     let mut n = 0;
@@ -241,7 +240,7 @@ fn two_double_blocks<const WHAT: bool>(tail: &[u8]) -> Option<Seen> {
     Some(Seen { products: narrow::add(halves.0, halves.1), places })
 }
 
-/// The factors of 32 bytes that end so many bytes before the end.
+/// The factors of 32 bytes that end this many bytes before the end.
 #[inline]
 #[target_feature(enable = "avx2")]
 fn factors256(behind: usize) -> Option<__m256i> {

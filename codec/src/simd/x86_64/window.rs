@@ -85,13 +85,13 @@ impl Backend for Wide {
     }
 }
 
-/// From where FF stands.
+/// From the places of FF.
 #[inline]
 const fn pairs(ff: u64) -> u64 {
     ff & ff >> 1
 }
 
-/// From where FF and FD stand.
+/// From the places of FF and FD.
 #[inline]
 const fn places(ff: u64, fd: u64) -> Places {
     Places { patterns: ff & ff >> 1 & fd >> 2, stuffing: fd }

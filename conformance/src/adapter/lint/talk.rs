@@ -54,7 +54,7 @@ impl Talk {
         answer(reply).map(|answer| (id, answer))
     }
 
-    /// Waits for whatever the adapter does without being asked.
+    /// Waits for anything that the adapter does without a request.
     pub(super) fn hear(&mut self, limit: Duration) -> Option<Line> {
         self.conversation.hear(limit)
     }
@@ -104,7 +104,7 @@ fn without_reply(lost: &Lost) -> Problem {
 
 pub(super) const TOO_LONG: &str = "a line is longer than 16 MiB";
 
-/// The answer that a reply is, and what to do about one that is none.
+/// The answer in a reply, or how to mend a reply that is not an answer.
 fn answer(reply: Result<Reply, Malformed>) -> Result<Answer, Problem> {
     match reply {
         Ok(Reply::Ok(ok @ Value::Object(_))) => Ok(Answer::Ok(ok)),

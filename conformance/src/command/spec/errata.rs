@@ -14,7 +14,7 @@ Examples:
   actucheck spec errata --document ja40 --status open
   actucheck spec errata --json > errata.json";
 
-/// Lists what the documents get wrong or leave open, with the evidence
+/// Lists what the documents get wrong or leave unspecified, with the evidence
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Errata {

@@ -111,7 +111,7 @@ impl Block {
         }
     }
 
-    /// Where it stands: document and section, with the heading of a numbered one.
+    /// The source: document and section, with the heading of a numbered section.
     fn places(&mut self, spec: &Spec, source: &[Citation]) {
         self.lines("place", source.iter().map(|citation| place(spec, citation)));
     }

@@ -1,4 +1,4 @@
-//! Packets that are built of choices, beside the same by hand.
+//! Packets that are built from choices, compared with the same packets built by hand.
 
 use actucheck_codec::dynamixel2::instruction::{
     Action, Clear, ControlTableBackup, FactoryReset, Ping, Read, Reboot, RegWrite, Write,
@@ -48,7 +48,7 @@ fn build_status(choices: &mut Unstructured<'_>) -> Result<()> {
     Ok(())
 }
 
-/// An instruction of any kind, its parameters put together by hand beside it.
+/// An instruction of any kind, with its parameters built by hand.
 fn build_instruction(choices: &mut Unstructured<'_>) -> Result<()> {
     let id = choices.arbitrary()?;
     match choices.int_in_range(0..=12)? {
@@ -80,7 +80,7 @@ fn build_instruction(choices: &mut Unstructured<'_>) -> Result<()> {
     Ok(())
 }
 
-/// One that goes to an ID.
+/// An instruction that is sent to an ID.
 fn plain(id: u8, code: u8, params: &[u8], request: &Request<'_>) {
     let body = [&[code], params].concat();
     built(
@@ -91,7 +91,7 @@ fn plain(id: u8, code: u8, params: &[u8], request: &Request<'_>) {
     );
 }
 
-/// One with an option and a key, or the option alone.
+/// An instruction with an option and a key, or with the option alone.
 fn option(choices: &mut Unstructured<'_>, id: u8) -> Result<()> {
     let (code, key): (u8, [u8; 4]) = choices.arbitrary()?;
     let params = [&[code], &key[..]].concat();
@@ -121,8 +121,8 @@ fn unknown(id: u8, code: u8, params: &[u8]) {
     }
 }
 
-/// What is built is what the reference builds, of the very size that is said to be needed, and is
-/// read again as the same.
+/// The built bytes are those of the reference, have exactly the size that an error states, and
+/// decode to the same content.
 pub(super) fn built(
     id: u8,
     body: &[u8],

@@ -13,14 +13,14 @@ use arbitrary::Unstructured;
 use crate::targets::model::{fault, packet};
 use crate::targets::shown;
 
-/// The input is a packet, and then what a packet is made of.
+/// The input is read as a packet, and then as choices from which a packet is built.
 ///
 /// # Panics
 /// If the codec is wrong.
 pub fn check(input: &[u8]) {
     read(input);
     let mut choices = Unstructured::new(input);
-    // Choices may end early: then there is no packet.
+    // The choices may end early; then there is no packet.
     let _ = build::any(&mut choices);
 }
 
@@ -71,7 +71,7 @@ fn read_status(status: &Status<'_>, id: u8, params: &[u8]) {
     assert_eq!(PingStatus::parse(data).inspect_err(shown), ping);
 }
 
-/// The fields of the parameters lie one behind the other and end with them.
+/// The fields of the parameters are contiguous and cover all of them.
 fn walk(instruction: Instruction, params: &[u8]) {
     let layout = instruction.parameters().unwrap_or_default();
     let mut end = 0;
@@ -94,7 +94,7 @@ fn walk(instruction: Instruction, params: &[u8]) {
     assert!(layout.is_empty() || end == params.len(), "{end} of {} bytes", params.len());
 }
 
-/// Makes a packet of it that only its stuffing can be wrong with.
+/// Turns the input into a packet of which only the stuffing can be wrong.
 pub fn repair(input: &mut [u8]) {
     let Some(length) = input.len().checked_sub(PREFIX).filter(|length| *length > 2) else { return };
     let [low, high] = u16::try_from(length).unwrap_or(u16::MAX).to_le_bytes();

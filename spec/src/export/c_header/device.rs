@@ -19,7 +19,7 @@ pub(super) fn write(device: &Device, header: &mut Header) {
         header.typedef(c_type(row.kind), &format!("{tag}_t"));
         numbers(row, &name, header);
         for meaning in &row.meanings {
-            // Of a mode, or of bits that stand for one: JA40_PROFILE_VELOCITY_TIME_BASED_PROFILE.
+            // Of a mode, or of bits for a mode: JA40_PROFILE_VELOCITY_TIME_BASED_PROFILE.
             let mode = meaning.when.values_in_words(device).join(" ");
             let name = format!("{name}_{}", upper(&mode));
             limits(row.kind, meaning.range.as_ref(), &name, header);

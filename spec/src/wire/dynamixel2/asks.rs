@@ -1,4 +1,4 @@
-//! What hosts may ask on this wire, in words.
+//! The requests of hosts on this wire, in words.
 
 use super::{Dynamixel2, Field, Instruction, Size, WIRE};
 use crate::wire::Ask;

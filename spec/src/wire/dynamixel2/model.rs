@@ -1,4 +1,4 @@
-//! What the wire's file may say.
+//! The content of the wire's file.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -82,7 +82,7 @@ pub struct ErrorNumber {
     pub number: u8,
     /// Its name.
     pub name: String,
-    /// What it means.
+    /// Its meaning.
     pub summary: String,
 }
 
@@ -94,7 +94,7 @@ pub struct Instruction {
     pub name: String,
     /// Its code.
     pub code: u8,
-    /// What it does.
+    /// Its effect.
     pub summary: String,
     /// The sections that describe it.
     pub source: Vec<Citation>,
@@ -147,7 +147,7 @@ pub struct Field {
     expecting = "a size is a number of bytes, the name of an earlier field that holds it, or `rest`"
 )]
 pub enum Size {
-    /// So many.
+    /// A fixed number.
     Bytes(u8),
     /// The name of an earlier field that holds the number, or `rest`.
     Named(String),

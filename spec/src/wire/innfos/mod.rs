@@ -80,8 +80,8 @@ impl Rules for This {
         false
     }
 
-    /// The document's function returns the two bytes the other way round than the CRC's name says;
-    /// either number is right.
+    /// The document's function returns the two bytes in the reverse order of the named CRC; either
+    /// number is right.
     fn checksum(&self, bytes: &[u8]) -> Vec<u64> {
         let crc = reference::crc(bytes);
         vec![crc.into(), crc.swap_bytes().into()]

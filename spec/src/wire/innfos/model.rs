@@ -1,4 +1,4 @@
-//! What the wire's file may say.
+//! The content of the wire's file.
 
 use std::fmt;
 use std::net::Ipv4Addr;
@@ -127,7 +127,7 @@ pub enum Format {
     Iq24,
     /// A signed number, the true value times [`Command::factor`].
     Scaled,
-    /// What the document calls a MAC address.
+    /// An identifier that the document calls a MAC address.
     Mac,
 }
 

@@ -10,12 +10,12 @@ use crate::wire::Direction;
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Packet {
-    /// What a host sends, or what a device answers.
+    /// A request of a host, or a reply of a device.
     #[serde(rename = "kind")]
     pub direction: Direction,
-    /// Whom a request is for, where 0 is the broadcast address; who sends a reply.
+    /// The address that a request is for, where 0 is the broadcast address, or that sends a reply.
     pub address: u8,
-    /// The code of the command that is asked or answered.
+    /// The code of the command.
     pub command: u8,
     /// Everything between the length and the CRC.
     pub data: HexBytes,

@@ -27,7 +27,7 @@ pub fn crc(bytes: &[u8]) -> u16 {
     crc
 }
 
-/// The bytes of a packet; `None` for one with more data than its length can tell.
+/// The bytes of a packet; `None` if it has too much data for its length field.
 #[must_use]
 pub fn encode(packet: &Packet) -> Option<Vec<u8>> {
     let Packet { direction, address, command, data } = packet;
@@ -171,7 +171,7 @@ pub fn part(frame: &[u8], offset: usize) -> &'static str {
     }
 }
 
-/// Makes the CRC right that stands before the end of a frame.
+/// Mends the CRC before the end of a frame.
 pub fn repair(frame: &mut [u8]) {
     if let Some((_, before)) = frame.split_last()
         && let Some((start, _)) = before.split_last_chunk::<2>()

@@ -99,7 +99,7 @@ struct Place {
     name: &'static str,
     /// The instruction; `None` for a status packet.
     instruction: Option<u8>,
-    /// What stands before the word, of its size.
+    /// Bytes before the word, as many as the word has.
     before: fn(u16) -> Vec<u8>,
     after: &'static [u8],
 }

@@ -62,7 +62,7 @@ pub fn frame(id: u8, body: &[u8]) -> Vec<u8> {
     frame
 }
 
-/// The bytes of a packet; `None` for one that is longer than its length can tell.
+/// The bytes of a packet; `None` if it is too long for its length field.
 #[must_use]
 pub fn encode(packet: &Packet) -> Option<Vec<u8>> {
     let fitting = |id, body: &[u8]| (body.len() + 2 <= 0xFFFF).then(|| frame(id, body));
@@ -176,8 +176,9 @@ fn body(bytes: &[u8]) -> Result<(u8, &[u8]), Fault> {
     Ok((id, before.get(PREFIX..).unwrap_or_default()))
 }
 
-/// Whether the documents leave open what a whole frame is: with a bare pattern, with an ID that no
-/// device may have, or a status packet from the broadcast ID where no fast one is asked for.
+/// Whether the documents leave unspecified if a frame is a packet: a bare pattern, an ID that no
+/// device may have, or a status packet from the broadcast ID where no fast status packet is asked
+/// for.
 #[must_use]
 pub fn is_unspecified(bytes: &[u8]) -> bool {
     matches!(

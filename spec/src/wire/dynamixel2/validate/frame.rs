@@ -1,4 +1,4 @@
-//! Packets put together by the numbers of the file, to hold the vectors against.
+//! Builds packets from the numbers of the file, to compare them with the vectors.
 
 use crate::wire::dynamixel2::{Dynamixel2, Packet};
 

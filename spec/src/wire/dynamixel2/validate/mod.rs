@@ -1,4 +1,4 @@
-//! What serde can't see in the wire's file.
+//! Rules for the wire's file that serde can't check.
 
 mod frame;
 mod layout;
@@ -25,7 +25,7 @@ pub(super) fn all(file: &File<Dynamixel2>) -> Vec<Diagnostic> {
     defects
 }
 
-/// What it cites.
+/// Its citations.
 pub(super) fn cited(wire: &Dynamixel2) -> Vec<Cited<'_>> {
     let Dynamixel2 { framing, crc, stuffing, status, .. } = wire;
     let parts = [

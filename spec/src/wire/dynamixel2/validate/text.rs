@@ -3,7 +3,7 @@
 use crate::model::Requirement;
 use crate::wire::dynamixel2::Dynamixel2;
 
-/// `Fast Sync Read 0x8A`: an instruction's name with a code behind it.
+/// `Fast Sync Read 0x8A`: an instruction's name with a code after it.
 pub(in crate::wire::dynamixel2) fn misquoted(wire: &Dynamixel2, row: &Requirement) -> Vec<String> {
     let mut wrong = Vec::new();
     for (at, _) in row.text.match_indices(" 0x") {

@@ -1,4 +1,4 @@
-//! Frames put together by the numbers of the file, to hold the vectors against.
+//! Builds frames from the numbers of the file, to compare them with the vectors.
 
 use crate::wire::Direction;
 use crate::wire::innfos::{Innfos, Packet};

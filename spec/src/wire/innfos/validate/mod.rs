@@ -1,4 +1,4 @@
-//! What serde can't see in the wire's file.
+//! Rules for the wire's file that serde can't check.
 
 mod alarm;
 mod command;
@@ -46,7 +46,7 @@ pub(super) fn all(file: &File<Innfos>) -> Vec<Diagnostic> {
     defects
 }
 
-/// What it cites.
+/// Its citations.
 pub(super) fn cited(innfos: &Innfos) -> Vec<Cited<'_>> {
     let Innfos { framing, crc, crc_presence, udp, modes, alarms, actuators, .. } = innfos;
     let parts = [
