@@ -8,6 +8,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use actucheck_spec::load::Source;
+use actucheck_spec::wire::Wire;
 use actucheck_spec::{Diagnostic, Spec};
 
 const DEEP: usize = 100_000;
@@ -18,17 +19,11 @@ const LIMIT: Duration = Duration::from_secs(10);
 /// The defects of a device, in the small spec of `tests/base`.
 fn defects(device: &str) -> Vec<Diagnostic> {
     let base = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/base");
-    let file = |path| Source::new(path, &fs::read_to_string(base.join(path)).unwrap());
-    let mut sources = [
-        "documents.yaml",
-        "errata.yaml",
-        "wires/dynamixel2.yaml",
-        "wires/innfos.yaml",
-        "vectors/ping.yaml",
-        "requirements/book.yaml",
-    ]
-    .map(file)
-    .to_vec();
+    let file = |path: &str| Source::new(path, &fs::read_to_string(base.join(path)).unwrap());
+    let wires = Wire::ALL.map(|wire| file(&format!("wires/{wire}.yaml")));
+    let others =
+        ["documents.yaml", "errata.yaml", "vectors/ping.yaml", "requirements/book.yaml"].map(file);
+    let mut sources = [&wires[..], &others].concat();
     sources.push(Source::new("devices/motor.yaml", device));
     let start = Instant::now();
     let defects = Spec::read(&sources).unwrap_err();

@@ -71,3 +71,15 @@ fn stays<T: Serialize + DeserializeOwned + Debug>(content: &T) {
     let again: T = serde_yaml::from_str(&text).unwrap_or_else(|error| panic!("{error}\n{text}"));
     assert_eq!(format!("{again:?}"), format!("{content:?}"));
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Else every input is refused, and nothing is held.
+    #[test]
+    fn the_small_folder_is_whole() {
+        let base = BASE.map(|(path, text)| Source::new(path, text));
+        assert!(Spec::read(&base).is_ok());
+    }
+}

@@ -83,7 +83,9 @@ pub trait Rules: Sync + RefUnwindSafe {
     fn stream(&self, chunks: &[HexBytes], direction: Option<Direction>) -> Vec<Packet>;
 
     /// Whether the documents leave open what these bytes, one whole frame, are.
-    fn is_unspecified(&self, bytes: &[u8], context: &Context) -> bool;
+    fn is_unspecified(&self, _bytes: &[u8], _context: &Context) -> bool {
+        false
+    }
 
     /// A request in words; `None` if there are none for it.
     fn call(&self, _packet: &Packet) -> Option<Call> {
@@ -115,7 +117,9 @@ pub trait Rules: Sync + RefUnwindSafe {
     fn asks<'a>(&self, spec: &'a Spec) -> Vec<Ask<'a>>;
 
     /// The contradictions between a requirement's text and its file.
-    fn misquoted(&self, spec: &Spec, requirement: &Requirement) -> Vec<String>;
+    fn misquoted(&self, _spec: &Spec, _requirement: &Requirement) -> Vec<String> {
+        Vec::new()
+    }
 
     /// Its module of the codec's tables.
     fn generate(&self, spec: &Spec) -> TokenStream;
