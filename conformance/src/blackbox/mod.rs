@@ -4,9 +4,7 @@
 //! Probes are generated from a seed, and the reference model gives the right answers. Each failure
 //! is shrunk to the smallest question of its kind. The same seed finds the same failures.
 
-mod dynamixel2;
 mod finding;
-mod innfos;
 mod probe;
 mod wire;
 

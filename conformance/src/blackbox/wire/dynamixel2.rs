@@ -7,9 +7,9 @@ use actucheck_spec::wire::{self, Context};
 use proptest::prelude::{BoxedStrategy, Just, Strategy, any};
 use proptest::prop_oneof;
 
-use super::probe::{LONGEST, Named, Probe, cut, damaged, joined};
-use super::wire::{Asked, Probes};
+use super::{Asked, Probes};
 use crate::adapter::{Output, Question};
+use crate::blackbox::probe::{LONGEST, Named, Probe, cut, damaged, joined};
 use crate::suite::Author;
 use crate::suite::check::Demand;
 use crate::suite::codec::dynamixel2::generated::{instruction, status};

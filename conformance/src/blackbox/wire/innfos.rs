@@ -5,9 +5,9 @@ use actucheck_spec::wire::innfos::{self, WIRE, reference};
 use actucheck_spec::wire::{Direction, Packet};
 use proptest::prelude::{BoxedStrategy, Strategy, any};
 
-use super::probe::{LONGEST, Named, Probe, damaged};
-use super::wire::{Asked, Probes};
+use super::{Asked, Probes};
 use crate::adapter::{Output, Question};
+use crate::blackbox::probe::{LONGEST, Named, Probe, damaged};
 use crate::suite::Author;
 use crate::suite::check::Demand;
 use crate::suite::random::data;
