@@ -61,7 +61,7 @@ fn every_repaired_seed_passes() {
     }
 }
 
-/// A golden packet gets back what it had.
+/// A test vector gets back its bytes.
 #[test]
 fn repair_gives_the_right_crc() {
     let spec = Spec::embedded().unwrap();

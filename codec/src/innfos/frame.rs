@@ -115,7 +115,7 @@ impl<'a> Parts<'a> {
         if let [low, high] = *crc {
             let (found, expected) = (u16::from_le_bytes([low, high]), crc::modbus(data));
             // For a frame whose CRC is optional, `crc_len` has checked it.
-            if found != expected && !is_open(kind, command, data.len()) {
+            if found != expected && !has_optional_crc(kind, command, data.len()) {
                 return Err(FrameError::Crc { at: PREFIX + data.len(), found, expected });
             }
         }
@@ -125,7 +125,7 @@ impl<'a> Parts<'a> {
 
 /// Bytes of the CRC. `rest` begins with the data.
 fn crc_len(kind: Kind, command: u8, length: usize, rest: &[u8]) -> usize {
-    if !is_open(kind, command, length) {
+    if !has_optional_crc(kind, command, length) {
         return if has_crc(kind, length) { 2 } else { 0 };
     }
     // Zeros or the right CRC with the end byte after them count as a CRC.
@@ -152,7 +152,7 @@ const fn has_crc(kind: Kind, length: usize) -> bool {
 
 /// Whether the CRC is optional: some replies have no CRC, zeros in its place, or a CRC (INNFOS
 /// document, Handshake with ECB and Query actuator).
-fn is_open(kind: Kind, command: u8, length: usize) -> bool {
+fn has_optional_crc(kind: Kind, command: u8, length: usize) -> bool {
     kind == Kind::Reply && length > 0 && !has_crc(kind, length) && OPEN_REPLIES.contains(&command)
 }
 

@@ -32,7 +32,7 @@ pub(super) fn check(spec: &Spec) -> Vec<Diagnostic> {
     defects
 }
 
-/// Requirements that bind although an erratum leaves open what they say.
+/// Requirements that bind although an erratum leaves their text unspecified.
 fn binding(spec: &Spec) -> Vec<Diagnostic> {
     let mut defects = Vec::new();
     for file in &spec.requirements {

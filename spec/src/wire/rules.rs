@@ -82,7 +82,7 @@ pub trait Rules: Sync + RefUnwindSafe {
     /// The good packets of a stream that comes in `chunks`; `direction` as in a [`Context`].
     fn stream(&self, chunks: &[HexBytes], direction: Option<Direction>) -> Vec<Packet>;
 
-    /// Whether the documents leave open what these bytes, one whole frame, are.
+    /// Whether the documents leave the meaning of these bytes, one whole frame, unspecified.
     fn is_unspecified(&self, _bytes: &[u8], _context: &Context) -> bool {
         false
     }
@@ -110,7 +110,7 @@ pub trait Rules: Sync + RefUnwindSafe {
     fn diagnostic(&self, spec: &Spec, node: &str, message: String) -> Diagnostic;
 
     /// The frames that a packet may have by the numbers of its file: none for a packet of another
-    /// wire, several where the documents leave open which.
+    /// wire, several if the documents leave the choice unspecified.
     fn frames(&self, spec: &Spec, packet: &Packet) -> Vec<Vec<u8>>;
 
     /// The requests of hosts, in the order of the file.

@@ -12,7 +12,7 @@ const TAIL: u8 = 0xED;
 /// Bytes of header, address, command and length.
 const PREFIX: usize = 5;
 /// The commands whose replies of one byte may or may not have a CRC.
-const OPEN: [u8; 2] = [0x02, 0x44];
+const OPTIONAL_CRC: [u8; 2] = [0x02, 0x44];
 
 /// CRC-16/MODBUS, lowest bit first, bit by bit.
 #[must_use]
@@ -52,14 +52,14 @@ fn has_crc(direction: Direction, data: &[u8]) -> bool {
 }
 
 /// Whether a reply may have no CRC, zeros in its place, or a CRC.
-fn is_open(direction: Direction, command: u8, data: &[u8]) -> bool {
-    direction == Direction::Reply && data.len() == 1 && OPEN.contains(&command)
+fn has_optional_crc(direction: Direction, command: u8, data: &[u8]) -> bool {
+    direction == Direction::Reply && data.len() == 1 && OPTIONAL_CRC.contains(&command)
 }
 
-/// Whether the documents leave open what a frame of this packet is.
+/// Whether the documents leave the frame of this packet unspecified.
 #[must_use]
 pub fn is_unspecified(packet: &Packet) -> bool {
-    is_open(packet.direction, packet.command, &packet.data)
+    has_optional_crc(packet.direction, packet.command, &packet.data)
 }
 
 /// Whether zeros or the CRC, then the end byte, follow the data. Only this distinguishes a reply
@@ -137,7 +137,7 @@ fn first(direction: Direction, bytes: &[u8]) -> Result<First, Fault> {
     let (data, behind) = rest.split_at_checked(length).ok_or(Fault::Truncated)?;
     let packet = || Packet { direction, address, command, data: HexBytes(data.to_vec()) };
     let without_crc = PREFIX + length + 1;
-    let open = is_open(direction, command, data);
+    let open = has_optional_crc(direction, command, data);
     let with_crc = if open { looks_like_crc(data, behind) } else { has_crc(direction, data) };
     if !with_crc {
         return match behind.first() {
