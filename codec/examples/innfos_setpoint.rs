@@ -1,7 +1,7 @@
 //! Sends INNFOS setpoints in physical units; what is no number is not sent.
 
 use actucheck_codec::Error;
-use actucheck_codec::innfos::{Command, DD_6010, Frame, Kind, Message, MessageError};
+use actucheck_codec::innfos::{Command, DD_6010, Direction, Frame, Message, MessageError};
 
 /// The frame that turns actuator `address` to `revolutions`.
 fn turn_to(address: u8, revolutions: f64, buffer: &mut [u8]) -> Result<&[u8], Error> {
@@ -16,7 +16,7 @@ fn main() -> Result<(), Error> {
     assert_eq!(frame, b"\xEE\x06\x0A\x00\x04\x01\x00\x00\x00\x01\xD8\xED");
 
     // And what a frame asks, in the same unit.
-    let message = Message::parse(&Frame::parse(Kind::Request, frame)?)?;
+    let message = Message::parse(&Frame::parse(Direction::Request, frame)?)?;
     let value = message.value.and_then(|value| message.command.physical(value, &DD_6010));
     assert_eq!(value, Some(1.0));
 

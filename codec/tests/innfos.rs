@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 
 use actucheck_codec::innfos::{
     self, ACTUATORS, Actuator, Alarms, Command, Direction, Flag, Format, Frame, FrameError,
-    FullScale, Iq8, Iq24, Kind, Mac, Message, MessageError, Mode, Value,
+    FullScale, Iq8, Iq24, Mac, Message, MessageError, Mode, Operation, Value,
 };
 use actucheck_codec::{BufferTooSmall, EncodeError};
 use actucheck_spec::Spec;
@@ -23,16 +23,16 @@ fn vectors() -> impl Iterator<Item = &'static Vector> {
 }
 
 /// Direction, address, command and data.
-fn parts(vector: &Vector) -> Option<(Kind, u8, u8, &[u8])> {
+fn parts(vector: &Vector) -> Option<(Direction, u8, u8, &[u8])> {
     let Packet::Innfos(packet) = vector.packet.as_ref()? else { panic!("{}", vector.id) };
     let model::Packet { direction, address, command, data } = packet;
     Some((of(*direction), *address, *command, data))
 }
 
-fn of(direction: wire::Direction) -> Kind {
+fn of(direction: wire::Direction) -> Direction {
     match direction {
-        wire::Direction::Request => Kind::Request,
-        wire::Direction::Reply => Kind::Reply,
+        wire::Direction::Request => Direction::Request,
+        wire::Direction::Reply => Direction::Reply,
     }
 }
 
@@ -52,28 +52,28 @@ fn every_vector_is_built_and_read_or_refused() {
     for vector in vectors() {
         count += 1;
         let id = &vector.id;
-        let Some((kind, address, command, data)) = parts(vector) else {
+        let Some((direction, address, command, data)) = parts(vector) else {
             let error = Frame::parse(of(vector.direction.unwrap()), vector.frame()).unwrap_err();
             assert_eq!(Some(fault(error)), vector.fault, "{id}: {error}");
             assert!(error.offset() <= vector.frame().len(), "{id}");
             continue;
         };
         let command = Command::from_code(command);
-        let frame = Frame::parse(kind, vector.frame()).unwrap_or_else(|e| panic!("{id}: {e}"));
-        assert_eq!((frame.kind(), frame.address()), (kind, address), "{id}");
+        let frame = Frame::parse(direction, vector.frame()).unwrap_or_else(|e| panic!("{id}: {e}"));
+        assert_eq!((frame.direction(), frame.address()), (direction, address), "{id}");
         assert_eq!((frame.command(), frame.data()), (command, data), "{id}");
         let mut buffer = [0; 512];
-        let built = innfos::encode(kind, address, command, data, &mut buffer).unwrap();
+        let built = innfos::encode(direction, address, command, data, &mut buffer).unwrap();
         if vector.result == Outcome::Valid {
             assert_eq!(built, vector.frame(), "{id}");
             let message = Message::parse(&frame).unwrap_or_else(|e| panic!("{id}: {e}"));
             let mut buffer = [0; 14];
             assert_eq!(message.encode(&mut buffer).unwrap(), vector.frame(), "{id}");
         } else {
-            assert_eq!(Frame::parse(kind, built), Ok(frame), "{id}");
+            assert_eq!(Frame::parse(direction, built), Ok(frame), "{id}");
         }
         if let Some(printed) = vector.defective() {
-            let error = Frame::parse(kind, printed).err().map(fault);
+            let error = Frame::parse(direction, printed).err().map(fault);
             assert_eq!(error, vector.printed_fault, "{id}");
         }
     }
@@ -89,7 +89,7 @@ fn every_command_is_that_of_the_yaml() {
         let row = command.row().unwrap();
         assert_eq!(command.code(), said_row.code);
         assert!(command.name().ends_with(&said_row.name), "{}", command.name());
-        assert_eq!(said_row.direction == model::Operation::Read, row.direction == Direction::Read);
+        assert_eq!(said_row.operation == model::Operation::Read, row.operation == Operation::Read);
         assert_eq!((said_row.request, said_row.reply.as_slice()), (row.request, row.reply));
         assert_eq!(said_row.unit.as_deref(), row.unit);
         let full_scale = row.full_scale.map(|scale| match scale {
@@ -161,8 +161,8 @@ fn a_message_that_no_table_allows_is_refused() {
     let value = Some(Value::Iq24(Iq24(0)));
     let small = Message::request(1, command, value).encode(&mut buffer[..11]);
     assert_eq!(small, Err(MessageError::Encode(too_small)));
-    let data = innfos::encode(Kind::Request, 1, command, &[1, 2], &mut buffer).unwrap();
-    let frame = Frame::parse(Kind::Request, data).unwrap();
+    let data = innfos::encode(Direction::Request, 1, command, &[1, 2], &mut buffer).unwrap();
+    let frame = Frame::parse(Direction::Request, data).unwrap();
     let size = MessageError::Size { command, found: 2, expected: &[4] };
     assert_eq!(Message::parse(&frame), Err(size));
 }
@@ -170,13 +170,20 @@ fn a_message_that_no_table_allows_is_refused() {
 #[test]
 fn a_frame_that_ends_early_tells_its_size() {
     let mut buffer = [0; 16];
-    for (kind, data) in [(Kind::Request, &[][..]), (Kind::Request, &[1]), (Kind::Reply, &[1, 2])] {
-        let frame = innfos::encode(kind, 1, Command::from_code(0x06), data, &mut buffer).unwrap();
+    for (direction, data) in
+        [(Direction::Request, &[][..]), (Direction::Request, &[1]), (Direction::Reply, &[1, 2])]
+    {
+        let frame =
+            innfos::encode(direction, 1, Command::from_code(0x06), data, &mut buffer).unwrap();
         for available in 0..frame.len() {
             // Without a length, the size of the smallest frame is expected.
             let needed = if available < 5 { 6 } else { frame.len() };
             let error = FrameError::Truncated { available, needed };
-            assert_eq!(Frame::parse(kind, &frame[..available]).map(drop), Err(error), "{frame:?}");
+            assert_eq!(
+                Frame::parse(direction, &frame[..available]).map(drop),
+                Err(error),
+                "{frame:?}"
+            );
         }
     }
 }
@@ -194,9 +201,9 @@ fn a_flag_is_yes_or_no_or_neither() {
 fn what_follows_a_damaged_frame_is_lost() {
     let good = b"\xEE\x06\x07\x00\x01\x01\xED";
     let datagram = [good, &b"\xEE\x06\x07\x00\x01\x01\xEC"[..], good].concat();
-    let found: Vec<_> = innfos::frames(Kind::Reply, &datagram).collect();
+    let found: Vec<_> = innfos::frames(Direction::Reply, &datagram).collect();
     assert_eq!(found.len(), 2);
-    assert_eq!(found[0], Frame::parse(Kind::Reply, good));
+    assert_eq!(found[0], Frame::parse(Direction::Reply, good));
     assert_eq!(found[1], Err(FrameError::Tail { at: 6, found: 0xEC }));
 }
 
@@ -235,8 +242,8 @@ fn said_scale(code: u8, actuator: &Actuator) -> f64 {
     }
 }
 
-fn kind() -> impl Strategy<Value = Kind> {
-    prop_oneof![Just(Kind::Request), Just(Kind::Reply)]
+fn direction() -> impl Strategy<Value = Direction> {
+    prop_oneof![Just(Direction::Request), Just(Direction::Reply)]
 }
 
 /// Bytes in which those of frames are common.
@@ -256,9 +263,9 @@ proptest! {
             let row = command.row().unwrap();
             let value = row.format.map(|format| value(format, bits, six));
             let answer = Some(Value::Flag(Flag(six[0])));
-            let (request, reply) = match row.direction {
-                Direction::Read => (None, value),
-                Direction::Write => (value, answer),
+            let (request, reply) = match row.operation {
+                Operation::Read => (None, value),
+                Operation::Write => (value, answer),
             };
             let mut messages = vec![Message::request(address, command, request)];
             if !row.reply.is_empty() {
@@ -267,12 +274,12 @@ proptest! {
             for message in messages {
                 let mut buffer = [0; 14];
                 let bytes = message.encode(&mut buffer).unwrap();
-                let frame = Frame::parse(message.kind, bytes).unwrap();
+                let frame = Frame::parse(message.direction, bytes).unwrap();
                 prop_assert_eq!(Message::parse(&frame), Ok(message));
                 let size = u16::try_from(frame.data().len()).unwrap();
-                match message.kind {
-                    Kind::Request => prop_assert_eq!(size, row.request),
-                    Kind::Reply => prop_assert!(row.reply.contains(&size)),
+                match message.direction {
+                    Direction::Request => prop_assert_eq!(size, row.request),
+                    Direction::Reply => prop_assert!(row.reply.contains(&size)),
                 }
             }
         }
@@ -280,30 +287,30 @@ proptest! {
 
     #[test]
     fn every_frame_comes_back(
-        kind in kind(), address in any::<u8>(), code in any::<u8>(), data in tricky(),
+        direction in direction(), address in any::<u8>(), code in any::<u8>(), data in tricky(),
         tail in tricky(),
     ) {
         let command = Command::from_code(code);
         let mut buffer = [0; 64];
-        let bytes = innfos::encode(kind, address, command, &data, &mut buffer).unwrap().to_vec();
-        let frame = Frame::parse(kind, &bytes).unwrap();
-        prop_assert_eq!((frame.kind(), frame.address()), (kind, address));
+        let bytes = innfos::encode(direction, address, command, &data, &mut buffer).unwrap().to_vec();
+        let frame = Frame::parse(direction, &bytes).unwrap();
+        prop_assert_eq!((frame.direction(), frame.address()), (direction, address));
         prop_assert_eq!((frame.command(), frame.data()), (command, data.as_slice()));
         let (needed, available) = (bytes.len(), bytes.len() - 1);
-        let error = innfos::encode(kind, address, command, &data, &mut buffer[..available]);
+        let error = innfos::encode(direction, address, command, &data, &mut buffer[..available]);
         let too_small = EncodeError::Buffer(BufferTooSmall { needed, available });
         prop_assert_eq!(error, Err(too_small));
         for end in 0..bytes.len() {
-            prop_assert!(Frame::parse(kind, &bytes[..end]).is_err());
+            prop_assert!(Frame::parse(direction, &bytes[..end]).is_err());
         }
         let followed = [bytes.as_slice(), &tail].concat();
-        let (first, rest) = Frame::first(kind, &followed).unwrap();
-        let open = kind == Kind::Reply && [0x02, 0x44].contains(&code) && data.len() == 1;
+        let (first, rest) = Frame::first(direction, &followed).unwrap();
+        let open = direction == Direction::Reply && [0x02, 0x44].contains(&code) && data.len() == 1;
         if !open {
             prop_assert_eq!((first, rest), (frame, tail.as_slice()));
         }
         let both = [bytes.as_slice(), &bytes].concat();
-        prop_assert_eq!(innfos::frames(kind, &both).count(), 2);
+        prop_assert_eq!(innfos::frames(direction, &both).count(), 2);
     }
 
     #[test]
@@ -352,13 +359,13 @@ proptest! {
     }
 
     #[test]
-    fn no_bytes_make_anything_panic(kind in kind(), bytes in tricky()) {
+    fn no_bytes_make_anything_panic(direction in direction(), bytes in tricky()) {
         let framed = [&[0xEE, 0x00, 0x44, 0x00], bytes.as_slice()].concat();
         for bytes in [&bytes, &framed] {
-            if let Err(error) = Frame::parse(kind, bytes) {
+            if let Err(error) = Frame::parse(direction, bytes) {
                 prop_assert!(error.offset() <= bytes.len(), "{}", error);
             }
-            let frames = innfos::frames(kind, bytes).map_while(Result::ok);
+            let frames = innfos::frames(direction, bytes).map_while(Result::ok);
             let taken: usize = frames.map(|frame| {
                 let _ = Message::parse(&frame);
                 frame.data().len() + 6

@@ -158,8 +158,8 @@ impl Facts {
 
     fn innfos(&mut self, innfos: &Innfos) {
         for row in &innfos.commands {
-            let direction = row.direction.to_string();
-            let name = format!("INNFOS_{}_{}", c_name(&direction), c_name(&row.name));
+            let operation = row.operation.to_string();
+            let name = format!("INNFOS_{}_{}", c_name(&operation), c_name(&row.name));
             self.add(&name, row.code.into());
             self.add(&format!("{name}_REQUEST_SIZE"), row.request.into());
         }

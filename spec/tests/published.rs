@@ -87,7 +87,7 @@ fn a_broken_yaml_file_does_not_fit() {
         ("devices/ja40.yaml", "[ja40 §2.2]", "[ja40 2.2]"),
         ("devices/ja40.yaml", "{min: 0, max: 252", "{min: 0, max: [252]"),
         ("wires/dynamixel2.yaml", "size: rest", "size: -1"),
-        ("wires/innfos.yaml", "direction: read", "direction: both"),
+        ("wires/innfos.yaml", "operation: read", "operation: both"),
         ("vectors/dynamixel2/ping.yaml", "kind: status", "kind: answer"),
         ("vectors/dynamixel2/ping.yaml", "printed: FF", "printed: FG"),
         ("requirements/ja40.yaml", "level: must", "level: shall"),

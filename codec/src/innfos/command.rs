@@ -5,7 +5,7 @@ use crate::number::{nearest, to_f64};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CommandRow {
     /// Whether the command reads or writes the value.
-    pub direction: Direction,
+    pub operation: Operation,
     /// Bytes of the request's data.
     pub request: u16,
     /// The sizes that the reply's data may have; empty if no reply comes.
@@ -20,7 +20,7 @@ pub struct CommandRow {
 
 /// Whether a command reads or writes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Direction {
+pub enum Operation {
     /// The reply carries the value.
     Read,
     /// The request carries the value.

@@ -14,7 +14,7 @@ const _: () = assert!(MIN_ADDRESS == 1 && MAX_ADDRESS == u8::MAX && BROADCAST_AD
 
 /// The direction of a frame. The frame itself does not state it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Kind {
+pub enum Direction {
     /// From the host.
     Request,
     /// To the host.
@@ -25,7 +25,7 @@ pub enum Kind {
 /// [`Message::parse`](super::Message::parse) checks whether the data fits the command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Frame<'a> {
-    kind: Kind,
+    direction: Direction,
     address: u8,
     command: Command,
     data: &'a [u8],
@@ -37,28 +37,28 @@ impl<'a> Frame<'a> {
     /// # Errors
     /// The first rule that the bytes break, with the offset, in this order: header, size, end byte,
     /// extra bytes, CRC.
-    pub fn parse(kind: Kind, bytes: &'a [u8]) -> Result<Self, FrameError> {
-        let (parts, rest) = Parts::split(kind, bytes)?;
+    pub fn parse(direction: Direction, bytes: &'a [u8]) -> Result<Self, FrameError> {
+        let (parts, rest) = Parts::split(direction, bytes)?;
         if !rest.is_empty() {
             let available = bytes.len();
             return Err(FrameError::Trailing { end: available - rest.len(), available });
         }
-        parts.checked(kind)
+        parts.checked(direction)
     }
 
     /// Reads the frame at the beginning of `bytes`. Returns it and the rest of the bytes.
     ///
     /// # Errors
     /// As [`Frame::parse`], apart from extra bytes.
-    pub fn first(kind: Kind, bytes: &'a [u8]) -> Result<(Self, &'a [u8]), FrameError> {
-        let (parts, rest) = Parts::split(kind, bytes)?;
-        Ok((parts.checked(kind)?, rest))
+    pub fn first(direction: Direction, bytes: &'a [u8]) -> Result<(Self, &'a [u8]), FrameError> {
+        let (parts, rest) = Parts::split(direction, bytes)?;
+        Ok((parts.checked(direction)?, rest))
     }
 
     /// Its direction.
     #[must_use]
-    pub const fn kind(&self) -> Kind {
-        self.kind
+    pub const fn direction(&self) -> Direction {
+        self.direction
     }
 
     /// The actuator that it is for or from; 0 means all actuators, or the board.
@@ -90,7 +90,7 @@ struct Parts<'a> {
 }
 
 impl<'a> Parts<'a> {
-    fn split(kind: Kind, bytes: &'a [u8]) -> Result<(Self, &'a [u8]), FrameError> {
+    fn split(direction: Direction, bytes: &'a [u8]) -> Result<(Self, &'a [u8]), FrameError> {
         let available = bytes.len();
         let truncated = |needed| FrameError::Truncated { available, needed };
         if let Some(found) = bytes.first().copied().filter(|first| *first != HEADER) {
@@ -99,7 +99,7 @@ impl<'a> Parts<'a> {
         let (prefix, rest) = bytes.split_first_chunk::<PREFIX>().ok_or(truncated(PREFIX + 1))?;
         let [_, address, command, high, low] = *prefix;
         let length = usize::from(u16::from_be_bytes([high, low]));
-        let crc_len = crc_len(kind, command, length, rest);
+        let crc_len = crc_len(direction, command, length, rest);
         let tail = PREFIX + length + crc_len;
         let (data, rest) = rest.split_at_checked(length).ok_or(truncated(tail + 1))?;
         let (crc, rest) = rest.split_at_checked(crc_len).ok_or(truncated(tail + 1))?;
@@ -110,23 +110,23 @@ impl<'a> Parts<'a> {
         Ok((Self { address, command, data, crc }, rest))
     }
 
-    fn checked(self, kind: Kind) -> Result<Frame<'a>, FrameError> {
+    fn checked(self, direction: Direction) -> Result<Frame<'a>, FrameError> {
         let Self { address, command, data, crc } = self;
         if let [low, high] = *crc {
             let (found, expected) = (u16::from_le_bytes([low, high]), crc::modbus(data));
             // For a frame whose CRC is optional, `crc_len` has checked it.
-            if found != expected && !has_optional_crc(kind, command, data.len()) {
+            if found != expected && !has_optional_crc(direction, command, data.len()) {
                 return Err(FrameError::Crc { at: PREFIX + data.len(), found, expected });
             }
         }
-        Ok(Frame { kind, address, command: Command::from_code(command), data })
+        Ok(Frame { direction, address, command: Command::from_code(command), data })
     }
 }
 
 /// Bytes of the CRC. `rest` begins with the data.
-fn crc_len(kind: Kind, command: u8, length: usize, rest: &[u8]) -> usize {
-    if !has_optional_crc(kind, command, length) {
-        return if has_crc(kind, length) { 2 } else { 0 };
+fn crc_len(direction: Direction, command: u8, length: usize, rest: &[u8]) -> usize {
+    if !has_optional_crc(direction, command, length) {
+        return if has_crc(direction, length) { 2 } else { 0 };
     }
     // Zeros or the right CRC with the end byte after them count as a CRC.
     let (data, rest) = rest.split_at_checked(length).unwrap_or_default();
@@ -142,33 +142,36 @@ fn crc_len(kind: Kind, command: u8, length: usize, rest: &[u8]) -> usize {
 
 /// Whether a frame with this many bytes of data has a CRC (INNFOS document, Communication protocol
 /// format and Protocol example).
-const fn has_crc(kind: Kind, length: usize) -> bool {
-    let from = match kind {
-        Kind::Request => REQUEST_CRC_FROM,
-        Kind::Reply => REPLY_CRC_FROM,
+const fn has_crc(direction: Direction, length: usize) -> bool {
+    let from = match direction {
+        Direction::Request => REQUEST_CRC_FROM,
+        Direction::Reply => REPLY_CRC_FROM,
     };
     length >= from
 }
 
 /// Whether the CRC is optional: some replies have no CRC, zeros in its place, or a CRC (INNFOS
 /// document, Handshake with ECB and Query actuator).
-fn has_optional_crc(kind: Kind, command: u8, length: usize) -> bool {
-    kind == Kind::Reply && length > 0 && !has_crc(kind, length) && OPEN_REPLIES.contains(&command)
+fn has_optional_crc(direction: Direction, command: u8, length: usize) -> bool {
+    direction == Direction::Reply
+        && length > 0
+        && !has_crc(direction, length)
+        && OPEN_REPLIES.contains(&command)
 }
 
 /// The size of a frame with this many bytes of data.
 #[must_use]
-pub const fn encoded_len(kind: Kind, data: usize) -> usize {
-    PREFIX + data + if has_crc(kind, data) { size_of::<u16>() } else { 0 } + size_of_val(&TAIL)
+pub const fn encoded_len(direction: Direction, data: usize) -> usize {
+    PREFIX + data + if has_crc(direction, data) { size_of::<u16>() } else { 0 } + size_of_val(&TAIL)
 }
 
 /// Builds a frame in `buffer`; returns it. A reply whose CRC is optional gets none, as the document
 /// prints it.
 ///
 /// ```
-/// use actucheck_codec::innfos::{self, Command, Kind};
+/// use actucheck_codec::innfos::{self, Command, Direction};
 /// let mut buffer = [0; 16];
-/// let frame = innfos::encode(Kind::Request, 1, Command::ReadSpeed, &[], &mut buffer)?;
+/// let frame = innfos::encode(Direction::Request, 1, Command::ReadSpeed, &[], &mut buffer)?;
 /// assert_eq!(frame, b"\xEE\x01\x05\x00\x00\xED");
 /// # Ok::<(), actucheck_codec::EncodeError>(())
 /// ```
@@ -177,7 +180,7 @@ pub const fn encoded_len(kind: Kind, data: usize) -> usize {
 /// If there are more than 65,535 bytes of data, or `buffer` is too small; the error has the size
 /// needed: 6 bytes, the data, and 2 for the CRC if there is one.
 pub fn encode<'b>(
-    kind: Kind,
+    direction: Direction,
     address: u8,
     command: Command,
     data: &[u8],
@@ -188,8 +191,8 @@ pub fn encode<'b>(
     let [high, low] = length.to_be_bytes();
     let prefix = [HEADER, address, command.code(), high, low];
     let crc = crc::modbus(data).to_le_bytes();
-    let crc: &[u8] = if has_crc(kind, data.len()) { &crc } else { &[] };
-    let needed = encoded_len(kind, data.len());
+    let crc: &[u8] = if has_crc(direction, data.len()) { &crc } else { &[] };
+    let needed = encoded_len(direction, data.len());
     let too_small = BufferTooSmall { needed, available: buffer.len() };
     let target = buffer.get_mut(..needed).ok_or(too_small)?;
     let bytes = prefix.iter().chain(data).chain(crc).chain(&[TAIL]);

@@ -1,5 +1,5 @@
 use super::{
-    Actuator, Command, Data, Direction, Format, Frame, Kind, MessageError, Value, encode,
+    Actuator, Command, Data, Direction, Format, Frame, MessageError, Operation, Value, encode,
     encoded_len,
 };
 
@@ -7,7 +7,7 @@ use super::{
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Message {
     /// Its direction.
-    pub kind: Kind,
+    pub direction: Direction,
     /// The actuator that it is for or from; 0 means all actuators, or the board.
     pub address: u8,
     /// The command.
@@ -20,7 +20,7 @@ impl Message {
     /// A message from the host.
     #[must_use]
     pub const fn request(address: u8, command: Command, value: Option<Value>) -> Self {
-        Self { kind: Kind::Request, address, command, value }
+        Self { direction: Direction::Request, address, command, value }
     }
 
     /// A message from the host that sets a quantity in the command's unit.
@@ -46,7 +46,7 @@ impl Message {
         }
         let value = command.from_physical(physical, actuator);
         let value = value.ok_or(MessageError::Value { command })?;
-        match format(Kind::Request, command)? {
+        match format(Direction::Request, command)? {
             Some(_) => Ok(Self::request(address, command, Some(value))),
             None => Err(MessageError::Value { command }),
         }
@@ -55,14 +55,14 @@ impl Message {
     /// A message to the host.
     #[must_use]
     pub const fn reply(address: u8, command: Command, value: Option<Value>) -> Self {
-        Self { kind: Kind::Reply, address, command, value }
+        Self { direction: Direction::Reply, address, command, value }
     }
 
     /// Reads the meaning of `frame`.
     ///
     /// ```
-    /// use actucheck_codec::innfos::{Command, Frame, Kind, Message, Mode, Value};
-    /// let frame = Frame::parse(Kind::Request, b"\xEE\x06\x07\x00\x01\x06\x3F\x42\xED")?;
+    /// use actucheck_codec::innfos::{Command, Frame, Direction, Message, Mode, Value};
+    /// let frame = Frame::parse(Direction::Request, b"\xEE\x06\x07\x00\x01\x06\x3F\x42\xED")?;
     /// let message = Message::parse(&frame)?;
     /// assert_eq!(message.command, Command::WriteMode);
     /// assert_eq!(message.value, Some(Value::Mode(Mode::TrapezoidalPosition)));
@@ -72,8 +72,8 @@ impl Message {
     /// # Errors
     /// If the command is not in the document, has no reply, or the data has the wrong size.
     pub fn parse(frame: &Frame<'_>) -> Result<Self, MessageError> {
-        let (kind, command, data) = (frame.kind(), frame.command(), frame.data());
-        let format = format(kind, command)?;
+        let (direction, command, data) = (frame.direction(), frame.command(), frame.data());
+        let format = format(direction, command)?;
         let expected: &[u16] = format.map_or(&[0], Format::sizes);
         let size = MessageError::Size { command, found: data.len(), expected };
         let value = match format {
@@ -81,11 +81,11 @@ impl Message {
             None => return Err(size),
             Some(format) => Some(Value::decode(format, data).ok_or(size)?),
         };
-        Ok(Self { kind, address: frame.address(), command, value })
+        Ok(Self { direction, address: frame.address(), command, value })
     }
 
     /// The size of the longest message's frame.
-    pub const MAX_LEN: usize = encoded_len(Kind::Request, Data::MAX_LEN);
+    pub const MAX_LEN: usize = encoded_len(Direction::Request, Data::MAX_LEN);
 
     /// Builds the frame in `buffer`; returns it. [`Message::MAX_LEN`] bytes are always enough.
     ///
@@ -93,23 +93,25 @@ impl Message {
     /// If the command is not in the document, has no reply, the value is not of its format, or
     /// `buffer` is too small; the error has the size needed.
     pub fn encode<'b>(&self, buffer: &'b mut [u8]) -> Result<&'b [u8], MessageError> {
-        let Self { kind, address, command, value } = *self;
-        let data = match (format(kind, command)?, value) {
+        let Self { direction, address, command, value } = *self;
+        let data = match (format(direction, command)?, value) {
             (None, None) => Data::default(),
             (Some(format), Some(value)) if value.is(format) => value.encode(),
             _ => return Err(MessageError::Value { command }),
         };
-        Ok(encode(kind, address, command, data.as_bytes(), buffer)?)
+        Ok(encode(direction, address, command, data.as_bytes(), buffer)?)
     }
 }
 
 /// The format of the command's value in this direction; a write is answered with a flag.
-fn format(kind: Kind, command: Command) -> Result<Option<Format>, MessageError> {
+fn format(direction: Direction, command: Command) -> Result<Option<Format>, MessageError> {
     let row = command.row().ok_or(MessageError::Unknown { code: command.code() })?;
-    match (kind, row.direction) {
-        (Kind::Reply, _) if row.reply.is_empty() => Err(MessageError::NoReply { command }),
-        (Kind::Reply, Direction::Read) | (Kind::Request, Direction::Write) => Ok(row.format),
-        (Kind::Reply, Direction::Write) => Ok(Some(Format::Flag)),
-        (Kind::Request, Direction::Read) => Ok(None),
+    match (direction, row.operation) {
+        (Direction::Reply, _) if row.reply.is_empty() => Err(MessageError::NoReply { command }),
+        (Direction::Reply, Operation::Read) | (Direction::Request, Operation::Write) => {
+            Ok(row.format)
+        }
+        (Direction::Reply, Operation::Write) => Ok(Some(Format::Flag)),
+        (Direction::Request, Operation::Read) => Ok(None),
     }
 }

@@ -6,10 +6,10 @@
 //!
 //! A [`Frame`] is the checked view of such bytes; a [`Message`] is what they mean: a [`Command`]
 //! with a [`Value`] of the type that the document's tables give it. A frame does not state its
-//! direction, so the caller gives the [`Kind`] (INNFOS document, Communication protocol format).
+//! direction, so the caller gives the [`Direction`] (INNFOS document, Communication protocol format).
 //!
 //! ```
-//! use actucheck_codec::innfos::{Command, Frame, Iq24, Kind, Message, Value};
+//! use actucheck_codec::innfos::{Command, Frame, Iq24, Direction, Message, Value};
 //!
 //! // The actuator 6 turns to one revolution.
 //! let position = Iq24::from_f64(1.0).map(Value::Iq24);
@@ -18,7 +18,7 @@
 //! assert_eq!(frame, b"\xEE\x06\x0A\x00\x04\x01\x00\x00\x00\x01\xD8\xED");
 //!
 //! // And the other way.
-//! let message = Message::parse(&Frame::parse(Kind::Request, frame)?)?;
+//! let message = Message::parse(&Frame::parse(Direction::Request, frame)?)?;
 //! assert_eq!((message.command, message.value), (Command::WritePosition, position));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -43,11 +43,11 @@ mod generated {
     include!(concat!(env!("OUT_DIR"), "/innfos.rs"));
 }
 
-pub use command::{Actuator, CommandRow, Direction, Format, FullScale};
+pub use command::{Actuator, CommandRow, Format, FullScale, Operation};
 pub use datagram::{Frames, frames};
 pub use error::{FrameError, MessageError};
 pub use fixed::{Iq8, Iq24};
-pub use frame::{Frame, Kind, encode, encoded_len};
+pub use frame::{Direction, Frame, encode, encoded_len};
 pub use generated::innfos::*;
 pub use message::Message;
 pub use value::{Data, Flag, Mac, Value};

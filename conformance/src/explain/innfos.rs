@@ -1,6 +1,6 @@
 //! One frame of the INNFOS Ethernet protocol, field by field.
 
-use actucheck_codec::innfos::{Frame, FrameError, Kind, Message, MessageError, Value};
+use actucheck_codec::innfos::{self, Frame, FrameError, Message, MessageError, Value};
 use actucheck_spec::wire::Direction;
 
 use super::table::{Explanation, Table, rounded};
@@ -12,15 +12,15 @@ const CRC_AND_END: usize = 3;
 
 /// Explains a whole frame.
 pub(super) fn explain(asked: &Asked<'_>) -> Result<Explanation, Invalid> {
-    let kind = match asked.context.direction {
-        Some(Direction::Reply) => Kind::Reply,
-        _ => Kind::Request,
+    let direction = match asked.context.direction {
+        Some(Direction::Reply) => innfos::Direction::Reply,
+        _ => innfos::Direction::Request,
     };
-    frame(kind, asked.bytes).map_err(|error| Invalid::new(error.offset(), &error))
+    frame(direction, asked.bytes).map_err(|error| Invalid::new(error.offset(), &error))
 }
 
-fn frame(kind: Kind, bytes: &[u8]) -> Result<Explanation, FrameError> {
-    let frame = Frame::parse(kind, bytes)?;
+fn frame(direction: innfos::Direction, bytes: &[u8]) -> Result<Explanation, FrameError> {
+    let frame = Frame::parse(direction, bytes)?;
     let mut table = Table::new(bytes);
     table.take(1, "header", |_| String::new());
     table.take(1, "address", |_| match frame.address() {
@@ -47,9 +47,9 @@ fn frame(kind: Kind, bytes: &[u8]) -> Result<Explanation, FrameError> {
     }
     table.take(1, "end", |_| String::new());
 
-    let word = match kind {
-        Kind::Request => "request to",
-        Kind::Reply => "reply of",
+    let word = match direction {
+        innfos::Direction::Request => "request to",
+        innfos::Direction::Reply => "reply of",
     };
     let title = format!("{word} {}: {}", frame.address(), command.name());
     Ok(Explanation { title, rows: table.rows })

@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use actucheck_codec::innfos::{
-    self, ACTUATORS, Command, Format, Frame, FrameError, Kind, Message, Value,
+    self, ACTUATORS, Command, Format, Frame, FrameError, Message, Value,
 };
 use actucheck_codec::{BufferTooSmall, EncodeError};
 use actucheck_spec::model::Fault;
@@ -17,52 +17,55 @@ use crate::yaml;
 static INNFOS: LazyLock<Innfos> = LazyLock::new(|| yaml::read("wires/innfos.yaml"));
 /// For each code and [direction](WAYS), the sizes that the data may have; `None` if there is no
 /// such frame.
-static SIZES: LazyLock<Vec<[Option<&[u16]>; 2]>> =
-    LazyLock::new(|| (0..=0xFF).map(|code| WAYS.map(|(kind, _)| sizes(kind, code))).collect());
+static SIZES: LazyLock<Vec<[Option<&[u16]>; 2]>> = LazyLock::new(|| {
+    (0..=0xFF).map(|code| WAYS.map(|(direction, _)| sizes(direction, code))).collect()
+});
 
 /// Both directions of a frame.
-pub(super) const WAYS: [(Kind, Direction); 2] =
-    [(Kind::Request, Direction::Request), (Kind::Reply, Direction::Reply)];
+pub(super) const WAYS: [(innfos::Direction, Direction); 2] = [
+    (innfos::Direction::Request, Direction::Request),
+    (innfos::Direction::Reply, Direction::Reply),
+];
 
 /// The input is read as a frame, and then as choices from which a frame is built.
 ///
 /// # Panics
 /// If the codec is wrong.
 pub fn check(input: &[u8]) {
-    for (kind, said) in WAYS {
-        read(kind, said, input);
+    for (direction, said) in WAYS {
+        read(direction, said, input);
     }
     // The choices may end early; then there is no frame.
     let _ = build(&mut Unstructured::new(input));
 }
 
 /// The codec finds the same frame or the same fault as the reference.
-fn read(kind: Kind, said: Direction, bytes: &[u8]) {
+fn read(direction: innfos::Direction, said: Direction, bytes: &[u8]) {
     let expected = reference::decode(said, bytes);
-    let frame = match Frame::parse(kind, bytes) {
+    let frame = match Frame::parse(direction, bytes) {
         Ok(frame) => frame,
         Err(error) => {
             assert!(error.offset() <= bytes.len(), "{error}");
             shown(&error);
-            return assert_eq!(Err(fault(error)), expected, "{kind:?}");
+            return assert_eq!(Err(fault(error)), expected, "{direction:?}");
         }
     };
     assert_eq!(Ok(packet(&frame)), expected);
     understood(&frame);
-    built(kind, frame.address(), frame.command(), frame.data());
+    built(direction, frame.address(), frame.command(), frame.data());
 }
 
 /// The content of the frame, in the YAML's terms.
 pub(super) fn packet(frame: &Frame<'_>) -> Packet {
     let (address, command) = (frame.address(), frame.command().code());
     let data = frame.data().to_vec().into();
-    Packet { direction: direction(frame.kind()), address, command, data }
+    Packet { direction: model(frame.direction()), address, command, data }
 }
 
-const fn direction(kind: Kind) -> Direction {
-    match kind {
-        Kind::Request => Direction::Request,
-        Kind::Reply => Direction::Reply,
+const fn model(direction: innfos::Direction) -> Direction {
+    match direction {
+        innfos::Direction::Request => Direction::Request,
+        innfos::Direction::Reply => Direction::Reply,
     }
 }
 
@@ -80,32 +83,34 @@ const fn fault(error: FrameError) -> Fault {
 /// A message is allowed by a row of the YAML, and encoding it yields the same bytes.
 fn understood(frame: &Frame<'_>) {
     let message = Message::parse(frame).inspect_err(shown);
-    let way = usize::from(frame.kind() == Kind::Reply);
+    let way = usize::from(frame.direction() == innfos::Direction::Reply);
     let sizes = SIZES[usize::from(frame.command().code())][way].unwrap_or_default();
     let allowed = sizes.iter().any(|size| usize::from(*size) == frame.data().len());
     assert_eq!(message.is_ok(), allowed, "{frame:?}");
     let Ok(message) = message else { return };
     let mut buffers = [[0; 14]; 2];
     let [one, two] = &mut buffers;
-    let again = innfos::encode(frame.kind(), frame.address(), frame.command(), frame.data(), one);
+    let again =
+        innfos::encode(frame.direction(), frame.address(), frame.command(), frame.data(), one);
     assert_eq!(message.encode(two).unwrap(), again.unwrap(), "{message:?}");
 }
 
 /// See [`SIZES`].
-fn sizes(kind: Kind, code: u8) -> Option<&'static [u16]> {
+fn sizes(direction: innfos::Direction, code: u8) -> Option<&'static [u16]> {
     let innfos = &*INNFOS;
     let command = innfos.command(code)?;
     let value = || command.format.map_or(&[0][..], |format| &innfos.format(format).unwrap().sizes);
-    match (kind, command.direction) {
-        (Kind::Reply, _) if command.reply.is_empty() => None,
-        (Kind::Request, Operation::Read) => Some(&[0]),
-        (Kind::Request, Operation::Write) | (Kind::Reply, Operation::Read) => Some(value()),
-        (Kind::Reply, Operation::Write) => Some(&[1]),
+    match (direction, command.operation) {
+        (innfos::Direction::Reply, _) if command.reply.is_empty() => None,
+        (innfos::Direction::Request, Operation::Read) => Some(&[0]),
+        (innfos::Direction::Request, Operation::Write)
+        | (innfos::Direction::Reply, Operation::Read) => Some(value()),
+        (innfos::Direction::Reply, Operation::Write) => Some(&[1]),
     }
 }
 
 fn build(choices: &mut Unstructured<'_>) -> Result<()> {
-    let (kind, _) = *choices.choose(&WAYS)?;
+    let (direction, _) = *choices.choose(&WAYS)?;
     let (address, code) = choices.arbitrary()?;
     if choices.arbitrary()? {
         let command = Command::from_code(code);
@@ -113,7 +118,7 @@ fn build(choices: &mut Unstructured<'_>) -> Result<()> {
         // Sometimes more data than the low byte of the length can state.
         let most = if choices.ratio(1, 16)? { 280 } else { 12 };
         let size = choices.int_in_range(0..=most)?;
-        built(kind, address, command, choices.bytes(size.min(choices.len()))?);
+        built(direction, address, command, choices.bytes(size.min(choices.len()))?);
         return Ok(());
     }
     let command = *choices.choose(&Command::ALL)?;
@@ -122,13 +127,13 @@ fn build(choices: &mut Unstructured<'_>) -> Result<()> {
     if let Some(value) = value {
         physical(command, value, choices.choose_index(ACTUATORS.len())?);
     }
-    let message = match kind {
-        Kind::Request => Message::request(address, command, value),
-        Kind::Reply => Message::reply(address, command, value),
+    let message = match direction {
+        innfos::Direction::Request => Message::request(address, command, value),
+        innfos::Direction::Reply => Message::reply(address, command, value),
     };
     let mut buffer = [0; 14];
     if let Ok(frame) = message.encode(&mut buffer).inspect_err(shown) {
-        assert_eq!(Message::parse(&Frame::parse(kind, frame).unwrap()), Ok(message));
+        assert_eq!(Message::parse(&Frame::parse(direction, frame).unwrap()), Ok(message));
     }
     Ok(())
 }
@@ -177,30 +182,30 @@ fn physical(command: Command, value: Value, model: usize) {
 
 /// The built bytes are those of the reference, have exactly the size that an error states, and
 /// decode to the same content.
-fn built(kind: Kind, address: u8, command: Command, data: &[u8]) {
+fn built(direction: innfos::Direction, address: u8, command: Command, data: &[u8]) {
     let code = command.code();
     let packet_again =
-        Packet { direction: direction(kind), address, command: code, data: data.to_vec().into() };
+        Packet { direction: model(direction), address, command: code, data: data.to_vec().into() };
     let expected = reference::encode(&packet_again).unwrap();
     let mut buffer = vec![0; expected.len()];
-    assert_eq!(innfos::encode(kind, address, command, data, &mut buffer), Ok(&expected[..]));
+    assert_eq!(innfos::encode(direction, address, command, data, &mut buffer), Ok(&expected[..]));
     let too_small = BufferTooSmall { needed: expected.len(), available: expected.len() - 1 };
-    let built = innfos::encode(kind, address, command, data, &mut buffer[1..]);
+    let built = innfos::encode(direction, address, command, data, &mut buffer[1..]);
     assert_eq!(built, Err(EncodeError::Buffer(too_small)));
-    assert_eq!(Frame::parse(kind, &expected).map(|frame| packet(&frame)), Ok(packet_again));
+    assert_eq!(Frame::parse(direction, &expected).map(|frame| packet(&frame)), Ok(packet_again));
 }
 
 /// Turns the input into a frame: a request, or a reply if its address is odd.
 pub fn repair(input: &mut [u8]) {
-    let kind = if input.get(1).is_some_and(|address| address % 2 == 1) { 2 } else { 1 };
+    let direction = if input.get(1).is_some_and(|address| address % 2 == 1) { 2 } else { 1 };
     let Some(room) = input.len().checked_sub(6) else { return };
     // A CRC for at least this many bytes of data.
-    let length = if room >= kind + 2 { room - 2 } else { room.min(kind - 1) };
+    let length = if room >= direction + 2 { room - 2 } else { room.min(direction - 1) };
     let [high, low] = u16::try_from(length).unwrap_or(u16::MAX).to_be_bytes();
     input[0] = 0xEE;
     input[3..5].copy_from_slice(&[high, low]);
     let end = 5 + length;
-    if length >= kind {
+    if length >= direction {
         let crc = reference::crc(&input[5..end]);
         input[end..end + 2].copy_from_slice(&crc.to_le_bytes());
     }

@@ -10,22 +10,25 @@ use crate::targets::innfos_frame::{WAYS, packet};
 /// # Panics
 /// If the codec is wrong.
 pub fn check(datagram: &[u8]) {
-    for (kind, said) in WAYS {
+    for (direction, said) in WAYS {
         let expected = reference::packets(said, datagram);
-        let found: Vec<_> = innfos::frames(kind, datagram).map_while(Result::ok).collect();
+        let found: Vec<_> = innfos::frames(direction, datagram).map_while(Result::ok).collect();
         assert_eq!(found.iter().map(packet).collect::<Vec<_>>(), expected);
 
         // Frame by frame, and nothing after the first error.
         let mut rest = datagram;
         for frame in &found {
-            let (first, behind) = Frame::first(kind, rest).unwrap();
+            let (first, behind) = Frame::first(direction, rest).unwrap();
             assert_eq!(first, *frame);
-            assert_eq!(Frame::parse(kind, &rest[..rest.len() - behind.len()]), Ok(first));
+            assert_eq!(Frame::parse(direction, &rest[..rest.len() - behind.len()]), Ok(first));
             rest = behind;
         }
-        let mut frames = innfos::frames(kind, datagram).skip(found.len());
+        let mut frames = innfos::frames(direction, datagram).skip(found.len());
         let error = frames.next();
-        assert_eq!(error, Frame::first(kind, rest).err().map(Err).filter(|_| !rest.is_empty()));
+        assert_eq!(
+            error,
+            Frame::first(direction, rest).err().map(Err).filter(|_| !rest.is_empty())
+        );
         assert_eq!(frames.next(), None);
     }
 }

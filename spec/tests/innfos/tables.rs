@@ -32,7 +32,7 @@ fn every_table_has_its_commands_and_sizes() {
         for row in rows {
             let reply: &[u16] = if [0x08, 0x09, 0x0A].contains(&row.code) { &[] } else { reply };
             assert_eq!((row.request, &*row.reply), (request, reply), "{:#04X}", row.code);
-            let read = row.direction == Operation::Read;
+            let read = row.operation == Operation::Read;
             assert_eq!(read, table.starts_with("A.1"), "{:#04X}", row.code);
         }
     }

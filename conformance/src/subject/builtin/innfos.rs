@@ -1,7 +1,7 @@
 //! The codec's INNFOS Ethernet protocol.
 
 use actucheck_codec::crc;
-use actucheck_codec::innfos::{self, Command, Frame, FrameError, Kind};
+use actucheck_codec::innfos::{self, Command, Frame, FrameError};
 use actucheck_spec::model::{Fault, HexBytes};
 use actucheck_spec::wire::innfos::Packet;
 use actucheck_spec::wire::{self, Direction};
@@ -14,8 +14,8 @@ pub(super) fn ask(question: &Question, buffer: &mut [u8]) -> Answer {
     answer(match question {
         Question::Crc { bytes, .. } => Ok(Output::Crc(crc::modbus(bytes).into())),
         Question::Encode { packet, .. } => encode(&packet.packet, buffer),
-        Question::Decode { bytes, kind: Some(kind), .. } => decode(*kind, bytes),
-        Question::Stream { chunks, kind: Some(kind), .. } => Ok(stream(*kind, chunks)),
+        Question::Decode { bytes, kind: Some(direction), .. } => decode(*direction, bytes),
+        Question::Stream { chunks, kind: Some(direction), .. } => Ok(stream(*direction, chunks)),
         _ => return Answer::Skipped(format!("the codec has no {}", question.name())),
     })
 }
@@ -24,13 +24,13 @@ fn encode(packet: &wire::Packet, buffer: &mut [u8]) -> Result {
     let wire::Packet::Innfos(packet) = packet else { return Err(not_offered()) };
     let Packet { direction, address, command, data } = packet;
     let command = Command::from_code(*command);
-    innfos::encode(kind(*direction), *address, command, data, buffer)
+    innfos::encode(of(*direction), *address, command, data, buffer)
         .map(output)
         .map_err(|error| unbuilt(&error))
 }
 
 fn decode(direction: Direction, bytes: &[u8]) -> Result {
-    let frame = Frame::parse(kind(direction), bytes);
+    let frame = Frame::parse(of(direction), bytes);
     frame.map(|frame| Output::Packet(packet(&frame).into())).map_err(|error| {
         let class = match error {
             FrameError::Header { .. } => Fault::Header,
@@ -45,23 +45,23 @@ fn decode(direction: Direction, bytes: &[u8]) -> Result {
 
 /// The good frames of each datagram.
 fn stream(direction: Direction, datagrams: &[HexBytes]) -> Output {
-    let frames = datagrams.iter().flat_map(|datagram| innfos::frames(kind(direction), datagram));
+    let frames = datagrams.iter().flat_map(|datagram| innfos::frames(of(direction), datagram));
     Output::packets(frames.flatten().map(|frame| packet(&frame)))
 }
 
 fn packet(frame: &Frame<'_>) -> Packet {
     let (address, command) = (frame.address(), frame.command().code());
     let data = frame.data().to_vec().into();
-    let direction = match frame.kind() {
-        Kind::Request => Direction::Request,
-        Kind::Reply => Direction::Reply,
+    let direction = match frame.direction() {
+        innfos::Direction::Request => Direction::Request,
+        innfos::Direction::Reply => Direction::Reply,
     };
     Packet { direction, address, command, data }
 }
 
-fn kind(direction: Direction) -> Kind {
+fn of(direction: Direction) -> innfos::Direction {
     match direction {
-        Direction::Request => Kind::Request,
-        Direction::Reply => Kind::Reply,
+        Direction::Request => innfos::Direction::Request,
+        Direction::Reply => innfos::Direction::Reply,
     }
 }

@@ -22,7 +22,7 @@ fn ask(row: &Command) -> Ask<'_> {
     let code = format!("{:#04X}", row.code);
     Ask {
         id: format!("{WIRE}/{code}"),
-        title: format!("{} {}", row.direction, row.name),
+        title: format!("{} {}", row.operation, row.name),
         code: row.code,
         name: &row.name,
         word: code,

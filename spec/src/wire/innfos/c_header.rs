@@ -51,7 +51,7 @@ pub(super) fn write(innfos: &Innfos, header: &mut Header) {
 
 /// A command's name is unique per access.
 fn name(prefix: &str, row: &Command) -> String {
-    format!("{prefix}_{}_{}", upper(&row.direction.to_string()), upper(&row.name))
+    format!("{prefix}_{}_{}", upper(&row.operation.to_string()), upper(&row.name))
 }
 
 fn commands(innfos: &Innfos, prefix: &str, tag: &str, header: &mut Header) {

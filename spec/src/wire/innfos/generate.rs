@@ -17,7 +17,7 @@ pub(super) fn module(innfos: &Innfos) -> TokenStream {
     quote! {
         #[doc = #doc]
         pub mod #name {
-            use crate::innfos::{Actuator, CommandRow, Direction, Format, FullScale};
+            use crate::innfos::{Actuator, CommandRow, Format, FullScale, Operation};
 
             #constants
             #commands
@@ -83,7 +83,7 @@ fn constants_of(innfos: &Innfos) -> TokenStream {
 
 /// A command's name is unique per access only, so a command with a value has the verb in its name.
 fn command_name(command: &Command) -> String {
-    match (command.format, command.direction) {
+    match (command.format, command.operation) {
         (None, _) => command.name.clone(),
         (Some(_), Operation::Read) => format!("Read {}", command.name),
         (Some(_), Operation::Write) => format!("Write {}", command.name),
@@ -120,7 +120,7 @@ fn commands(commands: &[Command]) -> TokenStream {
 }
 
 fn command_doc(command: &Command) -> String {
-    let mut facts = match (command.format, command.direction) {
+    let mut facts = match (command.format, command.operation) {
         (None, _) => "no value".to_owned(),
         (Some(format), Operation::Read) => format!("the reply carries a value, {format}"),
         (Some(format), Operation::Write) => format!("the request carries a value, {format}"),
@@ -133,7 +133,7 @@ fn command_doc(command: &Command) -> String {
 }
 
 fn command_row(command: &Command) -> TokenStream {
-    let direction = match command.direction {
+    let operation = match command.operation {
         Operation::Read => quote!(Read),
         Operation::Write => quote!(Write),
     };
@@ -159,7 +159,7 @@ fn command_row(command: &Command) -> TokenStream {
     }));
     quote! {
         CommandRow {
-            direction: Direction::#direction,
+            operation: Operation::#operation,
             request: #request,
             reply: &[#(#reply),*],
             format: #format,

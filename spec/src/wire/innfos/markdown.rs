@@ -15,7 +15,7 @@ pub(super) fn write(innfos: &Innfos, text: &mut Text) {
         vec![
             format!("{:#04X}", row.code),
             row.name.clone(),
-            row.direction.to_string(),
+            row.operation.to_string(),
             row.request.to_string(),
             replies.join(" or "),
             or_nothing(row.format),
@@ -28,7 +28,7 @@ pub(super) fn write(innfos: &Innfos, text: &mut Text) {
     let head = [
         "code",
         "name",
-        "direction",
+        "operation",
         "request",
         "reply",
         "format",

@@ -171,7 +171,7 @@ pub struct Command {
     /// Its name, which is unique per access.
     pub name: String,
     /// Whether it reads a value or writes one.
-    pub direction: Operation,
+    pub operation: Operation,
     /// Bytes of the request's data.
     pub request: u16,
     /// The sizes that the reply's data may have; empty if no reply comes.

@@ -176,7 +176,7 @@ pub mod dynamixel2 {
 
 /// Board.
 pub mod innfos {
-    use crate::innfos::{Actuator, CommandRow, Direction, Format, FullScale};
+    use crate::innfos::{Actuator, CommandRow, Format, FullScale, Operation};
     /// The first byte of a frame.
     ///
     /// book §2.
@@ -275,7 +275,7 @@ pub mod innfos {
                 match self {
                     Self::ReadState => {
                         &CommandRow {
-                            direction: Direction::Read,
+                            operation: Operation::Read,
                             request: 0,
                             reply: &[1],
                             format: Some(Format::Flag),

@@ -28,7 +28,7 @@ fn faults(innfos: &Innfos, command: &Command) -> Vec<(&'static str, String)> {
         fault("format", "`formats` gives no size for it".to_owned());
         return faults;
     }
-    match command.direction {
+    match command.operation {
         Operation::Read => {
             if command.request != 0 {
                 fault("request", "a read has no data".to_owned());

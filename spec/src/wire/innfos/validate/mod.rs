@@ -22,7 +22,7 @@ pub(super) fn all(file: &File<Innfos>) -> Vec<Diagnostic> {
     let commands = [(file, innfos.commands.as_slice())];
     let mut defects = repeated(commands, "commands", "code", |row| row.code);
     defects.extend(repeated(commands, "commands", "name", |row| {
-        format!("{} ({})", row.name, row.direction)
+        format!("{} ({})", row.name, row.operation)
     }));
     let formats = [(file, innfos.formats.as_slice())];
     defects.extend(repeated(formats, "formats", "format", |row| row.format));
