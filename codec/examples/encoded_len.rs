@@ -4,7 +4,7 @@ use actucheck_codec::dynamixel2::frame::max_encoded_len;
 use actucheck_codec::dynamixel2::instruction::{BulkRead, DeviceRange, Write};
 use actucheck_codec::{EncodeError, Error};
 
-/// An address and four bytes, however they have to be stuffed.
+/// An address and four bytes, with any stuffing.
 const WRITE: usize = max_encoded_len(2 + 4);
 
 fn main() -> Result<(), Error> {

@@ -1,10 +1,10 @@
-//! Asks several devices at once; their one answer is read by the request that it belongs to.
+//! Asks several devices at once, and reads their common answer with the request.
 
 use actucheck_codec::dynamixel2::instruction::FastSyncRead;
 use actucheck_codec::dynamixel2::stream::{Event, Parser};
 use actucheck_codec::{Error, ja40};
 
-/// IDs with their positions, of the packet that answers the request.
+/// The IDs and positions in the packet that answers the request.
 fn positions(request: FastSyncRead<[u8; 2]>, packet: &[u8]) -> Result<Vec<(u8, i32)>, Error> {
     let mut positions = Vec::new();
     for block in request.answer(packet)?.blocks() {
@@ -18,7 +18,7 @@ fn main() -> Result<(), Error> {
     let mut buffer = [0; 32];
     println!("asked    {:02X?}", request.encode(&mut buffer)?);
 
-    // The example of the JA40 document, §1.6.8, as a port gives it.
+    // The example of the JA40 document, §1.6.8, as received from a port.
     let received = b"\xFF\xFF\xFD\x00\xFE\x11\x00\x55\
         \x00\x01\xD0\x07\x00\x00\x0C\x83\
         \x00\x02\x09\x00\x00\x00\x11\x40";

@@ -1,4 +1,4 @@
-//! A device's side: takes an instruction, and answers with the error number that the documents give.
+//! The device's side: receives an instruction, and answers with the right error number.
 
 use std::collections::BTreeMap;
 
@@ -42,7 +42,7 @@ impl Firmware {
         Ok(Some(status::encode(self.id, error, &data, out)?))
     }
 
-    /// Writes a register, if it may be written so.
+    /// Writes a register, if the value is allowed.
     fn write(&mut self, address: u16, bytes: &[u8]) -> ErrorNumber {
         let Some(register) = self.table.register(address) else {
             return ErrorNumber::AccessError;
@@ -56,7 +56,7 @@ impl Firmware {
         ErrorNumber::None
     }
 
-    /// The value that the register at an address has.
+    /// The value of the register at an address.
     fn held(&self, address: u16) -> Option<i64> {
         let register = self.table.register(address)?;
         let addresses = address..address + register.kind.size();

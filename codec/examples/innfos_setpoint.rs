@@ -1,4 +1,4 @@
-//! Sends INNFOS setpoints in physical units; what is no number is not sent.
+//! Sends INNFOS setpoints in physical units; NaN is not sent.
 
 use actucheck_codec::Error;
 use actucheck_codec::innfos::{Command, DD_6010, Direction, Frame, Message, MessageError};
@@ -15,12 +15,12 @@ fn main() -> Result<(), Error> {
     println!("{frame:02X?}");
     assert_eq!(frame, b"\xEE\x06\x0A\x00\x04\x01\x00\x00\x00\x01\xD8\xED");
 
-    // And what a frame asks, in the same unit.
+    // The setpoint of a frame, in the same unit.
     let message = Message::parse(&Frame::parse(Direction::Request, frame)?)?;
     let value = message.value.and_then(|value| message.command.physical(value, &DD_6010));
     assert_eq!(value, Some(1.0));
 
-    // A controller that divided zero by zero moves nothing.
+    // A controller that divides zero by zero moves nothing.
     let refused = turn_to(6, f64::NAN, &mut buffer);
     println!("{refused:?}");
     let command = Command::WritePosition;

@@ -1,9 +1,9 @@
-//! Prints what is said on a bus, by the kinds of the packets.
+//! Prints the packets on a bus, by their kinds.
 
 use actucheck_codec::dynamixel2::stream::{Event, Parser};
 use actucheck_codec::dynamixel2::{Frame, Kind, Request};
 
-/// A packet in a line.
+/// A packet as one line of text.
 fn describe(frame: &Frame<'_>) -> String {
     let id = frame.id();
     match frame.kind() {
@@ -37,7 +37,7 @@ fn main() {
         });
     };
     parser.feed(received, &mut describe_event);
-    // The bus is quiet: what is still incomplete stays so.
+    // The bus is quiet: an incomplete packet stays incomplete.
     parser.idle();
     parser.feed(&[], &mut describe_event);
     println!("{}", lines.join("\n"));

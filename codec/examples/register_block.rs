@@ -1,4 +1,4 @@
-//! Reads neighbouring registers by one request, and takes the answer apart by type.
+//! Reads neighbouring registers with one request, and decodes the answer by type.
 
 use actucheck_codec::dynamixel2::instruction::Read;
 use actucheck_codec::dynamixel2::{Frame, status};
@@ -11,7 +11,7 @@ fn main() -> Result<(), Error> {
     let packet = read.encode(1, &mut buffer)?;
     println!("asked {packet:02X?}");
 
-    // What the device answers: -500, 100 and 27,796, each with its low byte first.
+    // The device's answer: -500, 100 and 27,796, each with its low byte first.
     let data = [0x0C, 0xFE, 0x64, 0x00, 0x00, 0x00, 0x94, 0x6C, 0x00, 0x00];
     let answer = status::encode(1, status::StatusError(0), &data, &mut buffer)?;
 

@@ -1,4 +1,4 @@
-//! Sets the goals of several devices by one packet, each value checked.
+//! Sets the goals of several devices with one packet; each value is checked.
 
 use actucheck_codec::{Error, ja40};
 
@@ -10,11 +10,11 @@ fn main() -> Result<(), Error> {
     println!("{packet:02X?}");
     assert_eq!(packet.len(), request.encoded_len()?);
 
-    // The devices answer a fast one together.
+    // The devices answer a Fast Sync Write together.
     let packet = request.fast().encode(&mut buffer)?;
     assert_eq!(packet.len(), 29);
 
-    // What a device would refuse does not reach the bus.
+    // A value that a device would refuse is not sent.
     let refused = ja40::TEMPERATURE_LIMIT.sync_write([(1, 80), (2, 101)]).map(drop);
     println!("{refused:?}");
     assert!(refused.is_err());

@@ -1,4 +1,4 @@
-//! Waits for one status packet from a port that gives bytes as they come.
+//! Waits for one status packet from a port that returns bytes as they arrive.
 
 use std::io::{self, Read};
 
@@ -6,7 +6,7 @@ use actucheck_codec::dynamixel2::stream::{Event, Parser};
 use actucheck_codec::dynamixel2::{Kind, StatusError};
 use actucheck_codec::{Error, ja40};
 
-/// What device `id` says of its position. A port that times out ends the wait with its error.
+/// Waits for the position of device `id`. A time-out of the port ends the wait with its error.
 fn position(port: &mut impl Read, id: u8) -> io::Result<(StatusError, i32)> {
     let mut parser = Parser::new();
     let mut chunk = [0; 64];
@@ -17,7 +17,7 @@ fn position(port: &mut impl Read, id: u8) -> io::Result<(StatusError, i32)> {
             return Err(io::ErrorKind::UnexpectedEof.into());
         }
         parser.feed(chunk.get(..count).unwrap_or_default(), |event| {
-            // Noise, the echo of what was sent and other devices' packets pass by.
+            // Noise, the echo of the request and other devices' packets are ignored.
             if let Event::Frame(frame) = event
                 && let Kind::Status(status) = frame.kind()
                 && status.id() == id
@@ -33,7 +33,7 @@ fn position(port: &mut impl Read, id: u8) -> io::Result<(StatusError, i32)> {
 }
 
 fn main() -> io::Result<()> {
-    // In the place of a port: noise, the request's echo, another device, then the one asked.
+    // Instead of a port: noise, the request's echo, another device's packet, then the answer.
     let mut port: &[u8] = b"\x00\x7F\
         \xFF\xFF\xFD\x00\x01\x07\x00\x02\x44\x02\x04\x00\x14\x95\
         \xFF\xFF\xFD\x00\x02\x04\x00\x55\x00\xA1\x3A\

@@ -1,5 +1,4 @@
-//! What can be wrong with what is to be sent and with a buffer for it, and the one error that all
-//! others turn into.
+//! Errors of building a packet, and the one error into which all others convert.
 
 use core::fmt;
 
@@ -75,8 +74,8 @@ impl From<BufferTooSmall> for EncodeError {
     }
 }
 
-/// Everything that can go wrong, for who passes errors on with `?`. Every error of this crate
-/// becomes one.
+/// Any error of this crate, for code that passes errors on with `?`. Every other error converts
+/// into it.
 ///
 /// ```
 /// use actucheck_codec::dynamixel2::Frame;
@@ -96,19 +95,19 @@ pub enum Error {
     Buffer(BufferTooSmall),
     /// A packet or frame can't be built.
     Encode(EncodeError),
-    /// Bytes are no packet of DYNAMIXEL Protocol 2.0.
+    /// Bytes are not a packet of DYNAMIXEL Protocol 2.0.
     Frame(dynamixel2::FrameError),
-    /// A packet is no instruction that a device could carry out.
+    /// A packet is not an instruction that a device can carry out.
     Request(dynamixel2::RequestError),
     /// A body can't be unstuffed.
     Stuffing(dynamixel2::stuffing::UnstuffError),
     /// Parameters do not fit their layout.
     Layout(LayoutError),
-    /// A register can't be written or read so.
+    /// A register can't be written or read.
     Register(RegisterError),
-    /// Bytes are no frame of INNFOS.
+    /// Bytes are not a frame of INNFOS.
     InnfosFrame(innfos::FrameError),
-    /// A frame of INNFOS is no message, or a message has no frame.
+    /// A frame of INNFOS has no meaning, or a message has no frame.
     InnfosMessage(innfos::MessageError),
 }
 

@@ -231,7 +231,7 @@ fn help_lists_the_subcommands_and_the_exit_status() {
       decode       Explains one packet field by field
       list         Lists the checks
       show         Shows one check: what it asks, what it demands, and which sentence demands it
-      replay       Asks one check again and shows what was said
+      replay       Asks one check again and shows the exchange
       adapter      Prints a template of an adapter, or checks an adapter
       report       Compares the reports of several runs, or writes one in another format
       spec         Shows, compares and exports what the documents say

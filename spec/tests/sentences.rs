@@ -1,4 +1,4 @@
-//! Every sentence of the documents is written down in `sentences/`, and nothing else is.
+//! `sentences/` has every sentence of the documents, and no others.
 //!
 //! The tests that read the documents need their folder; without it they print a note and pass.
 
@@ -93,8 +93,8 @@ fn words(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// A line at its full stops, question and exclamation marks, where the next word is not written
-/// with a small letter or a digit. The number of a list ends no sentence.
+/// Splits a line at full stops, question and exclamation marks, unless the next word begins with a
+/// small letter or a digit. The number of a list item does not end a sentence.
 fn split(line: &str) -> Vec<String> {
     let mut parts = Vec::new();
     let mut start = 0;

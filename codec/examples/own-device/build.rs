@@ -1,5 +1,5 @@
-//! Turns `gripper.yaml` into the module `gripper`. What is wrong with it ends the build, with line
-//! and column.
+//! Turns `gripper.yaml` into the module `gripper`. A defect in it ends the build, with line and
+//! column.
 
 fn main() -> std::io::Result<()> {
     actucheck_spec::generate::build_script("gripper.yaml")

@@ -10,7 +10,7 @@ use crate::{BufferTooSmall, EncodeError};
 pub struct StatusError(pub u8);
 
 impl StatusError {
-    /// How the instruction went, and whether the device has a hardware error.
+    /// The result of the instruction, and whether the device has a hardware error.
     ///
     /// ```
     /// use actucheck_codec::dynamixel2::{ErrorNumber, StatusError};
@@ -34,12 +34,12 @@ impl StatusError {
     }
 }
 
-/// What a packet is.
+/// The kind of a packet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind<'a> {
-    /// An instruction packet: a host asks. [`Request::parse`](super::Request::parse) takes it apart.
+    /// An instruction packet, from a host. [`Request::parse`](super::Request::parse) reads it.
     Instruction(Instruction),
-    /// A status packet: a device answers.
+    /// A status packet, from a device.
     Status(Status<'a>),
 }
 
@@ -106,8 +106,8 @@ impl<'a> Status<'a> {
         self.frame.params_len().saturating_sub(1)
     }
 
-    /// Writes the data to `buffer`; returns them. The bytes after them in `buffer` are
-    /// overwritten,as with [`Frame::copy_params`].
+    /// Writes the data to `buffer`; returns them. The bytes after them in `buffer` are overwritten,
+    /// as with [`Frame::copy_params`].
     ///
     /// # Errors
     /// If `buffer` is smaller than [`Status::data_len`].

@@ -8,20 +8,20 @@ use crate::dynamixel2::instruction::{FastSyncRead, SyncRead};
 use crate::dynamixel2::{BROADCAST_ID, Instruction, frame};
 
 impl<T: Value> Register<T> {
-    /// The request for its value from several devices, each of which answers.
+    /// The request to read it from several devices, each of which answers.
     #[must_use]
     pub const fn sync_read<I>(self, ids: I) -> SyncRead<I> {
         SyncRead { address: self.row.address, length: self.row.kind.size(), ids }
     }
 
-    /// The same, with one answer from all of them together (JA40 document, §1.6.8).
+    /// The same, with one common answer (JA40 document, §1.6.8).
     #[must_use]
     pub const fn fast_sync_read<I>(self, ids: I) -> FastSyncRead<I> {
         FastSyncRead { address: self.row.address, length: self.row.kind.size(), ids }
     }
 
-    /// The request to set it on several devices, of pairs of an ID and a value. An end of its range
-    /// that another register holds is not checked, as each device has limits of its own.
+    /// The request to write it on several devices, from pairs of an ID and a value. Bounds that are
+    /// other registers' values are not checked, as each device has its own limits.
     ///
     /// ```
     /// use actucheck_codec::ja40;
@@ -47,7 +47,7 @@ impl<T: Value> Register<T> {
     }
 }
 
-/// The request to set a register of several devices, its values checked.
+/// The request to write a register of several devices, with checked values.
 #[derive(Clone, Copy, Debug)]
 pub struct RegisterSyncWrite<T, D> {
     register: Register<T>,
@@ -82,7 +82,7 @@ impl<T: Value, D: IntoIterator<Item: Borrow<(u8, T)>> + Clone> RegisterSyncWrite
         frame::encode_with(BROADCAST_ID, self.instruction, params, buffer)
     }
 
-    /// How many bytes the packet has, stuffing included.
+    /// The size of the packet in bytes, including stuffing.
     ///
     /// # Errors
     /// As [`RegisterSyncWrite::encode`], except for the size of its buffer.

@@ -178,7 +178,7 @@ impl RegisterRead {
         frame::encode(self.id, Instruction::Read, &[&address, &length.to_le_bytes()], buffer)
     }
 
-    /// How many bytes the packet has, stuffing included.
+    /// The size of the packet in bytes, including stuffing.
     ///
     /// # Errors
     /// As `encode`, except for the size of its buffer.
@@ -218,7 +218,7 @@ impl RegisterWrite {
         frame::encode(self.id, self.instruction, &[&address, self.data.as_bytes()], buffer)
     }
 
-    /// How many bytes the packet has, stuffing included.
+    /// The size of the packet in bytes, including stuffing.
     ///
     /// # Errors
     /// As `encode`, except for the size of its buffer.

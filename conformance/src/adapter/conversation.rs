@@ -158,13 +158,13 @@ impl Conversation {
         self.running.log()
     }
 
-    /// Sends `bye` and gives the adapter a moment to end itself.
+    /// Sends `bye` and gives the adapter a moment to end by itself.
     pub(crate) fn farewell(&mut self) {
         self.send(&Request::Bye);
         self.running.farewell();
     }
 
-    /// Reads a reply, and strikes its request from the outstanding ones.
+    /// Reads a reply, and removes its request from the outstanding ones.
     fn read(&mut self, line: &[u8]) -> Result<(u64, Result<Reply, Malformed>), Lost> {
         /// Fields that the adapter protocol does not have are ignored.
         #[derive(Deserialize)]
@@ -177,7 +177,7 @@ impl Conversation {
         let no_object = |error| Lost::NoObject { error, line: shown(line) };
         match line.trim_ascii_start().first() {
             None => return Err(no_object("an empty line".to_owned())),
-            // Serde would read the fields out of a list, too.
+            // Serde would also read the fields from a list.
             Some(b'[') => return Err(no_object("a list".to_owned())),
             Some(_) => {}
         }

@@ -108,7 +108,7 @@ fn check_direction(wire: Wire, asked: &Asked<'_>) -> Result<(), Failure> {
     }
 }
 
-/// The packet as the adapter protocol has it.
+/// The packet as JSON of the adapter protocol.
 fn json(options: &Decode, bytes: Vec<u8>) -> Result<String, Failure> {
     let op = Question::Decode {
         wire: options.wire,

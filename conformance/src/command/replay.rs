@@ -23,7 +23,7 @@ Examples:
 
 Exit status: as `actucheck codec`.";
 
-/// Asks one check again and shows what was said
+/// Asks one check again and shows the exchange
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Replay {

@@ -32,7 +32,7 @@ pub struct Options {
     /// The most bytes in the bodies of the pattern's bytes that are all tried inside every kind of
     /// packet, up to [`Options::LONGEST_BODY`]. Each further byte means four times as many checks.
     pub body_length: u32,
-    /// The same of bodies without a packet around them.
+    /// The same for bodies without a packet around them.
     pub bare_length: u32,
     /// Size in bytes of the longest frame that the subject states to take.
     pub max_packet: Option<usize>,

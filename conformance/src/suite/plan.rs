@@ -25,7 +25,7 @@ pub struct Plan<'a> {
 pub(crate) struct Family<'a> {
     prefix: String,
     groups: Yield<'a>,
-    /// Groups that are only asked for their ids, where the others take more to be made.
+    /// Groups for their ids only, if making the real groups is more expensive.
     named: Option<Yield<'a>>,
 }
 
@@ -44,11 +44,11 @@ pub(crate) struct Group<'a> {
 /// Builds the checks of a group, given its stem.
 type Build<'a> = Box<dyn FnOnce(&str) -> Vec<Check> + Send + 'a>;
 
-/// What follows the stem in the id of each check of a group.
+/// The rest of the id of each check of a group, after the stem.
 enum Names {
     /// The same for many groups.
     Fixed(&'static [&'static str]),
-    /// A group's own.
+    /// Names of one group only.
     Own(Vec<String>),
 }
 
@@ -210,8 +210,7 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// The first of the ids that begin most like this one; `None` if none begins like its first
-    /// half.
+    /// The first id with the longest common prefix; `None` if no id has the first half of this one.
     #[must_use]
     pub fn nearest(&self, id: &str) -> Option<String> {
         let alike = |other: &str| {
@@ -256,7 +255,7 @@ impl<'a> Family<'a> {
         Self { prefix: prefix.into(), groups: Box::new(move || Box::new(groups())), named: None }
     }
 
-    /// A family of checks that are few, or of which one can't be made without the others.
+    /// A family of few checks, or of checks that can be made only together.
     pub(crate) fn of(
         prefix: impl Into<String>,
         checks: impl Fn() -> Vec<Check> + Send + Sync + 'a,

@@ -13,9 +13,9 @@ use crate::load::File;
 use crate::model::{Device, NamedValue};
 use crate::{Diagnostic, Spec};
 
-/// The Rust source of a module with a device's typed registers, of the YAML that
-/// `spec/schema/device.schema.json` describes. The module is named as the device, and refers to
-/// the codec as `actucheck_codec`. `path` is what defects call the YAML.
+/// The Rust source of a module with a device's typed registers, from YAML with the schema
+/// `spec/schema/device.schema.json`. The module has the device's name, and refers to the codec as
+/// `actucheck_codec`. `path` is the file's name in defects.
 ///
 /// # Errors
 /// Every defect of the YAML, with its place.
@@ -46,7 +46,7 @@ pub fn device_from_yaml(path: &str, yaml: &str) -> Result<String, Vec<Diagnostic
         return Err(defects);
     }
     let module = device::module(&spec, &file.content, &quote!(actucheck_codec));
-    // Lints are for what is written by hand; and a small device has no use for every type.
+    // Lints are for handwritten code, and a small device does not use every type.
     let module = quote!(#[allow(unused_imports, clippy::all, clippy::pedantic)] #module);
     let module = format(&file.content.device, &module);
     module
@@ -54,8 +54,8 @@ pub fn device_from_yaml(path: &str, yaml: &str) -> Result<String, Vec<Diagnostic
         .map_err(|error| vec![file.diagnostic("device", error.to_string())])
 }
 
-/// All that a build script has to do: writes what [`device_from_yaml`] makes of the file `yaml` to
-/// `OUT_DIR`, under the name of the file with the ending `rs`. Defects end the build with file,
+/// Does all the work of a build script: writes the result of [`device_from_yaml`] for the file
+/// `yaml` to `OUT_DIR`, with the file's name and the ending `rs`. Defects end the build with file,
 /// line, column and an excerpt.
 ///
 /// # Errors
@@ -75,7 +75,7 @@ pub fn build_script(yaml: impl AsRef<Path>) -> io::Result<()> {
     }
 }
 
-/// Tells Cargo from a build script what is wrong, which ends the build.
+/// Reports an error to Cargo from a build script, which ends the build.
 pub fn report(defects: &[Diagnostic]) {
     for defect in defects {
         println!("cargo::error={defect}");
@@ -83,7 +83,7 @@ pub fn report(defects: &[Diagnostic]) {
     }
 }
 
-/// What the module itself uses, so that no register's type may be called so.
+/// Names that the module itself uses, so that no register's type may have them.
 const TAKEN: [&str; 15] = [
     "Instruction",
     "Access",
@@ -102,7 +102,7 @@ const TAKEN: [&str; 15] = [
     "Value",
 ];
 
-/// The names that are no Rust names, or that two nodes share.
+/// The names that are not valid in Rust, or that two nodes share.
 fn names(file: &File<Device>) -> Vec<Diagnostic> {
     let device = &file.content;
     let mut defects = Vec::new();
@@ -148,7 +148,7 @@ fn names(file: &File<Device>) -> Vec<Diagnostic> {
     defects
 }
 
-/// The Rust names of one scope, with what each is of.
+/// The Rust names of one scope, with the node of each.
 #[derive(Default)]
 struct Names(BTreeMap<String, String>);
 

@@ -1,10 +1,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What a sentence is `of` that demands nothing and names nothing.
+/// The value of `of` for a sentence that requires nothing and names nothing.
 pub const NO_DEMAND: &str = "no demand";
 
-/// A file of `sentences/`: every sentence of a document, and what became of it.
+/// A file of `sentences/`: every sentence of a document, and its use.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SentencesFile {
@@ -22,7 +22,7 @@ impl SentencesFile {
             .flat_map(|section| section.sentences.iter().map(move |sentence| (section, sentence)))
     }
 
-    /// The sections with this name, each with those that lie within it.
+    /// The sections with this name, each with the sections inside it.
     pub fn under<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a Section> {
         let named = self.sections.iter().enumerate().filter(move |(_, row)| row.section == name);
         named.flat_map(|(index, outer)| {
@@ -39,13 +39,13 @@ pub struct Section {
     /// Its name in citations: its number or its heading, with the meaning after a heading that is
     /// not in English.
     pub section: String,
-    /// Its heading, where citations give the number.
+    /// Its heading, if citations use its number.
     pub title: Option<String>,
     /// Its depth; a section contains the following sections that are deeper.
     pub level: u8,
     /// The line that it begins with, from 1.
     pub line: usize,
-    /// Its sentences, those of the sections within it aside.
+    /// Its sentences, without those of sections inside it.
     #[serde(default)]
     pub sentences: Vec<Sentence>,
 }
@@ -60,13 +60,13 @@ pub struct Sentence {
     pub hash: u32,
     /// Its first words.
     pub words: String,
-    /// What it became: ids of requirements and errata, `DEVICE/REGISTER`, `WIRE/INSTRUCTION`,
+    /// Its use: ids of requirements and errata, `DEVICE/REGISTER`, `WIRE/INSTRUCTION`,
     /// `WIRE/COMMAND` with the command's code, or `no demand`.
     pub of: Vec<String>,
 }
 
 impl Sentence {
-    /// Whether it demands nothing and names nothing.
+    /// Whether it requires nothing and names nothing.
     #[must_use]
     pub fn is_no_demand(&self) -> bool {
         self.of.iter().any(|of| of == NO_DEMAND)

@@ -1,5 +1,5 @@
-//! An erratum is there for something, and decides as much as it says: what is open binds nobody,
-//! and what was chosen is stated by a requirement.
+//! Rule: something depends on each erratum. A requirement with an open erratum binds nobody, and a
+//! chosen reading has a requirement.
 
 use std::collections::BTreeSet;
 

@@ -28,7 +28,7 @@ pub(super) fn check(spec: &Spec) -> Vec<Diagnostic> {
     defects
 }
 
-/// Whether a citation's section is one of its document, as far as that is written down.
+/// Whether a citation's section is in its document, if the sections of the document are known.
 pub(super) fn is_section(spec: &Spec, source: &Citation) -> bool {
     spec.sentences_of(&source.document)
         .is_none_or(|file| file.sections.iter().any(|row| row.section == source.section))

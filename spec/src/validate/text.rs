@@ -1,5 +1,5 @@
-//! The numbers that a requirement's text names are those of the data: what a register `accepts` or
-//! is, its bits, and what each wire knows.
+//! Rule: the numbers in a requirement's text are those of the data: ranges and initial values of
+//! registers, their bits, and the numbers that each wire knows.
 
 use crate::model::{Bound, Citation, Device, Range, Requirement};
 use crate::wire::Wire;
@@ -44,7 +44,7 @@ fn accepts(device: &Device, row: &Requirement) -> Option<String> {
     let right = |range: &Range| limits(range) == said;
     let meanings = register.meanings.iter().filter_map(|meaning| meaning.range.as_ref());
     let mut ranges = register.range.iter().chain(meanings);
-    // Bounds that are other registers are named, not numbered.
+    // Bounds that are other registers have names, not numbers.
     if said.is_empty() || ranges.any(right) {
         return None;
     }
@@ -52,7 +52,7 @@ fn accepts(device: &Device, row: &Requirement) -> Option<String> {
     Some(format!("{} is {held} in {}", register.name, device.device))
 }
 
-/// `Model Number is 5210.`: of a register with an initial value.
+/// `Model Number is 5210.`: a fact about a register with an initial value.
 fn is(device: &Device, row: &Requirement) -> Option<String> {
     let (name, number) = row.text.strip_suffix('.')?.split_once(" is ")?;
     let number: i64 = number.replace(',', "").parse().ok()?;
@@ -71,7 +71,7 @@ fn bit(device: &Device, row: &Requirement) -> Option<String> {
     (!has).then(|| format!("bit {place} of {} has no name in {}", register.name, device.device))
 }
 
-/// The numbers that a text begins with, `0 to 1,000` or `4 and 17`.
+/// The numbers at the beginning of a text, such as `0 to 1,000` or `4 and 17`.
 fn numbers(text: &str) -> Vec<i64> {
     let mut numbers = Vec::new();
     for word in text.split_whitespace().filter(|word| !["to", "and"].contains(word)) {

@@ -20,7 +20,7 @@ impl Wire {
         Self(rules)
     }
 
-    /// The ids of all wires, as a sentence has them.
+    /// The ids of all wires, for a message.
     fn ids() -> String {
         Self::ALL.map(|wire| wire.id()).join(", ")
     }

@@ -9,7 +9,7 @@ use serde_json::Value;
 
 use super::{Context, Direction, Packet, Wire};
 
-/// The fields of a packet that has not been looked at.
+/// The fields of a packet, not read yet.
 pub type Fields = serde_json::Map<String, Value>;
 
 impl Packet {

@@ -38,7 +38,7 @@ pub trait Rules: Sync + RefUnwindSafe {
     /// The direction of a packet of this wire.
     fn direction(&self, packet: &Packet) -> Direction;
 
-    /// The bytes in a packet whose number is not fixed: parameters, data.
+    /// The bytes in a packet whose number varies: parameters, data.
     fn payload<'a>(&self, packet: &'a Packet) -> Vec<&'a HexBytes>;
 
     /// The first field in which two packets of this wire differ, in words.
@@ -52,7 +52,7 @@ pub trait Rules: Sync + RefUnwindSafe {
 
     // The reference model.
 
-    /// The checksum of some bytes: each of the numbers that the documents allow it to be.
+    /// The checksum of some bytes: all numbers that the documents allow.
     fn checksum(&self, bytes: &[u8]) -> Vec<u64>;
 
     /// Whether bodies are stuffed.
@@ -60,12 +60,12 @@ pub trait Rules: Sync + RefUnwindSafe {
         self.stuff(&[]).is_some()
     }
 
-    /// A body with its stuffing; `None` on a wire without.
+    /// A body with stuffing; `None` on a wire without stuffing.
     fn stuff(&self, _body: &[u8]) -> Option<Vec<u8>> {
         None
     }
 
-    /// A body without its stuffing; `None` on a wire without.
+    /// A body without its stuffing; `None` on a wire without stuffing.
     fn unstuff(&self, _stuffed: &[u8]) -> Option<Result<Vec<u8>, Fault>> {
         None
     }
@@ -79,7 +79,7 @@ pub trait Rules: Sync + RefUnwindSafe {
     /// The first rule that they break.
     fn decode(&self, bytes: &[u8], context: &Context) -> Result<Packet, Fault>;
 
-    /// The good packets of a stream that comes in `chunks`; `direction` as in a [`Context`].
+    /// The valid packets of a stream that arrives in `chunks`; `direction` as in a [`Context`].
     fn stream(&self, chunks: &[HexBytes], direction: Option<Direction>) -> Vec<Packet>;
 
     /// Whether the documents leave the meaning of these bytes, one whole frame, unspecified.
@@ -87,7 +87,7 @@ pub trait Rules: Sync + RefUnwindSafe {
         false
     }
 
-    /// A request in words; `None` if there are none for it.
+    /// A request in words; `None` if it has none.
     fn call(&self, _packet: &Packet) -> Option<Call> {
         None
     }
@@ -134,10 +134,10 @@ pub trait Rules: Sync + RefUnwindSafe {
     fn schema(&self) -> String;
 }
 
-/// Something that a host may ask.
+/// A request of a host.
 #[derive(Clone, Debug)]
 pub struct Ask<'a> {
-    /// The wire's id and the word for it: `dynamixel2/Clear`.
+    /// The wire's id and the request's word: `dynamixel2/Clear`.
     pub id: String,
     /// The text after the id in a headline.
     pub title: String,
@@ -149,20 +149,20 @@ pub struct Ask<'a> {
     pub word: String,
     /// The file's facts about it: labels with lines.
     pub facts: Vec<(&'static str, Vec<String>)>,
-    /// The sections of the documents that it is taken from.
+    /// Its sections in the documents.
     pub source: &'a [Citation],
     /// Ids of the errata that it depends on.
     pub errata: &'a [String],
 }
 
-/// A part of a wire's file with what it cites.
+/// A part of a wire's file, with its citations.
 #[derive(Clone, Debug)]
 pub struct Cited<'a> {
     /// Its path in the file.
     pub node: String,
     /// Its name, with the wire.
     pub name: String,
-    /// The sections of the documents that it is taken from.
+    /// Its sections in the documents.
     pub source: &'a [Citation],
     /// Ids of the errata that it depends on.
     pub errata: &'a [String],

@@ -21,7 +21,7 @@ fn main() -> Result<(), Error> {
     println!("refused     {error}");
     assert_eq!(error.to_string(), "Goal Force is -200 to 200, not 240");
 
-    // What the gripper answers to a Read of Grip Status.
+    // The gripper's answer to a Read of Grip Status.
     let answer = b"\xFF\xFF\xFD\x00\x01\x05\x00\x55\x00\x02\x5C\xA1";
     let status = Frame::parse(answer)?.status()?.value(gripper::GRIP_STATUS)?;
     println!("holding     {}", status.holding());

@@ -43,7 +43,7 @@ impl<D: IntoIterator<Item: Borrow<DeviceRange>> + Clone> BulkRead<D> {
         encode_with(BROADCAST_ID, Instruction::BulkRead, params, buffer)
     }
 
-    /// How many bytes the packet has, stuffing included.
+    /// The size of the packet in bytes, including stuffing.
     ///
     /// # Errors
     /// As `encode`, except for the size of its buffer.
@@ -109,7 +109,7 @@ impl<'d, D: IntoIterator<Item: Borrow<DeviceWrite<'d>>> + Clone> BulkWrite<D> {
         encode_with(BROADCAST_ID, Instruction::BulkWrite, params, buffer)
     }
 
-    /// How many bytes the packet has, stuffing included.
+    /// The size of the packet in bytes, including stuffing.
     ///
     /// # Errors
     /// As `encode`, except for the size of its buffer.

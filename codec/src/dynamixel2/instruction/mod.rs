@@ -54,7 +54,7 @@ macro_rules! addressed {
                 self.with_params(|params| crate::dynamixel2::frame::encode(id, instruction, params, buffer))
             }
 
-            /// How many bytes the packet has, stuffing included.
+            /// The size of the packet in bytes, including stuffing.
             ///
             /// # Errors
             /// If it would be longer than its length field can say.

@@ -132,7 +132,7 @@ impl<'a> Request<'a> {
         }
     }
 
-    /// How many bytes the packet has, stuffing included.
+    /// The size of the packet in bytes, including stuffing.
     ///
     /// # Errors
     /// As [`Request::encode`], except for the size of its buffer.

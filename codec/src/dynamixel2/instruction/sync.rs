@@ -38,7 +38,7 @@ macro_rules! read {
                 encode_with(BROADCAST_ID, Instruction::$name, params, buffer)
             }
 
-            /// How many bytes the packet has, stuffing included.
+            /// The size of the packet in bytes, including stuffing.
             ///
             /// # Errors
             /// As `encode`, except for the size of its buffer.
@@ -156,7 +156,7 @@ macro_rules! write {
                 encode_with(BROADCAST_ID, Instruction::$name, params, buffer)
             }
 
-            /// How many bytes the packet has, stuffing included.
+            /// The size of the packet in bytes, including stuffing.
             ///
             /// # Errors
             /// As `encode`, except for the size of its buffer.

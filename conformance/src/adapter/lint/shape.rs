@@ -80,7 +80,7 @@ pub(super) fn output(op: &Question, ok: &Value) -> Result<Output, Problem> {
     Ok(output)
 }
 
-/// What the wires' packets may be.
+/// The kinds of packets of the wires.
 fn kinds() -> String {
     let kinds = Wire::ALL.map(|wire| format!("on {wire} `kind` is {}", wire.kinds().join(" or ")));
     kinds.join(", ")

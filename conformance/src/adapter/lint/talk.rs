@@ -1,4 +1,4 @@
-//! What the check of an adapter makes of a conversation.
+//! A conversation for the check of an adapter.
 
 use std::io;
 use std::process::ExitStatus;
@@ -74,7 +74,7 @@ impl Talk {
     }
 }
 
-/// What to do about a reply that did not come.
+/// How to mend a missing reply.
 fn without_reply(lost: &Lost) -> Problem {
     match lost {
         Lost::Ended(status) => Problem::ending(

@@ -1,4 +1,4 @@
-//! Probes of DYNAMIXEL Protocol 2.0, and what the reference has for them.
+//! Probes of DYNAMIXEL Protocol 2.0, with the reference model's answers.
 
 use actucheck_spec::model::Fault;
 use actucheck_spec::wire::dynamixel2::reference::{self, HEADER, PREFIX};
@@ -28,7 +28,7 @@ fn packet() -> BoxedStrategy<Named> {
     .boxed()
 }
 
-/// Any code, with parameters that need not suit it.
+/// Any code, with parameters that may not fit it.
 fn any_instruction() -> impl Strategy<Value = Named> {
     let code = prop_oneof![Just(0xFF_u8), any::<u8>()]
         .prop_map(|code| if code == reference::STATUS { 0 } else { code });
@@ -38,7 +38,7 @@ fn any_instruction() -> impl Strategy<Value = Named> {
     })
 }
 
-/// A packet whose length takes both bytes.
+/// A packet whose length needs both bytes.
 fn long_status() -> impl Strategy<Value = Named> {
     data(240..600).prop_map(|params| {
         let params = params.into();
@@ -83,7 +83,7 @@ fn question(author: &Author<'_>, probe: &Probe) -> Option<Asked> {
             let frame = damaged(wire, wire.encode(packet)?, damage);
             let (requirement, demand) = match wire.decode(&frame, &Context::default()) {
                 _ if reference::is_unspecified(&frame) => return None,
-                // A library that reads streams only finds the whole packet that is in it.
+                // A library that only reads streams finds the whole packet inside.
                 Err(_) if !reference::packets(&frame).is_empty() => return None,
                 Ok(packet) => {
                     let stuffed = is_stuffed(&packet, &frame);
@@ -117,7 +117,7 @@ fn question(author: &Author<'_>, probe: &Probe) -> Option<Asked> {
     Some((requirement, op, demand))
 }
 
-/// Whether the frame is longer than the packet's fields are.
+/// Whether the frame is longer than its fields require.
 fn is_stuffed(packet: &wire::Packet, frame: &[u8]) -> bool {
     let fields = match packet {
         wire::Packet::Dynamixel2(Packet::Instruction { params, .. }) => params.len() + 1,

@@ -1,4 +1,4 @@
-//! Probes of the INNFOS Ethernet protocol, and what the reference has for them.
+//! Probes of the INNFOS Ethernet protocol, with the reference model's answers.
 
 use actucheck_spec::model::Fault;
 use actucheck_spec::wire::innfos::{self, WIRE, reference};

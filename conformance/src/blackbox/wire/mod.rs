@@ -1,4 +1,4 @@
-//! The wires that probes are drawn of. A new one has a line in [`ALL`].
+//! The wires with probes. A new wire has a line in [`ALL`].
 
 mod dynamixel2;
 mod innfos;
@@ -13,19 +13,19 @@ use crate::suite::check::Demand;
 
 const ALL: [Probes; 2] = [dynamixel2::PROBES, innfos::PROBES];
 
-/// What is asked on a wire.
+/// The probes of a wire.
 #[derive(Clone, Copy)]
 pub(crate) struct Probes {
     pub(crate) wire: Wire,
-    /// Draws packets.
+    /// Generates packets.
     pub(crate) packet: fn() -> BoxedStrategy<Named>,
-    /// Draws packets of which streams are made.
+    /// Generates packets for streams.
     pub(crate) streamed: fn() -> BoxedStrategy<Packet>,
     /// The question of a probe; `None` if the documents leave the right answer unspecified.
     pub(crate) question: fn(&Author<'_>, &Probe) -> Option<Asked>,
 }
 
-/// A requirement, what is asked, and what is right.
+/// A requirement, the question, and the right answer.
 pub(crate) type Asked = (String, Question, Demand);
 
 /// The probes of a wire; `None` if there are none yet.

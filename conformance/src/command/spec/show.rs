@@ -34,7 +34,7 @@ pub(crate) struct Show {
     id: String,
 }
 
-/// What was asked for, in blocks.
+/// The selected thing, in blocks.
 pub(super) fn text(spec: &Spec, options: &Show) -> Result<String, Failure> {
     let id = options.id.as_str();
     if let Some(row) = spec.requirement(id) {
@@ -68,7 +68,7 @@ fn member(spec: &Spec, whole: &str, part: &str) -> Option<String> {
     Some(ask(spec, wire, found))
 }
 
-/// What to ask instead: ids that hold the words asked for.
+/// Suggestions: ids that contain the words asked for.
 fn unknown(spec: &Spec, id: &str) -> String {
     let rows = spec.requirements.iter().flat_map(|file| &file.content.requirements);
     let errata = spec.errata.content.errata.iter().map(|row| row.id.clone());
@@ -89,7 +89,7 @@ fn unknown(spec: &Spec, id: &str) -> String {
     }
 }
 
-/// A title, and labelled lines of which those without text are left out.
+/// A title, and labelled lines; lines without text are left out.
 struct Block(String);
 
 impl Block {
@@ -116,7 +116,7 @@ impl Block {
         self.lines("place", source.iter().map(|citation| place(spec, citation)));
     }
 
-    /// The sentences that it is of.
+    /// Its sentences.
     fn sentences(&mut self, spec: &Spec, id: &str) {
         let files = spec.sentences.iter().map(|file| &file.content);
         let lines = files.flat_map(|file| {
@@ -133,8 +133,8 @@ impl Block {
         self.lines("errata", rows.map(told));
     }
 
-    /// The requirements of the sentences that `id` is of, those of the sections that it alone
-    /// cites, and those of sections that it shares, if they name it.
+    /// The requirements from the sentences of `id`, those of the sections that only it cites, and
+    /// those of shared sections that name it.
     fn requirements(&mut self, spec: &Spec, id: &str, name: &str, source: [&[Citation]; 2]) {
         let [own_sections, shared] = source;
         let mut ids = BTreeSet::new();
@@ -164,7 +164,7 @@ fn place(spec: &Spec, citation: &Citation) -> String {
     format!("{}{title} ({file}{line})", spec.place(citation))
 }
 
-/// The citations that no more than `few` of all rows have too, and the others.
+/// Splits citations into those that at most `few` rows share, and the others.
 fn parted<'a>(
     source: &[Citation],
     rows: &(impl Iterator<Item = &'a [Citation]> + Clone),
