@@ -1,5 +1,5 @@
 //! Explains in words what bytes mean and where they differ. A wire has a module of its own, which
-//! [`WIRES`] lists.
+//! `WIRES` lists.
 
 pub mod diff;
 mod dynamixel2;
