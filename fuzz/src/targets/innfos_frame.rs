@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use actucheck_codec::innfos::{
-    self, ACTUATORS, Command, Format, Frame, FrameError, Message, Value,
+    self, ACTUATORS, Command, Format, Frame, FrameError, Message, MessageError, Value,
 };
 use actucheck_codec::{BufferTooSmall, EncodeError};
 use actucheck_spec::model::Fault;
@@ -178,6 +178,13 @@ fn physical(command: Command, value: Value, model: usize) {
     assert_eq!(found.map(f64::to_bits), expected.map(f64::to_bits), "{command:?}, {value:?}");
     let again = found.and_then(|physical| command.from_physical(physical, actuator));
     assert_eq!(again, found.map(|_| value), "{command:?}");
+
+    // A quantity can be set by a command that writes one, NaN by none.
+    let set = |physical| Message::set(1, command, physical, actuator).inspect_err(shown);
+    let writes = said.operation == Operation::Write && found.is_some();
+    let expected = writes.then(|| Message::request(1, command, Some(value)));
+    assert_eq!(found.and_then(|physical| set(physical).ok()), expected, "{command:?}");
+    assert_eq!(set(f64::NAN), Err(MessageError::NotANumber { command }));
 }
 
 /// The built bytes are those of the reference, have exactly the size that an error states, and

@@ -3,7 +3,9 @@
 use std::fmt::Debug;
 use std::sync::LazyLock;
 
-use actucheck_codec::register::{self, Device, Row, Value};
+use actucheck_codec::dynamixel2::ErrorNumber;
+use actucheck_codec::dynamixel2::instruction::Read;
+use actucheck_codec::register::{self, Device, RegisterBlock, RegisterError, Row, Value};
 use actucheck_codec::{ja_variant, ja40, xm430_w210};
 use actucheck_spec::model::{
     self, Access, Bound, Condition, ErrataFile, Range, Register, Status, Type,
@@ -149,6 +151,10 @@ fn write(row: &Row, register: &Register, limits: &Limits<'_>, value: i64) {
         "{} = {value}, {held:?}",
         row.name
     );
+    if let Err(error) = &written {
+        let refused = error.number() == ErrorNumber::AccessError;
+        assert_eq!(refused, register.access == Access::R, "{error}");
+    }
     let Ok(data) = written.inspect_err(shown) else { return };
     assert_eq!(data.as_bytes(), &value.to_le_bytes()[..size], "{} = {value}", row.name);
     assert_eq!(row.decode(data.as_bytes()), Some(value), "{}", row.name);
@@ -190,6 +196,7 @@ fn typed<T: Value + PartialEq + Debug>(
     assert_eq!(typed.raw(), value);
     let bytes = &value.to_le_bytes()[..size.into()];
     assert_eq!(constant.decode(bytes), Ok(typed));
+    in_a_block(constant, typed, bytes);
     let unit = |physical| constant.from_physical(physical);
     assert_eq!(constant.physical(typed).and_then(unit), register.unit.as_ref().map(|_| typed));
 
@@ -205,6 +212,20 @@ fn typed<T: Value + PartialEq + Debug>(
     let params = [&address, bytes].concat();
     assert_eq!(write.encode(&mut [0; 32]), Ok(&packet(3, params.clone())[..]));
     assert_eq!(write.registered().encode(&mut [0; 32]), Ok(&packet(4, params)[..]));
+}
+
+/// The value is found in the bytes that cover the register, and not in those one byte further.
+fn in_a_block<T: Value + PartialEq + Debug>(
+    constant: register::Register<T>,
+    value: T,
+    bytes: &[u8],
+) {
+    let covering = Read::covering(&[constant.row]);
+    let Row { address, kind, .. } = *constant.row;
+    assert_eq!(covering, Read { address, length: kind.size() });
+    assert_eq!(RegisterBlock::new(address, bytes).value(constant), Ok(value));
+    let further = RegisterBlock::new(address + 1, bytes).value(constant).inspect_err(shown);
+    assert!(matches!(further, Err(RegisterError::NotInBlock { .. })));
 }
 
 /// An instruction packet to device 1.

@@ -4,8 +4,8 @@
 mod build;
 mod several;
 
-use actucheck_codec::dynamixel2::status::{PingStatus, Status};
-use actucheck_codec::dynamixel2::{Frame, Instruction, Request, frame};
+use actucheck_codec::dynamixel2::status::{PingStatus, Status, StatusError};
+use actucheck_codec::dynamixel2::{Frame, Instruction, Kind, Request, frame};
 use actucheck_codec::{ja40, layout};
 use actucheck_spec::wire::dynamixel2::reference::{self, HEADER, PREFIX};
 use arbitrary::Unstructured;
@@ -44,6 +44,9 @@ fn read(bytes: &[u8]) {
     let mut buffer = vec![0; bytes.len()];
     let again = frame::encode(frame.id(), frame.instruction(), &[&params], &mut buffer);
     assert_eq!(again, Ok(bytes));
+    assert_eq!(frame::encoded_len(frame.instruction(), &[&params]), Ok(bytes.len()));
+    assert!(frame::max_encoded_len(params.len()) >= bytes.len());
+    kind(&frame);
     assert_eq!(Frame::parse(&buffer), Ok(frame));
     walk(frame.instruction(), &params);
 
@@ -56,11 +59,25 @@ fn read(bytes: &[u8]) {
     }
 }
 
+/// A packet is a status packet if its instruction is 0x55.
+fn kind(frame: &Frame<'_>) {
+    match frame.kind() {
+        Kind::Status(status) => {
+            assert_eq!((status.id(), frame.instruction().code()), (frame.id(), 0x55));
+        }
+        Kind::Instruction(instruction) => {
+            assert!(instruction == frame.instruction() && instruction.code() != 0x55);
+        }
+    }
+}
+
 fn read_status(status: &Status<'_>, id: u8, params: &[u8]) {
     let (error, data) = params.split_first().unwrap();
     assert_eq!((status.id(), status.error().0), (id, *error));
     assert_eq!(status.error().alert(), error & 0x80 != 0);
     assert_eq!(status.error().number().code(), error & 0x7F);
+    let number = status.error().number();
+    assert_eq!(StatusError::new(number, error & 0x80 != 0), status.error());
     assert!(status.data().eq(data.iter().copied()));
     assert_eq!(status.copy_data(&mut vec![0; data.len()]), Ok(data));
 
