@@ -214,7 +214,8 @@ fn typed<T: Value + PartialEq + Debug>(
     assert_eq!(write.registered().encode(&mut [0; 32]), Ok(&packet(4, params)[..]));
 }
 
-/// The value is found in the bytes that cover the register, and not in those one byte further.
+/// The value is found in a block that has all of the register's bytes, and in no block that begins
+/// after the first of them.
 fn in_a_block<T: Value + PartialEq + Debug>(
     constant: register::Register<T>,
     value: T,
@@ -224,6 +225,8 @@ fn in_a_block<T: Value + PartialEq + Debug>(
     let Row { address, kind, .. } = *constant.row;
     assert_eq!(covering, Read { address, length: kind.size() });
     assert_eq!(RegisterBlock::new(address, bytes).value(constant), Ok(value));
+    let with_neighbour = [&[0x5A], bytes].concat();
+    assert_eq!(RegisterBlock::new(address - 1, &with_neighbour).value(constant), Ok(value));
     let further = RegisterBlock::new(address + 1, bytes).value(constant).inspect_err(shown);
     assert!(matches!(further, Err(RegisterError::NotInBlock { .. })));
 }
