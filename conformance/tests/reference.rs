@@ -10,7 +10,6 @@ use actucheck::suite::check::Demand;
 use actucheck::verdict::Verdict;
 use actucheck_spec::Spec;
 use actucheck_spec::model::Fault;
-use actucheck_spec::wire::Context;
 use actucheck_spec::wire::dynamixel2::{WIRE, reference};
 
 /// The checks of streams expect the packets that every receiver finds that follows the documents.
@@ -49,12 +48,11 @@ impl Subject for Model {
             Question::Encode { packet, .. } => {
                 wire.encode(&packet.packet).ok_or(Fault::Length).and_then(bytes)
             }
-            Question::Decode { bytes, fast, kind, .. } => {
-                let context = Context { fast: fast.clone(), direction: *kind };
-                wire.decode(bytes, &context).map(Output::Packet)
+            Question::Decode { bytes, context, .. } => {
+                wire.decode(bytes, context).map(Output::Packet)
             }
-            Question::Stream { chunks, kind, .. } => {
-                Ok(Output::Packets(wire.stream(chunks, *kind)))
+            Question::Stream { chunks, direction, .. } => {
+                Ok(Output::Packets(wire.stream(chunks, *direction)))
             }
         };
         answer.map_or_else(

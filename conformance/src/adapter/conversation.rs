@@ -10,12 +10,14 @@ use serde_json::Value;
 use thiserror::Error;
 
 use super::process::{Line, Running};
-use super::{Rejection, Request, Settings};
+use super::{Rejection, Request, Settings, VERSION};
 
 /// A conversation with a running adapter. Dropping it kills the process.
 #[derive(Debug)]
 pub(crate) struct Conversation {
     running: Running,
+    /// The version of the adapter protocol that is spoken.
+    version: u32,
     next_id: u64,
     /// Requests without a reply so far.
     outstanding: BTreeSet<u64>,
@@ -92,7 +94,13 @@ impl Conversation {
     /// Starts `command`, a program and its arguments.
     pub(crate) fn start(command: &[String], settings: &Settings) -> io::Result<Self> {
         let running = Running::start(command, settings)?;
-        Ok(Self { running, next_id: 0, outstanding: BTreeSet::new(), said: None })
+        let outstanding = BTreeSet::new();
+        Ok(Self { running, version: VERSION, next_id: 0, outstanding, said: None })
+    }
+
+    /// Speaks this version of the adapter protocol from now on.
+    pub(crate) const fn speak(&mut self, version: u32) {
+        self.version = version;
     }
 
     /// Keeps the lines that are exchanged from now on.
@@ -107,8 +115,7 @@ impl Conversation {
 
     /// Sends a request. Returns its id.
     pub(crate) fn send(&mut self, request: &Request<'_>) -> u64 {
-        // Every request has string keys only, so it can be written as JSON.
-        self.send_text(&serde_json::to_string(request).unwrap_or_default())
+        self.send_text(&request.in_version(self.version))
     }
 
     /// Adds an id to a request, which is a JSON object, and sends it. Returns the id.

@@ -10,7 +10,8 @@ mod trace;
 use std::time::Duration;
 
 pub use requests::{
-    Called, Hello, Implementation, Limits, Output, Question, Rejection, Request, VERSION, Wire,
+    Called, Hello, Implementation, Limits, Output, Question, Rejection, Request, VERSION, VERSIONS,
+    Wire,
 };
 pub use trace::Trace;
 

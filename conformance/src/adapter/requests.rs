@@ -1,16 +1,19 @@
-//! The adapter protocol, version 1: the requests and replies between the suite and an adapter, one
-//! JSON object per line.
+//! The adapter protocol: the requests and replies between the suite and an adapter, one JSON object
+//! per line. This is version 2; [`Request::in_version`] writes the requests of version 1.
 
 use std::fmt;
 
-use actucheck_spec::model::{Fault, HexBytes};
-use actucheck_spec::wire::{Call, Direction, Fast, Packet};
+use actucheck_spec::model::{Fault, HexBytes, Role};
+use actucheck_spec::wire::{Call, Context, Direction, Packet};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-/// The version of the adapter protocol that this suite speaks.
-pub const VERSION: u32 = 1;
+/// The newest version of the adapter protocol.
+pub const VERSION: u32 = 2;
+
+/// The versions of the adapter protocol that this suite speaks.
+pub const VERSIONS: [u32; 2] = [1, VERSION];
 
 pub use actucheck_spec::wire::Wire;
 
@@ -31,6 +34,18 @@ pub enum Request<'a> {
     /// A question about packets.
     #[serde(untagged)]
     Ask(&'a Question),
+}
+
+impl Request<'_> {
+    /// The request as a JSON object in this version of the adapter protocol.
+    #[must_use]
+    pub fn in_version(&self, version: u32) -> String {
+        // Every request has string keys only, so it can be written as JSON.
+        match self {
+            Self::Ask(question) if version == 1 => question.in_version_1(),
+            request => json(request).unwrap_or_default(),
+        }
+    }
 }
 
 /// What is asked about the packets of a wire.
@@ -71,12 +86,9 @@ pub enum Question {
         wire: Wire,
         /// One whole frame and nothing after it.
         bytes: HexBytes,
-        /// For a fast status packet: the request that it answers.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        fast: Option<Fast>,
-        /// The direction of the frame, if the frame itself does not state it.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        kind: Option<Direction>,
+        /// Its direction, and for a fast status packet the request that it answers.
+        #[serde(flatten)]
+        context: Context,
     },
     /// The valid packets of a stream.
     Stream {
@@ -84,9 +96,9 @@ pub enum Question {
         wire: Wire,
         /// The stream in chunks; on a wire of datagrams each chunk is one.
         chunks: Vec<HexBytes>,
-        /// The direction of the frames, if the frames themselves do not state it.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        kind: Option<Direction>,
+        /// The direction of the packets.
+        #[serde(alias = "kind", skip_serializing_if = "Option::is_none")]
+        direction: Option<Direction>,
     },
 }
 
@@ -102,6 +114,45 @@ impl Question {
             Self::Decode { .. } => "decode",
             Self::Stream { .. } => "stream",
         }
+    }
+
+    /// Version 1 has no direction, but for wires whose frames do not state theirs a `kind`.
+    fn in_version_1(&self) -> String {
+        let mut question = self.clone();
+        let direction = match &mut question {
+            Self::Decode { context, .. } => context.direction.take(),
+            Self::Stream { direction, .. } => direction.take(),
+            _ => None,
+        };
+        let request = json(&question).unwrap_or_default();
+        match (direction, request.strip_suffix('}')) {
+            (Some(direction), Some(fields)) if !self.wire().tells_direction() => {
+                format!("{fields},\"kind\":\"{direction}\"}}")
+            }
+            _ => request,
+        }
+    }
+
+    /// The direction of the packets; `None` if the question has none or does not say.
+    #[must_use]
+    pub fn direction(&self) -> Option<Direction> {
+        match self {
+            Self::Encode { packet, .. } => Some(packet.packet.direction()),
+            Self::Decode { context, .. } => context.direction,
+            Self::Stream { direction, .. } => *direction,
+            Self::Crc { .. } | Self::Stuff { .. } | Self::Unstuff { .. } => None,
+        }
+    }
+
+    /// The role that does this: a host builds requests and reads replies, and a device builds
+    /// replies and reads requests. `None` if both do.
+    #[must_use]
+    pub fn role(&self) -> Option<Role> {
+        let builds = matches!(self, Self::Encode { .. });
+        self.direction().map(|direction| match (direction, builds) {
+            (Direction::Request, true) | (Direction::Reply, false) => Role::Host,
+            (Direction::Request, false) | (Direction::Reply, true) => Role::Device,
+        })
     }
 
     /// The wire of the question.
@@ -166,6 +217,9 @@ pub struct Hello {
     pub wires: Vec<String>,
     /// The ops that it offers.
     pub ops: Vec<String>,
+    /// The roles that it plays; version 1 does not say.
+    #[serde(default = "both")]
+    pub roles: Vec<Role>,
     /// The maximum number of outstanding requests.
     #[serde(default = "one")]
     pub max_in_flight: usize,
@@ -176,6 +230,10 @@ pub struct Hello {
 
 const fn one() -> usize {
     1
+}
+
+fn both() -> Vec<Role> {
+    vec![Role::Host, Role::Device]
 }
 
 /// An implementation under test.
@@ -195,8 +253,27 @@ pub struct Implementation {
 /// The limits of an implementation.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
 pub struct Limits {
-    /// Size in bytes of the longest frame that it builds or reads.
+    /// Size in bytes of the longest frame that it builds or reads. Version 1 has no other limit;
+    /// in version 2 the limit for one of them only comes before it.
     pub max_packet: Option<usize>,
+    /// Size in bytes of the longest frame that it builds.
+    pub max_send: Option<usize>,
+    /// Size in bytes of the longest frame that it reads.
+    pub max_receive: Option<usize>,
+}
+
+impl Limits {
+    /// Size in bytes of the longest frame that it builds.
+    #[must_use]
+    pub fn send(&self) -> Option<usize> {
+        self.max_send.or(self.max_packet)
+    }
+
+    /// Size in bytes of the longest frame that it reads.
+    #[must_use]
+    pub fn receive(&self) -> Option<usize> {
+        self.max_receive.or(self.max_packet)
+    }
 }
 
 /// Why bytes or a packet are rejected.

@@ -113,8 +113,7 @@ fn json(options: &Decode, bytes: Vec<u8>) -> Result<String, Failure> {
     let op = Question::Decode {
         wire: options.wire,
         bytes: bytes.into(),
-        fast: options.fast.clone(),
-        kind: options.direction,
+        context: Context { fast: options.fast.clone(), direction: options.direction },
     };
     match Builtin::default().ask(&op) {
         Answer::Ok(Output::Packet(packet)) => {

@@ -256,6 +256,15 @@ fn not_offered(hello: &Hello, check: &Check) -> Option<String> {
     if !hello.wires.iter().any(|offered| offered == wire.id()) {
         return Some(format!("the adapter offers no {}", wire.id()));
     }
-    let (limit, size) = (hello.limits.max_packet?, check.packet_size()?);
+    if let Some(role) = check.question.role()
+        && !hello.roles.contains(&role)
+    {
+        return Some(format!("only a {role} does this, and the adapter plays no {role}"));
+    }
+    let limit = match check.question {
+        Question::Encode { .. } => hello.limits.send(),
+        _ => hello.limits.receive(),
+    };
+    let (limit, size) = (limit?, check.packet_size()?);
     (size > limit).then(|| format!("{size} bytes, the adapter's limit is {limit}"))
 }

@@ -11,7 +11,7 @@ use thiserror::Error;
 
 use super::{Answer, Questions, Subject};
 use crate::adapter::conversation::{Conversation, Lost, Malformed, Reply};
-use crate::adapter::{Hello, Output, Question, Request, Settings, VERSION};
+use crate::adapter::{Hello, Output, Question, Request, Settings, VERSIONS};
 
 /// The maximum number of outstanding questions, even if the adapter offers more.
 const MAX_IN_FLIGHT: usize = 256;
@@ -215,7 +215,7 @@ fn start(command: &[String], settings: &Settings) -> Result<(Conversation, Hello
 
 /// Sends `hello`. The error says what the adapter did wrong.
 fn greet(conversation: &mut Conversation, limit: Duration) -> Result<Hello, String> {
-    conversation.send(&Request::Hello { protocol: &[VERSION] });
+    conversation.send(&Request::Hello { protocol: &VERSIONS });
     let (_, reply) = conversation.receive(limit).map_err(|lost| match lost {
         Lost::Silent(_) => format!(
             "did not say hello within {} s; --start-timeout gives it more time",
@@ -229,12 +229,14 @@ fn greet(conversation: &mut Conversation, limit: Duration) -> Result<Hello, Stri
     };
     let hello: Hello = serde_json::from_value(object)
         .map_err(|error| format!("answered hello wrongly: {error}"))?;
-    if hello.protocol != VERSION {
+    if !VERSIONS.contains(&hello.protocol) {
         return Err(format!(
-            "speaks version {} of the adapter protocol, not {VERSION}",
-            hello.protocol
+            "speaks version {} of the adapter protocol; this suite speaks {}",
+            hello.protocol,
+            VERSIONS.map(|version| version.to_string()).join(" and ")
         ));
     }
+    conversation.speak(hello.protocol);
     Ok(hello)
 }
 

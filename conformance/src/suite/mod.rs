@@ -14,7 +14,7 @@ pub mod select;
 
 use actucheck_spec::Spec;
 use actucheck_spec::model::{Citation, Level};
-use actucheck_spec::wire::Context;
+use actucheck_spec::wire::{Context, Direction};
 
 use self::check::{Check, Demand};
 use self::plan::Plan;
@@ -93,20 +93,33 @@ impl Author<'_> {
     }
 
     /// Decodes a frame; the reference model says whether it is a packet.
-    fn decoded(&self, id: String, requirement: &str, bytes: Vec<u8>) -> Check {
-        let demand = match self.wire.decode(&bytes, &Context::default()) {
+    fn decoded(
+        &self,
+        id: String,
+        requirement: &str,
+        direction: Direction,
+        bytes: Vec<u8>,
+    ) -> Check {
+        let context = Context::from(direction);
+        let demand = match self.wire.decode(&bytes, &context) {
             Ok(packet) => Demand::Yield(Output::Packet(packet)),
             Err(fault) => Demand::Reject(fault),
         };
-        let op = Question::Decode { wire: self.wire, bytes: bytes.into(), fast: None, kind: None };
+        let op = Question::Decode { wire: self.wire, bytes: bytes.into(), context };
         self.check(id, requirement, op, demand)
     }
 
     /// The packets of a stream that the reference model finds.
-    fn streamed(&self, id: String, requirement: &str, chunks: &[Vec<u8>]) -> Check {
+    fn streamed(
+        &self,
+        id: String,
+        requirement: &str,
+        direction: Direction,
+        chunks: &[Vec<u8>],
+    ) -> Check {
         let chunks: Vec<_> = chunks.iter().map(|chunk| chunk.clone().into()).collect();
-        let packets = self.wire.stream(&chunks, None);
-        let op = Question::Stream { wire: self.wire, chunks, kind: None };
+        let packets = self.wire.stream(&chunks, Some(direction));
+        let op = Question::Stream { wire: self.wire, chunks, direction: Some(direction) };
         self.check(id, requirement, op, Demand::Yield(Output::Packets(packets)))
     }
 }

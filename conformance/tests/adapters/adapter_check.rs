@@ -119,9 +119,9 @@ fn a_bad_start_is_found() {
             "starts and says who it is: `ok` is incomplete: missing field `language`",
         ),
         (
-            &[(r#""protocol":1"#, r#""protocol":2"#)],
+            &[(r#""protocol":1"#, r#""protocol":3"#)],
             4,
-            "starts and says who it is: it speaks version 2",
+            "starts and says who it is: it speaks version 3",
         ),
         (
             &[(r#"["crc"]"#, r#"["crc","sing"]"#)],

@@ -1,9 +1,9 @@
 //! Implementations of DYNAMIXEL Protocol 2.0 that are wrong in one way each.
 
 use actucheck::adapter::{Output, Question};
-use actucheck_spec::wire;
 use actucheck_spec::wire::dynamixel2::Packet;
 use actucheck_spec::wire::dynamixel2::reference::{self, HEADER};
+use actucheck_spec::wire::{self, Context};
 
 use super::{Mutant, Wrong, bytes};
 
@@ -84,13 +84,15 @@ pub(super) static MUTANTS: [Mutant; 14] = [
     Mutant {
         name: "leaves stuffing in what it reads",
         wrong: Wrong::Answers(|op| match op {
-            Question::Decode { bytes, fast: None, .. } => match reference::decode(bytes).ok()? {
-                Packet::Status { id, error, .. } => {
-                    let params = bytes[9..bytes.len() - 2].to_vec().into();
-                    Some(Output::Packet(Packet::Status { id, error, params }.into()))
+            Question::Decode { bytes, context: Context { fast: None, .. }, .. } => {
+                match reference::decode(bytes).ok()? {
+                    Packet::Status { id, error, .. } => {
+                        let params = bytes[9..bytes.len() - 2].to_vec().into();
+                        Some(Output::Packet(Packet::Status { id, error, params }.into()))
+                    }
+                    _ => None,
                 }
-                _ => None,
-            },
+            }
             _ => None,
         }),
         found_by: "dynamixel2.stuffing.status/decode",
@@ -111,7 +113,7 @@ pub(super) static MUTANTS: [Mutant; 14] = [
     Mutant {
         name: "does not look at the CRC",
         wrong: Wrong::Answers(|op| match op {
-            Question::Decode { bytes, fast: None, .. } => {
+            Question::Decode { bytes, context: Context { fast: None, .. }, .. } => {
                 read_leniently(&with_crc(bytes.0.clone()))
             }
             _ => None,
@@ -122,7 +124,9 @@ pub(super) static MUTANTS: [Mutant; 14] = [
     Mutant {
         name: "does not look at the reserved byte",
         wrong: Wrong::Answers(|op| match op {
-            Question::Decode { bytes, fast: None, .. } if bytes.len() > 7 => {
+            Question::Decode { bytes, context: Context { fast: None, .. }, .. }
+                if bytes.len() > 7 =>
+            {
                 let mut frame = bytes.0.clone();
                 let right = reference::crc(&frame[..frame.len() - 2]).to_le_bytes();
                 frame[3] = HEADER[3];
@@ -149,12 +153,14 @@ pub(super) static MUTANTS: [Mutant; 14] = [
     Mutant {
         name: "drops the alert bit",
         wrong: Wrong::Answers(|op| match op {
-            Question::Decode { bytes, fast: None, .. } => match reference::decode(bytes).ok()? {
-                Packet::Status { id, error, params } => {
-                    Some(Output::Packet(Packet::Status { id, error: error & 0x7F, params }.into()))
+            Question::Decode { bytes, context: Context { fast: None, .. }, .. } => {
+                match reference::decode(bytes).ok()? {
+                    Packet::Status { id, error, params } => Some(Output::Packet(
+                        Packet::Status { id, error: error & 0x7F, params }.into(),
+                    )),
+                    _ => None,
                 }
-                _ => None,
-            },
+            }
             _ => None,
         }),
         found_by: "dynamixel2.error.80/decode",

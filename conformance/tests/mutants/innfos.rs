@@ -41,12 +41,12 @@ pub(super) static MUTANTS: [Mutant; 7] = [
     Mutant {
         name: "does not look at the CRC",
         wrong: Wrong::Answers(|op| {
-            let Question::Decode { bytes, kind, .. } = op else { return None };
+            let Question::Decode { bytes, context, .. } = op else { return None };
             let mut frame = bytes.0.clone();
             let crc = reference::crc(frame.get(5..frame.len().checked_sub(3)?)?).to_le_bytes();
             let at = frame.len() - 3;
             frame[at..at + 2].copy_from_slice(&crc);
-            read(kind.unwrap_or(Direction::Reply), &frame)
+            read(context.direction.unwrap_or(Direction::Reply), &frame)
         }),
         found_by: "innfos.negative.reply.flip-9-0/decode",
         found_by_documents: true,
@@ -54,10 +54,10 @@ pub(super) static MUTANTS: [Mutant; 7] = [
     Mutant {
         name: "does not look at the tail",
         wrong: Wrong::Answers(|op| {
-            let Question::Decode { bytes, kind, .. } = op else { return None };
+            let Question::Decode { bytes, context, .. } = op else { return None };
             let mut frame = bytes.0.clone();
             *frame.last_mut()? = 0xED;
-            read(kind.unwrap_or(Direction::Reply), &frame)
+            read(context.direction.unwrap_or(Direction::Reply), &frame)
         }),
         found_by: "innfos.negative.request.flip-11-0/decode",
         found_by_documents: false,
@@ -76,9 +76,9 @@ pub(super) static MUTANTS: [Mutant; 7] = [
     Mutant {
         name: "reads the first frame of a datagram only",
         wrong: Wrong::Answers(|op| {
-            let Question::Stream { chunks, kind, .. } = op else { return None };
+            let Question::Stream { chunks, direction, .. } = op else { return None };
             let found = chunks.iter().filter_map(|chunk| {
-                reference::packets(kind.unwrap_or(Direction::Reply), chunk).into_iter().next()
+                reference::packets(direction.unwrap_or(Direction::Reply), chunk).into_iter().next()
             });
             Some(Output::packets(found))
         }),

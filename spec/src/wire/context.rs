@@ -9,20 +9,20 @@ pub struct Context {
     /// For a fast status packet: the request that it answers.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fast: Option<Fast>,
-    /// On a wire whose frames do not state their direction: the direction.
-    #[serde(rename = "kind", skip_serializing_if = "Option::is_none")]
+    /// The direction of the packet. Frames of some wires do not state it.
+    #[serde(alias = "kind", skip_serializing_if = "Option::is_none")]
     pub direction: Option<Direction>,
 }
 
 impl From<Direction> for Context {
     fn from(direction: Direction) -> Self {
-        Self { direction: Some(direction), fast: None }
+        Self { fast: None, direction: Some(direction) }
     }
 }
 
 impl From<Fast> for Context {
     fn from(fast: Fast) -> Self {
-        Self { fast: Some(fast), direction: None }
+        Self { fast: Some(fast), direction: Some(Direction::Reply) }
     }
 }
 

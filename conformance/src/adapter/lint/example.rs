@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::talk::Answer;
 use super::{Problem, shape};
-use crate::adapter::{Hello, Output, Question, Rejection};
+use crate::adapter::{Hello, Output, Question, Rejection, Request, VERSION};
 use crate::suite::check::{Check, Demand};
 use crate::suite::plan::Plan;
 
@@ -33,6 +33,8 @@ pub(super) struct Example {
     /// A description of the question.
     pub(super) name: &'static str,
     question: Question,
+    /// The version of the adapter protocol that its requests have.
+    version: u32,
     pub(super) request: String,
     /// The right answers.
     right: Vec<Output>,
@@ -54,9 +56,18 @@ impl Example {
             Demand::YieldOneOf(outputs) => outputs.clone(),
             Demand::Reject(_) | Demand::Record(_) => Vec::new(),
         };
-        // Every question has string keys only, so it can be written as JSON.
-        let request = serde_json::to_string(&check.question).unwrap_or_default();
-        Self { name, question: check.question.clone(), request, right }
+        let question = check.question.clone();
+        Self { name, question, version: 0, request: String::new(), right }.in_version(VERSION)
+    }
+
+    /// The same in this version of the adapter protocol.
+    pub(super) fn in_version(&self, version: u32) -> Self {
+        let example = Self { version, ..self.clone() };
+        Self { request: example.written(&self.question), ..example }
+    }
+
+    fn written(&self, question: &Question) -> String {
+        Request::Ask(question).in_version(self.version)
     }
 
     /// Whether the adapter offers the question's op and wire.
@@ -122,7 +133,7 @@ impl Example {
             Question::Encode { packet, .. } => packet.call.take()?,
             _ => return None,
         };
-        serde_json::to_string(&op).ok()
+        Some(self.written(&op))
     }
 
     /// The request with its frame cut short; `None` if its bytes are not a frame.
@@ -134,7 +145,7 @@ impl Example {
             _ => return None,
         };
         bytes.0.truncate(bytes.len().saturating_sub(3));
-        serde_json::to_string(&op).ok()
+        Some(self.written(&op))
     }
 }
 

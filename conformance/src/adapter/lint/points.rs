@@ -9,7 +9,7 @@ use super::talk::{Answer, ONLY_REPLIES, TOO_LONG, Talk};
 use super::{Point, Problem, Report, shape};
 use crate::adapter::conversation::ended;
 use crate::adapter::process::Line;
-use crate::adapter::{Hello, Request, Settings, VERSION};
+use crate::adapter::{Hello, Request, Settings, VERSIONS};
 
 /// Size of a line, in bytes, that overflows any usual fixed buffer.
 const LONG: usize = 70_000;
@@ -36,7 +36,9 @@ pub(super) fn look(
     points.note("starts and says who it is", greeting.map(|hello| introduction(&hello)));
     if let Some(hello) = &hello {
         // The last point reports an early end of the conversation.
-        let _ = points.look_on(hello, examples, || another(command, settings, hello));
+        let in_version = |example: &Example| example.in_version(hello.protocol);
+        let examples: Vec<_> = examples.iter().map(in_version).collect();
+        let _ = points.look_on(hello, &examples, || another(command, settings, hello));
     }
     Ok(Report { hello, points: points.points, log: points.talk.log() })
 }
@@ -100,7 +102,7 @@ impl Points {
 }
 
 fn greet(talk: &mut Talk, settings: &Settings) -> Result<Hello, Problem> {
-    let hello = Request::Hello { protocol: &[VERSION] };
+    let hello = Request::Hello { protocol: &VERSIONS };
     // Every request has string keys only, so it can be written as JSON.
     talk.send(&serde_json::to_string(&hello).unwrap_or_default());
     match talk.receive(settings.timeouts.start)? {

@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::Problem;
-use crate::adapter::{Hello, Output, Question, VERSION, Wire};
+use crate::adapter::{Hello, Output, Question, VERSIONS, Wire};
 
 /// The ops that `hello` may name. Every adapter has `hello` and `bye`, so they are not listed.
 const OPS: [&str; 8] = ["hello", "crc", "stuff", "unstuff", "encode", "decode", "stream", "bye"];
@@ -17,7 +17,7 @@ pub(super) fn hello(ok: &Value) -> Result<Hello, Problem> {
              `ops`; `max_in_flight` and `limits` if there is something to tell",
         )
     })?;
-    if hello.protocol != VERSION {
+    if !VERSIONS.contains(&hello.protocol) {
         return Err(Problem::ending(
             format!("it speaks version {} of the adapter protocol", hello.protocol),
             "answer with one of the versions that the request offers",

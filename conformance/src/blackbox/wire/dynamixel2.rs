@@ -3,7 +3,7 @@
 use actucheck_spec::model::Fault;
 use actucheck_spec::wire::dynamixel2::reference::{self, HEADER, PREFIX};
 use actucheck_spec::wire::dynamixel2::{Packet, WIRE};
-use actucheck_spec::wire::{self, Context};
+use actucheck_spec::wire::{self, Context, Direction};
 use proptest::prelude::{BoxedStrategy, Just, Strategy, any};
 use proptest::prop_oneof;
 
@@ -94,7 +94,8 @@ fn question(author: &Author<'_>, probe: &Probe) -> Option<Asked> {
                 Err(Fault::Crc) => ("receive.crc", Demand::Reject(Fault::Crc)),
                 Err(fault) => ("receive.length", Demand::Reject(fault)),
             };
-            let op = Question::Decode { wire, bytes: frame.into(), fast: None, kind: None };
+            let context = Context::from(packet.direction());
+            let op = Question::Decode { wire, bytes: frame.into(), context };
             (format!("dynamixel2.{requirement}"), op, demand)
         }
         Probe::Stream(parts, cuts) => {
@@ -109,7 +110,7 @@ fn question(author: &Author<'_>, probe: &Probe) -> Option<Asked> {
                 return None;
             }
             let chunks = cut(&stream, cuts);
-            let op = Question::Stream { wire, chunks, kind: None };
+            let op = Question::Stream { wire, chunks, direction: Some(Direction::Reply) };
             let found = Demand::Yield(Output::packets(packets));
             ("dynamixel2.receive.stream".to_owned(), op, found)
         }

@@ -53,8 +53,7 @@ fn question(_author: &Author<'_>, probe: &Probe) -> Option<Asked> {
                 Err(Fault::Crc) => ("innfos.crc.verify", Demand::Reject(Fault::Crc)),
                 Err(fault) => ("innfos.frame.length", Demand::Reject(fault)),
             };
-            let kind = context.direction;
-            (requirement, Question::Decode { wire, bytes: frame.into(), fast: None, kind }, demand)
+            (requirement, Question::Decode { wire, bytes: frame.into(), context }, demand)
         }
         // One datagram of valid frames in one direction. What a receiver does after a damaged frame
         // is unspecified.
@@ -67,7 +66,7 @@ fn question(_author: &Author<'_>, probe: &Probe) -> Option<Asked> {
                 .collect();
             let frames: Option<Vec<_>> = packets.iter().map(|packet| wire.encode(packet)).collect();
             let chunks = vec![frames?.concat().into()];
-            let op = Question::Stream { wire, chunks, kind: Some(direction) };
+            let op = Question::Stream { wire, chunks, direction: Some(direction) };
             ("innfos.frame.transparent", op, Demand::Yield(Output::Packets(packets)))
         }
         _ => return None,

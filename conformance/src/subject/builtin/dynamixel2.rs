@@ -20,8 +20,10 @@ pub(super) fn ask(question: &Question, buffer: &mut Vec<u8>) -> Answer {
         Question::Stuff { bytes, .. } => stuff(bytes, buffer),
         Question::Unstuff { bytes, .. } => unstuff(bytes, buffer),
         Question::Encode { packet, .. } => encode(&packet.packet, buffer),
-        Question::Decode { bytes, fast: None, .. } => decode(bytes),
-        Question::Decode { bytes, fast: Some(fast), .. } => decode_fast(bytes, fast),
+        Question::Decode { bytes, context, .. } => match &context.fast {
+            None => decode(bytes),
+            Some(fast) => decode_fast(bytes, fast),
+        },
         Question::Stream { chunks, .. } => Ok(stream(chunks)),
     })
 }

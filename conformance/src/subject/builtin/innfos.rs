@@ -4,7 +4,7 @@ use actucheck_codec::crc;
 use actucheck_codec::innfos::{self, Command, Frame, FrameError};
 use actucheck_spec::model::{Fault, HexBytes};
 use actucheck_spec::wire::innfos::Packet;
-use actucheck_spec::wire::{self, Direction};
+use actucheck_spec::wire::{self, Context, Direction};
 
 use super::{Answer, Result, answer, not_offered, output, rejection, unbuilt};
 use crate::adapter::{Output, Question};
@@ -14,8 +14,12 @@ pub(super) fn ask(question: &Question, buffer: &mut [u8]) -> Answer {
     answer(match question {
         Question::Crc { bytes, .. } => Ok(Output::Crc(crc::modbus(bytes).into())),
         Question::Encode { packet, .. } => encode(&packet.packet, buffer),
-        Question::Decode { bytes, kind: Some(direction), .. } => decode(*direction, bytes),
-        Question::Stream { chunks, kind: Some(direction), .. } => Ok(stream(*direction, chunks)),
+        Question::Decode { bytes, context: Context { direction: Some(direction), .. }, .. } => {
+            decode(*direction, bytes)
+        }
+        Question::Stream { chunks, direction: Some(direction), .. } => {
+            Ok(stream(*direction, chunks))
+        }
         _ => return Answer::Skipped(format!("the codec has no {}", question.name())),
     })
 }

@@ -6,7 +6,7 @@ mod innfos;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use actucheck_codec::EncodeError;
-use actucheck_spec::model::{Fault, HexBytes};
+use actucheck_spec::model::{Fault, HexBytes, Role};
 use actucheck_spec::wire;
 
 use super::{Answer, Subject};
@@ -48,8 +48,9 @@ impl Default for Builtin {
             ops: ["crc", "stuff", "unstuff", "encode", "decode", "stream"]
                 .map(str::to_owned)
                 .to_vec(),
+            roles: vec![Role::Host, Role::Device],
             max_in_flight: 1,
-            limits: Limits { max_packet: Some(MAX_FRAME) },
+            limits: Limits { max_packet: Some(MAX_FRAME), ..Limits::default() },
         };
         Self { hello, buffer: vec![0; MAX_FRAME] }
     }

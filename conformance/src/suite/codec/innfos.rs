@@ -153,7 +153,7 @@ fn encode(author: &Author<'_>, packet: &Packet) -> Question {
 
 fn decode(author: &Author<'_>, kind: Direction, bytes: &[u8]) -> Question {
     let bytes = bytes.to_vec().into();
-    Question::Decode { wire: author.wire, bytes, fast: None, kind: Some(kind) }
+    Question::Decode { wire: author.wire, bytes, context: kind.into() }
 }
 
 /// A packet that is built, read, and found twice in a datagram. None if its CRC is unspecified.
@@ -175,7 +175,7 @@ fn both_ways(
     let Some(frame) = reference::encode(&packet) else { return Vec::new() };
     let chunk = [frame.as_slice(), &frame].concat();
     let stream =
-        Question::Stream { wire: author.wire, kind: Some(kind), chunks: vec![chunk.into()] };
+        Question::Stream { wire: author.wire, direction: Some(kind), chunks: vec![chunk.into()] };
     let packet = Packet::from(packet);
     let (once, twice) = (Output::Packet(packet.clone()), vec![packet.clone(), packet.clone()]);
     let built = Demand::Yield(Output::Bytes(frame.clone().into()));
@@ -274,8 +274,8 @@ fn behind_damage(author: &Author<'_>, kind: Direction) -> Vec<Check> {
         );
         let open = Unspecified { question, ways: ways.into() };
         let id = format!("innfos.open.{kind}.behind-{name}/stream");
-        let op =
-            Question::Stream { wire: author.wire, chunks: vec![datagram.into()], kind: Some(kind) };
+        let chunks = vec![datagram.into()];
+        let op = Question::Stream { wire: author.wire, chunks, direction: Some(kind) };
         author.check(id, "innfos.frame.layout", op, Demand::Record(open))
     };
     scenarios.map(check).into()

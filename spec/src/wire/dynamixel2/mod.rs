@@ -75,7 +75,10 @@ impl Rules for This {
     }
 
     fn context(&self, packet: &super::Packet) -> Context {
-        Context { fast: own(packet).and_then(Packet::asked_for), direction: None }
+        Context {
+            fast: own(packet).and_then(Packet::asked_for),
+            direction: Some(self.direction(packet)),
+        }
     }
 
     fn tells_direction(&self) -> bool {

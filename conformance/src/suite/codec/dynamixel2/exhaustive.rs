@@ -179,7 +179,12 @@ fn found_in(author: &Author<'_>, id: &str, packet: &Packet) -> Vec<Check> {
     let frame = reference::encode(packet).unwrap_or_default();
     checks.push(Check {
         requires: Some(format!("{id}/decode")),
-        ..author.streamed(format!("{id}/stream"), "dynamixel2.receive.stream", &[frame])
+        ..author.streamed(
+            format!("{id}/stream"),
+            "dynamixel2.receive.stream",
+            author.wire.direction(&packet.clone().into()),
+            &[frame],
+        )
     });
     checks
 }

@@ -2,6 +2,7 @@
 
 use actucheck_spec::Spec;
 use actucheck_spec::model::{Access, Bound, Register};
+use actucheck_spec::wire::Direction;
 use actucheck_spec::wire::dynamixel2::Packet;
 use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, HEADER};
 use proptest::collection::vec;
@@ -108,15 +109,25 @@ fn of(author: &Author<'_>, id: &str, case: &Case) -> Vec<Check> {
     let [before, behind] = &case.noise;
     let stream = [before.as_slice(), &frame, behind, &frame].concat();
     let requirement = "dynamixel2.receive.stream";
-    checks.push(author.streamed(format!("{id}/stream"), requirement, &split(&stream, &case.cuts)));
+    checks.push(author.streamed(
+        format!("{id}/stream"),
+        requirement,
+        Direction::Reply,
+        &split(&stream, &case.cuts),
+    ));
     let bytes: Vec<_> = stream.iter().map(|byte| vec![*byte]).collect();
-    checks.push(author.streamed(format!("{id}/bytewise"), requirement, &bytes));
+    checks.push(author.streamed(format!("{id}/bytewise"), requirement, Direction::Reply, &bytes));
 
     let [before, behind] = &case.damage;
     let stream = split(&[before.bytes(&frame).as_slice(), &frame].concat(), &case.cuts);
     checks.push(resumed(author, format!("{id}.damaged/resume"), before.name(), &stream));
     let stream = split(&[frame.as_slice(), &behind.bytes(&frame)].concat(), &case.cuts);
-    checks.push(author.streamed(format!("{id}.damaged/end"), requirement, &stream));
+    checks.push(author.streamed(
+        format!("{id}.damaged/end"),
+        requirement,
+        Direction::Reply,
+        &stream,
+    ));
     checks
 }
 

@@ -122,8 +122,7 @@ impl Golden<'_> {
         let op = Question::Decode {
             wire: self.wire,
             bytes: frame.to_vec().into(),
-            fast: packet.context().fast,
-            kind: None,
+            context: packet.context(),
         };
         self.check(
             "decode",
@@ -149,7 +148,8 @@ impl Golden<'_> {
         ]
         .into_iter()
         .map(|(name, requirement, chunks)| {
-            let op = Question::Stream { wire: self.wire, chunks, kind: None };
+            let op =
+                Question::Stream { wire: self.wire, chunks, direction: Some(packet.direction()) };
             let demand = Demand::Yield(Output::Packets(vec![packet.clone()]));
             let check = self.check(name, requirement, op, demand);
             Check { requires: Some(format!("{}/decode", self.vector.id)), ..check }
@@ -161,8 +161,7 @@ impl Golden<'_> {
         let op = Question::Decode {
             wire: self.wire,
             bytes: bytes.to_vec().into(),
-            fast: self.vector.context().fast,
-            kind: None,
+            context: self.vector.context(),
         };
         self.check(name, requirement, op, Demand::Reject(fault))
     }

@@ -100,7 +100,7 @@ fn fast_both_ways(
     let id = format!("{document}.said.{rest}.{name}");
     let decode = |bytes: &[u8], fast: &Fast| {
         let bytes = bytes.to_vec().into();
-        Question::Decode { wire: author.wire, bytes, fast: Some(fast.clone()), kind: None }
+        Question::Decode { wire: author.wire, bytes, context: fast.clone().into() }
     };
     let more = Fast { ids: [fast.ids.as_slice(), &[42]].concat(), ..fast.clone() };
     let from_one = reference::frame(

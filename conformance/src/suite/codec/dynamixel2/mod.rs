@@ -41,8 +41,7 @@ impl Author<'_> {
         let decode = Question::Decode {
             wire: self.wire,
             bytes: bytes.clone().into(),
-            fast: None,
-            kind: None,
+            context: packet.context(),
         };
         let (bytes, packet) = (Output::Bytes(bytes.into()), Output::Packet(packet));
         vec![

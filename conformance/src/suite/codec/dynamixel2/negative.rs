@@ -2,6 +2,7 @@
 //!
 //! Behaviour that the documents leave unspecified is in `unspecified.rs`.
 
+use actucheck_spec::wire::Direction;
 use actucheck_spec::wire::dynamixel2::{Packet, reference};
 
 use crate::suite::Author;
@@ -19,12 +20,13 @@ fn broken(author: &Author<'_>) -> Vec<Check> {
     let mut checks = Vec::new();
     for (name, packet) in packets() {
         let frame = reference::encode(&packet).unwrap_or_default();
+        let direction = author.wire.direction(&packet.clone().into());
         for (fault, requirement, bytes) in damaged(&frame) {
             let id = format!("dynamixel2.negative.{name}.{fault}");
-            checks.push(author.decoded(format!("{id}/decode"), requirement, bytes));
+            checks.push(author.decoded(format!("{id}/decode"), requirement, direction, bytes));
             // The remains of a damaged packet must not affect the next one.
             let after = format!("{id}/decode-good-after");
-            checks.push(author.decoded(after, "dynamixel2.receive.crc", frame.clone()));
+            checks.push(author.decoded(after, "dynamixel2.receive.crc", direction, frame.clone()));
         }
     }
     checks
@@ -130,14 +132,24 @@ fn streams(author: &Author<'_>) -> Vec<Check> {
             "stuffed-header-good" => "dynamixel2.receive.header.stuffed",
             _ => "dynamixel2.receive.stream",
         };
-        checks.push(author.streamed(format!("{id}/stream"), requirement, &parts));
+        checks.push(author.streamed(format!("{id}/stream"), requirement, Direction::Reply, &parts));
         for split in 1..stream.len() {
             let (head, tail) = stream.split_at(split);
             let chunks = [head.to_vec(), tail.to_vec()];
-            checks.push(author.streamed(format!("{id}/split-at-{split}"), requirement, &chunks));
+            checks.push(author.streamed(
+                format!("{id}/split-at-{split}"),
+                requirement,
+                Direction::Reply,
+                &chunks,
+            ));
         }
         let bytes: Vec<_> = stream.iter().map(|byte| vec![*byte]).collect();
-        checks.push(author.streamed(format!("{id}/bytewise"), requirement, &bytes));
+        checks.push(author.streamed(
+            format!("{id}/bytewise"),
+            requirement,
+            Direction::Reply,
+            &bytes,
+        ));
     }
     checks
 }

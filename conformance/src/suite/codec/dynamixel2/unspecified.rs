@@ -2,6 +2,7 @@
 //! they are the subject's profile.
 
 use actucheck_spec::model::HexBytes;
+use actucheck_spec::wire::Direction;
 use actucheck_spec::wire::dynamixel2::Packet;
 use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, HEADER, STATUS};
 
@@ -34,8 +35,9 @@ fn open(question: &str, ways: impl IntoIterator<Item = (&'static str, Output)>) 
     Unspecified { question: question.to_owned(), ways: ways.collect() }
 }
 
+/// Reads a status packet.
 fn decode(author: &Author<'_>, bytes: Vec<u8>) -> Question {
-    Question::Decode { wire: author.wire, bytes: bytes.into(), fast: None, kind: None }
+    Question::Decode { wire: author.wire, bytes: bytes.into(), context: Direction::Reply.into() }
 }
 
 fn bytes(bytes: &[u8]) -> HexBytes {
@@ -187,7 +189,7 @@ pub(super) fn resumed(author: &Author<'_>, id: String, what: &str, chunks: &[Vec
         .map(|(name, packets)| (name, Output::packets(packets))),
     );
     let chunks = chunks.iter().map(|chunk| chunk.clone().into()).collect();
-    let op = Question::Stream { wire: author.wire, chunks, kind: None };
+    let op = Question::Stream { wire: author.wire, chunks, direction: Some(Direction::Reply) };
     author.check(id, "dynamixel2.receive.resume", op, Demand::Record(ways))
 }
 
