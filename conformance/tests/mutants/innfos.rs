@@ -6,9 +6,13 @@ use actucheck_spec::wire::{self, Direction};
 
 use super::{Mutant, Wrong, bytes};
 
-pub(super) static MUTANTS: [Mutant; 7] = [
+/// Every mutant.
+pub(super) static LISTS: [&[Mutant]; 1] = [&MUTANTS];
+
+static MUTANTS: [Mutant; 7] = [
     Mutant {
         name: "sends the CRC's high byte first",
+        blames: "innfos.crc.byte-order",
         wrong: Wrong::Answers(|op| {
             let mut frame = reference::encode(packet(op)?)?;
             let crc = frame.len().checked_sub(3)?;
@@ -22,6 +26,7 @@ pub(super) static MUTANTS: [Mutant; 7] = [
     },
     Mutant {
         name: "sends the length's low byte first",
+        blames: "innfos.frame.length",
         wrong: Wrong::Answers(|op| {
             let mut frame = reference::encode(packet(op)?)?;
             frame.swap(3, 4);
@@ -32,6 +37,7 @@ pub(super) static MUTANTS: [Mutant; 7] = [
     },
     Mutant {
         name: "reads the length's low byte only",
+        blames: "innfos.frame.length",
         wrong: Wrong::Rejects(
             |op| matches!(op, Question::Decode { bytes, .. } if bytes.get(3).is_some_and(|high| *high > 0)),
         ),
@@ -40,6 +46,7 @@ pub(super) static MUTANTS: [Mutant; 7] = [
     },
     Mutant {
         name: "does not look at the CRC",
+        blames: "innfos.crc.verify",
         wrong: Wrong::Answers(|op| {
             let Question::Decode { bytes, context, .. } = op else { return None };
             let mut frame = bytes.0.clone();
@@ -53,6 +60,7 @@ pub(super) static MUTANTS: [Mutant; 7] = [
     },
     Mutant {
         name: "does not look at the tail",
+        blames: "innfos.frame.tail",
         wrong: Wrong::Answers(|op| {
             let Question::Decode { bytes, context, .. } = op else { return None };
             let mut frame = bytes.0.clone();
@@ -64,6 +72,7 @@ pub(super) static MUTANTS: [Mutant; 7] = [
     },
     Mutant {
         name: "takes the first ED for the tail",
+        blames: "innfos.frame.transparent",
         wrong: Wrong::Rejects(|op| match op {
             Question::Decode { bytes, .. } => {
                 bytes.iter().position(|byte| *byte == 0xED) != Some(bytes.len().saturating_sub(1))
@@ -75,6 +84,7 @@ pub(super) static MUTANTS: [Mutant; 7] = [
     },
     Mutant {
         name: "reads the first frame of a datagram only",
+        blames: "innfos.frame.transparent",
         wrong: Wrong::Answers(|op| {
             let Question::Stream { chunks, direction, .. } = op else { return None };
             let found = chunks.iter().filter_map(|chunk| {

@@ -11,12 +11,13 @@ use actucheck_spec::model::Level;
 use super::{Mutant, Mutated, checks, dynamixel2, innfos, outcomes, stubs};
 
 /// The mutants of a wire that a good check distinguishes from a right implementation.
-fn mutants(wire: Wire) -> &'static [Mutant] {
-    match wire.id() {
-        "dynamixel2" => &dynamixel2::MUTANTS,
-        "innfos" => &innfos::MUTANTS,
+fn mutants(wire: Wire) -> impl Iterator<Item = &'static Mutant> {
+    let lists: &'static [&[Mutant]] = match wire.id() {
+        "dynamixel2" => &dynamixel2::LISTS,
+        "innfos" => &innfos::LISTS,
         _ => &[],
-    }
+    };
+    lists.iter().copied().flatten()
 }
 
 /// Whether a check reports an error or a warning.
@@ -59,7 +60,7 @@ fn every_check_finds_a_mutant() {
         let judged = sound.iter().filter(|outcome| outcome.verdict == Verdict::Pass);
         let mut idle: BTreeMap<_, _> =
             judged.map(|outcome| (outcome.id.as_str(), &outcome.requirement)).collect();
-        for mutant in mutants(wire).iter().chain(&stubs::MUTANTS) {
+        for mutant in mutants(wire).chain(&stubs::MUTANTS) {
             for outcome in outcomes(Mutated::new(mutant), &checks) {
                 if is_found(&outcome) {
                     idle.remove(outcome.id.as_str());
@@ -67,5 +68,13 @@ fn every_check_finds_a_mutant() {
             }
         }
         assert_eq!(idle, BTreeMap::new(), "checks that nothing fails");
+    }
+}
+
+#[test]
+fn what_a_mutant_breaks_is_a_requirement() {
+    let spec = Spec::embedded().unwrap();
+    for mutant in Wire::ALL.into_iter().flat_map(mutants) {
+        assert!(spec.requirement(mutant.blames).is_some(), "{}: {}", mutant.name, mutant.blames);
     }
 }

@@ -22,6 +22,8 @@ use actucheck_spec::model::{Fault, HexBytes};
 /// An implementation that is wrong in one way.
 struct Mutant {
     name: &'static str,
+    /// The id of the requirement that it breaks. Empty if it breaks many.
+    blames: &'static str,
     wrong: Wrong,
     /// A check that finds it.
     found_by: &'static str,

@@ -61,7 +61,7 @@ pub(super) static MUTANTS: [Mutant; 8] = [
 ];
 
 const fn stub(name: &'static str, wrong: Wrong) -> Mutant {
-    Mutant { name, wrong, found_by: "", found_by_documents: true }
+    Mutant { name, blames: "", wrong, found_by: "", found_by_documents: true }
 }
 
 fn status() -> Packet {

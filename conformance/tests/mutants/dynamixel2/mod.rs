@@ -1,5 +1,9 @@
 //! Implementations of DYNAMIXEL Protocol 2.0 that are wrong in one way each.
 
+mod fast;
+mod packets;
+mod streams;
+
 use actucheck::adapter::{Output, Question};
 use actucheck_spec::wire::dynamixel2::Packet;
 use actucheck_spec::wire::dynamixel2::reference::{self, HEADER};
@@ -7,9 +11,14 @@ use actucheck_spec::wire::{self, Context};
 
 use super::{Mutant, Wrong, bytes};
 
+/// Every mutant.
+pub(super) static LISTS: [&[Mutant]; 4] =
+    [&MUTANTS, &fast::MUTANTS, &packets::MUTANTS, &streams::MUTANTS];
+
 pub(super) static MUTANTS: [Mutant; 14] = [
     Mutant {
         name: "sends without byte stuffing",
+        blames: "dynamixel2.stuffing.transmit",
         wrong: Wrong::Answers(|op| {
             body_of(op).map(|(id, body)| bytes(reference::frame(id, &body)))
         }),
@@ -18,6 +27,7 @@ pub(super) static MUTANTS: [Mutant; 14] = [
     },
     Mutant {
         name: "looks for the pattern in the parameters only",
+        blames: "dynamixel2.stuffing.transmit",
         wrong: Wrong::Answers(|op| {
             let (id, body) = body_of(op)?;
             let (code, params) = body.split_first()?;
@@ -30,6 +40,7 @@ pub(super) static MUTANTS: [Mutant; 14] = [
     },
     Mutant {
         name: "stuffs the first pattern only",
+        blames: "dynamixel2.stuffing.transmit",
         wrong: Wrong::Answers(|op| match op {
             Question::Stuff { bytes: body, .. } => {
                 let at = body.windows(3).position(|window| window == [0xFF, 0xFF, 0xFD])? + 3;
@@ -42,6 +53,7 @@ pub(super) static MUTANTS: [Mutant; 14] = [
     },
     Mutant {
         name: "counts the length before stuffing",
+        blames: "dynamixel2.stuffing.length",
         wrong: Wrong::Answers(|op| {
             let (id, body) = body_of(op)?;
             let mut frame = reference::frame(id, &reference::stuff(&body));
@@ -53,6 +65,7 @@ pub(super) static MUTANTS: [Mutant; 14] = [
     },
     Mutant {
         name: "computes the CRC before stuffing",
+        blames: "dynamixel2.stuffing.crc",
         wrong: Wrong::Answers(|op| {
             let (id, body) = body_of(op)?;
             let mut frame = reference::frame(id, &reference::stuff(&body));
@@ -66,6 +79,7 @@ pub(super) static MUTANTS: [Mutant; 14] = [
     },
     Mutant {
         name: "takes every FD behind FF FD for stuffing",
+        blames: "dynamixel2.stuffing.receive",
         wrong: Wrong::Answers(|op| match op {
             Question::Unstuff { bytes: body, .. } => {
                 let mut out: Vec<u8> = Vec::new();
@@ -83,6 +97,7 @@ pub(super) static MUTANTS: [Mutant; 14] = [
     },
     Mutant {
         name: "leaves stuffing in what it reads",
+        blames: "dynamixel2.stuffing.receive",
         wrong: Wrong::Answers(|op| match op {
             Question::Decode { bytes, context: Context { fast: None, .. }, .. } => {
                 match reference::decode(bytes).ok()? {
@@ -100,6 +115,7 @@ pub(super) static MUTANTS: [Mutant; 14] = [
     },
     Mutant {
         name: "starts the CRC with FFFF",
+        blames: "dynamixel2.crc.value",
         wrong: Wrong::Answers(|op| match op {
             Question::Crc { bytes, .. } => {
                 let whole = [&[0xFF, 0xFF], bytes.0.as_slice()].concat();
@@ -112,6 +128,7 @@ pub(super) static MUTANTS: [Mutant; 14] = [
     },
     Mutant {
         name: "does not look at the CRC",
+        blames: "dynamixel2.receive.crc",
         wrong: Wrong::Answers(|op| match op {
             Question::Decode { bytes, context: Context { fast: None, .. }, .. } => {
                 read_leniently(&with_crc(bytes.0.clone()))
@@ -123,6 +140,7 @@ pub(super) static MUTANTS: [Mutant; 14] = [
     },
     Mutant {
         name: "does not look at the reserved byte",
+        blames: "dynamixel2.packet.reserved",
         wrong: Wrong::Answers(|op| match op {
             Question::Decode { bytes, context: Context { fast: None, .. }, .. }
                 if bytes.len() > 7 =>
@@ -139,6 +157,7 @@ pub(super) static MUTANTS: [Mutant; 14] = [
     },
     Mutant {
         name: "reads the length's low byte only",
+        blames: "dynamixel2.packet.length",
         wrong: Wrong::Answers(|op| match op {
             Question::Encode { packet, .. } => {
                 let mut frame = packet.packet.wire().encode(&packet.packet)?;
@@ -152,6 +171,7 @@ pub(super) static MUTANTS: [Mutant; 14] = [
     },
     Mutant {
         name: "drops the alert bit",
+        blames: "dynamixel2.status-packet.error.fields",
         wrong: Wrong::Answers(|op| match op {
             Question::Decode { bytes, context: Context { fast: None, .. }, .. } => {
                 match reference::decode(bytes).ok()? {
@@ -168,6 +188,7 @@ pub(super) static MUTANTS: [Mutant; 14] = [
     },
     Mutant {
         name: "forgets what it has of a packet when a chunk ends",
+        blames: "dynamixel2.receive.stream",
         wrong: Wrong::Answers(|op| match op {
             Question::Stream { chunks, .. } => {
                 Some(Output::packets(chunks.iter().flat_map(|chunk| reference::packets(chunk))))
@@ -179,6 +200,7 @@ pub(super) static MUTANTS: [Mutant; 14] = [
     },
     Mutant {
         name: "gives up the stream at a wrong CRC",
+        blames: "dynamixel2.receive.stream",
         wrong: Wrong::Answers(|op| match op {
             Question::Stream { chunks, .. } => {
                 let stream: Vec<u8> = chunks.iter().flat_map(|chunk| chunk.0.clone()).collect();
