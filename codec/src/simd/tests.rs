@@ -22,6 +22,40 @@ impl Task for Look<'_> {
     }
 }
 
+/// The back end that a task is run with.
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+struct Which;
+
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+impl Task for Which {
+    type Output = &'static str;
+
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "see `Task`")]
+    fn run(self, backend: impl Backend) -> &'static str {
+        core::any::type_name_of_val(&backend)
+    }
+}
+
+/// All back ends give the same results, so nothing else shows that a slower one is taken.
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+#[test]
+fn the_fastest_back_end_of_the_processor_is_taken() {
+    use std::is_x86_feature_detected as has;
+    let narrow = has!("pclmulqdq") && has!("ssse3");
+    let bits = has!("popcnt") && has!("bmi1") && has!("bmi2");
+    let wide = narrow && bits && has!("vpclmulqdq") && has!("avx2");
+    let expected = match (wide, narrow) {
+        (true, _) => "Wide",
+        (false, true) => "Narrow",
+        (false, false) => "Portable",
+    };
+    let taken = run(Which);
+    assert!(taken.ends_with(&std::format!("::{expected}")), "{taken}, not {expected}");
+    let supported = 1 + usize::from(narrow) + usize::from(wide);
+    assert_eq!(Processor::all().count(), supported);
+}
+
 proptest! {
     #[test]
     fn windows_at_every_alignment(
