@@ -20,8 +20,8 @@ use actucheck_spec::wire::dynamixel2;
 use actucheck_spec::wire::dynamixel2::Packet::Status;
 
 fn checks() -> Vec<Check> {
-    let options = suite::Options { cases: 100, ..suite::Options::new(dynamixel2::WIRE) };
-    suite::plan(&Spec::embedded().unwrap(), &options).checks().collect()
+    let options = suite::Options { cases: 100, ..suite::Options::new() };
+    suite::plan(&Spec::embedded().unwrap(), &[dynamixel2::WIRE], &options).checks().collect()
 }
 
 /// The built-in codec with wrong answers to one op.
@@ -171,7 +171,7 @@ fn requirements_say_whether_the_suite_checks_them() {
     let spec = Spec::embedded().unwrap();
     let mut named = BTreeSet::new();
     for wire in Wire::ALL {
-        let plan = suite::plan(&spec, &suite::Options::new(wire));
+        let plan = suite::plan(&spec, &[wire], &suite::Options::new());
         named.extend(plan.checks().map(|check| check.requirement));
     }
     for row in spec.requirements.iter().flat_map(|file| &file.content.requirements) {
@@ -187,8 +187,8 @@ fn requirements_say_whether_the_suite_checks_them() {
 #[test]
 fn no_requirement_on_a_codec_is_left_uncovered() {
     let spec = Spec::embedded().unwrap();
-    let plans = Wire::ALL.map(|wire| suite::plan(&spec, &suite::Options::new(wire)));
-    let all: Vec<_> = plans.iter().flat_map(Plan::checks).collect();
+    let plan = suite::plan(&spec, &Wire::ALL, &suite::Options::new());
+    let all: Vec<_> = plan.checks().collect();
     let names = all.iter().map(|check| CheckName {
         id: &check.id,
         requirement: &check.requirement,

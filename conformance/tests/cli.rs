@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 
 use assert_cmd::Command;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 fn actucheck(arguments: &[&str]) -> (i32, String, String) {
     let output = Command::cargo_bin("actucheck").unwrap().args(arguments).output().unwrap();
@@ -59,7 +59,7 @@ fn bodies_inside_packets_are_as_long_as_asked_for() {
 fn the_json_report_counts_every_verdict() {
     let (status, stdout, _) = actucheck(&["codec", "--report", "json=-"]);
     let report: Value = serde_json::from_str(&stdout).unwrap();
-    assert_eq!((status, &report["version"]), (0, &Value::from(4)));
+    assert_eq!((status, &report["version"]), (0, &Value::from(5)));
     let sum = |totals: &Value| {
         let totals = totals.as_object().unwrap();
         assert_eq!(totals.len(), 11);
@@ -68,6 +68,25 @@ fn the_json_report_counts_every_verdict() {
     let requirements = report["requirements"].as_array().unwrap().iter();
     let checks = requirements.map(|row| sum(&row["totals"])).sum::<u64>();
     assert_eq!(checks, sum(&report["totals"]));
+}
+
+#[test]
+fn every_wire_is_checked_unless_some_are_named() {
+    let wires = |options: &[&str]| {
+        let all = [&["codec", "--cases", "0", "--report", "json=-"], options].concat();
+        let (status, stdout, stderr) = actucheck(&all);
+        assert_eq!(status, 0, "{stderr}");
+        let report: Value = serde_json::from_str(&stdout).unwrap();
+        let has = |document: &str| {
+            let rows = report["requirements"].as_array().unwrap().iter();
+            rows.into_iter().any(|row| row["id"].as_str().unwrap().starts_with(document))
+        };
+        (report["wires"].clone(), has("ja40."), has("innfos."))
+    };
+    let (both, one) = (json!(["dynamixel2", "innfos"]), json!(["innfos"]));
+    assert_eq!(wires(&[]), (both.clone(), true, true));
+    assert_eq!(wires(&["--wire", "innfos"]), (one, false, true));
+    assert_eq!(wires(&["--wire", "innfos", "--wire", "dynamixel2"]), (both, true, true));
 }
 
 #[test]

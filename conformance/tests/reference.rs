@@ -16,9 +16,9 @@ use actucheck_spec::wire::dynamixel2::{WIRE, reference};
 #[test]
 fn no_check_judges_where_a_search_goes_on() {
     let spec = Spec::embedded().unwrap();
-    let options = suite::Options { cases: 1000, ..suite::Options::new(WIRE) };
+    let options = suite::Options { cases: 1000, ..suite::Options::new() };
     let mut streams = 0;
-    for check in suite::plan(&spec, &options).checks() {
+    for check in suite::plan(&spec, &[WIRE], &options).checks() {
         let (Question::Stream { chunks, .. }, Demand::Yield(_)) = (&check.question, &check.demand)
         else {
             continue;
@@ -66,8 +66,8 @@ impl Subject for Model {
 fn the_reference_passes_every_check() {
     let spec = Spec::embedded().unwrap();
     for wire in Wire::ALL {
-        let options = suite::Options { cases: 100, ..suite::Options::new(wire) };
-        let plan = suite::plan(&spec, &options);
+        let options = suite::Options { cases: 100, ..suite::Options::new() };
+        let plan = suite::plan(&spec, &[wire], &options);
         let model = Model(Builtin::default());
         let outcomes = outcomes(&mut [Box::new(model)], &plan);
         let bad = outcomes

@@ -24,8 +24,8 @@ Examples:
       check the built-in codec
   actucheck codec -- python3 my_adapter.py
       check a library behind an adapter
-  actucheck codec --select '*stuffing*' -- ./my-adapter
-      only some checks
+  actucheck codec --select '*stuffing*' --wire dynamixel2 -- ./my-adapter
+      only some checks, of one of the wires that the adapter offers
   actucheck codec --report html=report.html --report junit=report.xml -- ./my-adapter
       with a page to read and a file for what collects the results of tests
   actucheck codec --report json=- -- ./my-adapter | jq .totals
@@ -73,12 +73,13 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     let mut outputs = Outputs::open(&options.reports)?;
     let mut subjects = Subjects::start(&options.adapter, options.jobs)?;
     let hello = subjects.hello.clone();
-    let mut plan = selection.growth.plan(&spec, selection.wire, Some(&hello));
+    let wires = selection.offered_wires(&hello)?;
+    let mut plan = selection.growth.plan(&spec, &wires, Some(&hello));
     let mut records = BTreeMap::new();
     for path in &options.also {
         let more = saved::read(path).map_err(Failure::usage)?;
-        let of_wire = |check: &Check| check.question.wire() == selection.wire;
-        let more: Vec<_> = more.into_iter().filter(of_wire).collect();
+        let selected = |check: &Check| wires.contains(&check.question.wire());
+        let more: Vec<_> = more.into_iter().filter(selected).collect();
         records.extend(more.iter().map(|check| (check.id.clone(), path.clone())));
         plan.add(more);
     }
@@ -96,7 +97,8 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     let run = Run {
         spec: &spec,
         implementation: &hello.implementation,
-        options: selection.growth.options(selection.wire, Some(&hello)),
+        wires: &wires,
+        options: selection.growth.options(Some(&hello)),
         command: &options.adapter.command,
         records,
     };

@@ -91,7 +91,8 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
     let run = Run {
         spec: &spec,
         implementation: &hello.implementation,
-        options: Options { seed, ..Options::new(options.wire) },
+        wires: &[options.wire],
+        options: Options { seed, ..Options::new() },
         command: &options.adapter.command,
         records: found.clone().map(|it| (it.check.id.clone(), options.out.clone())).collect(),
     };

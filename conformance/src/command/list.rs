@@ -24,7 +24,7 @@ pub(crate) struct List {
 pub(crate) fn run(options: &List) -> Result<ExitCode, Failure> {
     let spec = shared::spec()?;
     let selection = &options.selection;
-    let mut plan = selection.growth.plan(&spec, selection.wire, None);
+    let mut plan = selection.growth.plan(&spec, &selection.wires(), None);
     selection.restrict(&mut plan)?;
     let mut out = io::BufWriter::new(io::stdout().lock());
     for check in plan.checks() {

@@ -42,14 +42,16 @@ pub(crate) fn run(options: &Replay) -> Result<ExitCode, Failure> {
     let spec = shared::spec()?;
     let mut subjects = Subjects::start(&options.adapter, 1)?;
     let hello = subjects.hello.clone();
-    let (wire, checks) = named(options, &spec, &hello)?;
+    let checks = named(options, &spec, &hello)?;
+    let wires: Vec<_> = Wire::ALL.into_iter().filter(|wire| has(&checks, *wire)).collect();
     let path = Path::new(&options.what);
     let ids = checks.iter().filter(|_| path.is_file()).map(|check| check.id.clone());
     let records = ids.map(|id| (id, path.to_owned())).collect();
     let run = Run {
         spec: &spec,
         implementation: &hello.implementation,
-        options: options.growth.options(wire, Some(&hello)),
+        wires: &wires,
+        options: options.growth.options(Some(&hello)),
         command: &options.adapter.command,
         records,
     };
@@ -66,13 +68,14 @@ pub(crate) fn run(options: &Replay) -> Result<ExitCode, Failure> {
 }
 
 /// The checks of the file with this name, or the check with this id.
-fn named(options: &Replay, spec: &Spec, hello: &Hello) -> Result<(Wire, Vec<Check>), Failure> {
+fn named(options: &Replay, spec: &Spec, hello: &Hello) -> Result<Vec<Check>, Failure> {
     let path = Path::new(&options.what);
     if !path.is_file() {
-        let (wire, check) = options.growth.named(spec, &options.what, Some(hello))?;
-        return Ok((wire, vec![check]));
+        return Ok(vec![options.growth.named(spec, &options.what, Some(hello))?]);
     }
-    let checks = saved::read(path).map_err(Failure::usage)?;
-    let wire = checks.first().map_or_else(Wire::default, |check| check.question.wire());
-    Ok((wire, checks))
+    saved::read(path).map_err(Failure::usage)
+}
+
+fn has(checks: &[Check], wire: Wire) -> bool {
+    checks.iter().any(|check| check.question.wire() == wire)
 }

@@ -26,7 +26,7 @@ pub(crate) struct Show {
 /// Prints one check.
 pub(crate) fn run(options: &Show) -> Result<ExitCode, Failure> {
     let spec = shared::spec()?;
-    let (_, check) = options.growth.named(&spec, &options.id, None)?;
+    let check = options.growth.named(&spec, &options.id, None)?;
     let mut text = Vec::new();
     text::check(&spec, &check, &mut text).map_err(Failure::incomplete)?;
     // A closed pipe, as of `| head`, is not an error.

@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::model::{CheckResult, Header, Summary};
 
 /// Version of the lines' format. It changes when a field is removed or gets another meaning.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// A line.
 #[derive(Clone, Debug, Serialize, JsonSchema)]

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use super::model::Report;
 use super::view::Group;
-use super::words::{count, mark, tallies, thousands};
+use super::words::{count, mark, tallies, thousands, wires};
 use crate::verdict::Verdict;
 
 /// Writes the report.
@@ -27,8 +27,8 @@ fn summary(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let requirements = count(report.requirements.len(), "requirement");
     writeln!(
         out,
-        "{checks} of {requirements}, wire {}, seed {}\n",
-        report.header.wire.id(),
+        "{checks} of {requirements}, {}, seed {}\n",
+        wires(&report.header.wires),
         report.header.seed
     )?;
     if let Some(sentence) = report.cut_short() {

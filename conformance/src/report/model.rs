@@ -3,14 +3,14 @@
 use actucheck_spec::Spec;
 use actucheck_spec::model::Level;
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::adapter::{Implementation, Wire};
 use crate::explain::diff::Diff;
 use crate::verdict::{Outcome, Totals, Verdict};
 
 /// Version of the report's format. It changes when a field is removed or gets another meaning.
-pub const VERSION: u32 = 4;
+pub const VERSION: u32 = 5;
 
 /// The result of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -42,8 +42,9 @@ pub struct Header {
     pub actucheck: String,
     /// The implementation that was checked.
     pub implementation: Implementation,
-    /// The wire.
-    pub wire: Wire,
+    /// The wires.
+    #[serde(alias = "wire", deserialize_with = "wires")]
+    pub wires: Vec<Wire>,
     /// The adapter's command with its arguments; empty for the built-in codec.
     pub command: Vec<String>,
     /// The seed of the generated checks.
@@ -52,6 +53,20 @@ pub struct Header {
     pub cases: u32,
     /// The most bytes in the bodies that were all tried inside every kind of packet.
     pub body_length: u32,
+}
+
+/// Earlier versions have one wire.
+fn wires<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Wire>, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged)]
+    enum Wires {
+        One(Wire),
+        Several(Vec<Wire>),
+    }
+    Ok(match Deserialize::deserialize(deserializer)? {
+        Wires::One(wire) => vec![wire],
+        Wires::Several(wires) => wires,
+    })
 }
 
 /// The facts about a run that are known after its last check.

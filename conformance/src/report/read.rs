@@ -87,7 +87,7 @@ pub fn read(path: &Path) -> Result<Report, ReadError> {
     let parse = |error| ReadError::Parse { path: name(), error };
     let Versioned { version: found } = serde_json::from_str(&text).map_err(parse)?;
     let report: Report = match found {
-        VERSION => serde_json::from_str(&text).map_err(parse)?,
+        4..=VERSION => Report { version: VERSION, ..serde_json::from_str(&text).map_err(parse)? },
         OLDEST => serde_json::from_str::<Version3>(&text).map_err(parse)?.into(),
         _ => return Err(ReadError::Version { path: name(), found }),
     };

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use actucheck_spec::Spec;
 
 use super::model::{CheckResult, Header};
-use crate::adapter::{Implementation, Question};
+use crate::adapter::{Implementation, Question, Wire};
 use crate::explain::diff;
 use crate::suite::Options;
 use crate::verdict::Outcome;
@@ -27,6 +27,8 @@ pub struct Run<'a> {
     pub spec: &'a Spec,
     /// The implementation that is checked.
     pub implementation: &'a Implementation,
+    /// The wires whose checks are asked.
+    pub wires: &'a [Wire],
     /// The options that determine the checks.
     pub options: Options,
     /// The adapter's command; empty for the built-in codec.
@@ -49,7 +51,7 @@ impl Run<'_> {
                 language: name(language),
                 url: url.as_ref().map(name),
             },
-            wire: self.options.wire,
+            wires: self.wires.to_vec(),
             command: self.command.to_vec(),
             seed: self.options.seed,
             cases: self.options.cases,
@@ -80,13 +82,13 @@ impl Run<'_> {
 
     /// The command that asks the check again, quoted for a shell.
     fn replay(&self, id: &str) -> String {
-        let Options { wire, seed, cases, .. } = self.options;
+        let Options { seed, cases, .. } = self.options;
         let record = self.records.get(id);
         let what = record.map_or_else(|| id.to_owned(), |path| path.display().to_string());
         let mut words = vec!["actucheck".to_owned(), "replay".to_owned(), what];
         if record.is_none() && id.contains(".seed-") {
             words.extend(["--seed".to_owned(), seed.to_string()]);
-            if cases > Options::new(wire).cases {
+            if cases > Options::new().cases {
                 words.extend(["--cases".to_owned(), cases.to_string()]);
             }
         }

@@ -23,11 +23,11 @@ pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let who = &report.header.implementation;
     writeln!(
         out,
-        "{BOLD}{} {}{BOLD:#} ({})  wire {}  {} checks",
+        "{BOLD}{} {}{BOLD:#} ({})  {}  {} checks",
         who.name,
         who.version,
         who.language,
-        report.header.wire.id(),
+        words::wires(&report.header.wires),
         report.summary.totals.sum()
     )?;
     requirements(report, out)?;

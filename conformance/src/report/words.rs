@@ -1,6 +1,7 @@
 //! Words and marks that several formats share.
 
 use super::model::Tally;
+use crate::adapter::Wire;
 use crate::verdict::Verdict;
 
 /// A number with commas: 61,260.
@@ -20,6 +21,13 @@ pub(super) fn thousands(number: usize) -> String {
 pub(super) fn count(number: usize, what: &str) -> String {
     let ending = if number == 1 { "" } else { "s" };
     format!("{} {what}{ending}", thousands(number))
+}
+
+/// The wires: `wire dynamixel2`, `wires dynamixel2, innfos`.
+pub(super) fn wires(wires: &[Wire]) -> String {
+    let word = if wires.len() == 1 { "wire" } else { "wires" };
+    let ids: Vec<_> = wires.iter().map(|wire| wire.id()).collect();
+    format!("{word} {}", ids.join(", "))
 }
 
 /// A sign for a verdict, for readers who do not see its colour.

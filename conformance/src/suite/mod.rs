@@ -23,8 +23,6 @@ use crate::adapter::{Output, Question, Wire};
 /// The options that determine the checks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// The wire.
-    pub wire: Wire,
     /// The seed of the generated checks.
     pub seed: u64,
     /// The number of generated packets.
@@ -42,12 +40,12 @@ impl Options {
     /// The longest body in bytes that is tried at all.
     pub const LONGEST_BODY: u32 = 7;
 
-    /// The default options of a wire. Bare bodies are long enough for two patterns in a row, at
+    /// The default options. Bare bodies are long enough for two patterns in a row, at
     /// which a published library fails.
     #[must_use]
-    pub const fn new(wire: Wire) -> Self {
+    pub const fn new() -> Self {
         let (body_length, bare_length) = (4, Self::LONGEST_BODY);
-        Self { wire, seed: 1, cases: 1000, body_length, bare_length, max_packet: None }
+        Self { seed: 1, cases: 1000, body_length, bare_length, max_packet: None }
     }
 
     /// The same with all bodies up to this many bytes, inside packets and alone.
@@ -57,11 +55,17 @@ impl Options {
     }
 }
 
-/// Every check, in a fixed order.
+impl Default for Options {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// Every check of these wires, in a fixed order.
 #[must_use]
-pub fn plan<'a>(spec: &'a Spec, options: &Options) -> Plan<'a> {
-    let author = Author { spec, wire: options.wire };
-    Plan::new(codec::families(author, options))
+pub fn plan<'a>(spec: &'a Spec, wires: &[Wire], options: &Options) -> Plan<'a> {
+    let families = |wire: &Wire| codec::families(Author { spec, wire: *wire }, options);
+    Plan::new(wires.iter().flat_map(families).collect())
 }
 
 /// Writes checks about one wire.

@@ -3,7 +3,7 @@
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-use super::{WELL_BEHAVED, answering, check};
+use super::{WELL_BEHAVED, answering, check, check_with};
 
 #[test]
 fn one_that_skips_all_leaves_the_run_incomplete() {
@@ -147,4 +147,15 @@ fn its_children_end_with_it() {
         assert!(Instant::now() < patience, "process {pid} is still there");
         std::thread::sleep(Duration::from_millis(20));
     }
+}
+
+#[test]
+fn a_wire_that_is_not_offered_is_an_error() {
+    let script = WELL_BEHAVED.replace("ANSWER", ":");
+    let refused = check_with(&["--wire", "innfos"], &script);
+    assert_eq!(refused.exit(), 2);
+    assert!(refused.stderr().contains("the adapter offers no innfos; it offers dynamixel2"));
+    let none = check(&script.replace(r#"["dynamixel2"]"#, r#"["can"]"#));
+    assert_eq!(none.exit(), 2);
+    assert!(none.stderr().contains("no wire that this program knows: dynamixel2 and innfos"));
 }

@@ -76,8 +76,8 @@ impl Subject for Mutated {
 }
 
 fn checks(wire: Wire) -> Vec<Check> {
-    let options = suite::Options { cases: 50, ..suite::Options::new(wire) };
-    suite::plan(&Spec::embedded().unwrap(), &options).checks().collect()
+    let options = suite::Options { cases: 50, ..suite::Options::new() };
+    suite::plan(&Spec::embedded().unwrap(), &[wire], &options).checks().collect()
 }
 
 fn outcomes(subject: impl Subject + Send + 'static, checks: &[Check]) -> Vec<Outcome> {

@@ -101,13 +101,14 @@ fn what_only_one_was_asked_stands_there_for_both() {
 }
 
 #[test]
-fn reports_of_two_wires_are_refused() {
+fn reports_without_a_common_wire_are_refused() {
     let right = sample::right();
-    let innfos = Report { header: Header { wire: innfos::WIRE, ..right.header.clone() }, ..right };
+    let innfos =
+        Report { header: Header { wires: vec![innfos::WIRE], ..right.header.clone() }, ..right };
     let error = Comparison::of(sample::small(), vec![innfos]).unwrap_err();
     assert_eq!(
         error.to_string(),
         "unstuffed was checked on wire dynamixel2, right on wire innfos; \
-         compare reports of one wire"
+         compare reports with a common wire"
     );
 }

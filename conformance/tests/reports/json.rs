@@ -69,7 +69,7 @@ fn what_is_broken_does_not_fit_the_schema() {
     let failed = "/not_passed/0/smallest/0";
     assert_eq!(small.pointer(failed).unwrap()["verdict"], "fail");
     for (place, wrong) in [
-        ("/wire".to_owned(), json!("modbus")),
+        ("/wires/0".to_owned(), json!("modbus")),
         ("/stopped".to_owned(), json!("bored")),
         ("/totals/fail".to_owned(), json!(-1)),
         ("/requirements/0/level".to_owned(), json!("shall")),
@@ -188,7 +188,7 @@ fn lines_fit_their_schema_and_tell_of_every_check() {
     }
     let kinds: Vec<_> = lines.iter().map(|line| line["line"].as_str().unwrap()).collect();
     assert_eq!(kinds, ["header", "check", "check", "summary"]);
-    assert_eq!((&lines[0]["version"], &lines[1]["verdict"]), (&json!(1), &json!("fail")));
+    assert_eq!((&lines[0]["version"], &lines[1]["verdict"]), (&json!(2), &json!("fail")));
     assert_eq!(lines[3]["totals"]["pass"], 1);
 }
 
@@ -212,7 +212,7 @@ const VERSION_3: &str = include_str!("version-3.json");
 #[test]
 fn a_report_of_version_3_can_be_read() {
     let report = read(VERSION_3).unwrap();
-    assert_eq!(report.version, 4);
+    assert_eq!(report.version, 5);
     let [row] = report.not_passed.as_slice() else { panic!("{:?}", report.not_passed) };
     assert_eq!((row.count, row.smallest.len()), (1, 1));
     assert_eq!(row.smallest[0].outcome.id, "dynamixel2.stuffing.goal-position/encode");
@@ -235,6 +235,17 @@ fn a_report_of_version_3_keeps_the_smallest_of_what_it_had() {
 }
 
 #[test]
+fn a_report_of_version_4_has_one_wire() {
+    let mut old = value(&sample::small());
+    old["version"] = json!(4);
+    old["wire"] = old["wires"][0].take();
+    old.as_object_mut().unwrap().remove("wires");
+    let report = read(&old.to_string()).unwrap();
+    assert_eq!((report.version, report.header.wires.len()), (5, 1));
+    assert_eq!(report, Report { version: 5, ..sample::small() });
+}
+
+#[test]
 fn what_contradicts_itself_is_refused() {
     let small = value(&sample::small());
     for (place, wrong) in [
@@ -254,10 +265,10 @@ fn what_contradicts_itself_is_refused() {
 #[test]
 fn what_is_no_report_or_one_of_another_version_is_refused() {
     let text = written(&sample::small());
-    let other = text.replacen("\"version\": 4", "\"version\": 2", 1);
+    let other = text.replacen("\"version\": 5", "\"version\": 2", 1);
     let error = read(&other).unwrap_err().to_string();
     assert!(error.ends_with(
-        "report.json is a report of version 2, this program reads 3 to 4; \
+        "report.json is a report of version 2, this program reads 3 to 5; \
          run the checks again, or use the actucheck that wrote it"
     ));
     assert!(matches!(

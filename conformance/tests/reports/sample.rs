@@ -12,9 +12,9 @@ use actucheck::suite::expect::Expectations;
 use actucheck::suite::{self, Options};
 use actucheck_spec::Spec;
 use actucheck_spec::model::{Fault, Level};
-use actucheck_spec::wire::Packet;
 use actucheck_spec::wire::dynamixel2::Packet::{Instruction, Status};
 use actucheck_spec::wire::dynamixel2::{self, reference};
+use actucheck_spec::wire::{Packet, Wire};
 
 /// A name that must be escaped.
 pub(crate) const NAME: &str = "<script>alert('odd')</script> & |co|";
@@ -73,7 +73,8 @@ fn odd(op: &Question, answer: Answer) -> Answer {
 static SPEC: LazyLock<Spec> = LazyLock::new(|| Spec::embedded().unwrap());
 static COMMAND: LazyLock<[String; 2]> =
     LazyLock::new(|| ["./adapter", "two words"].map(str::to_owned));
-const OPTIONS: Options = Options { cases: 10, ..Options::new(dynamixel2::WIRE) };
+const WIRES: [Wire; 1] = [dynamixel2::WIRE];
+const OPTIONS: Options = Options { cases: 10, ..Options::new() };
 
 /// Reads without taking the byte stuffing out.
 fn left_in(op: &Question, answer: Answer) -> Answer {
@@ -90,7 +91,7 @@ fn left_in(op: &Question, answer: Answer) -> Answer {
 }
 
 fn report(name: &str, only: &str, bend: fn(&Question, Answer) -> Answer, expect: &str) -> Report {
-    let mut plan = suite::plan(&SPEC, &OPTIONS);
+    let mut plan = suite::plan(&SPEC, &WIRES, &OPTIONS);
     let not = ["*.stuffing.body.*".to_owned()];
     plan.restrict(&[only.to_owned()], &not, Level::May).unwrap();
     let codec = Builtin::default();
@@ -122,6 +123,7 @@ pub(crate) fn run(implementation: &Implementation) -> Run<'_> {
     Run {
         spec: &SPEC,
         implementation,
+        wires: &WIRES,
         options: OPTIONS,
         command: COMMAND.as_slice(),
         records: BTreeMap::new(),

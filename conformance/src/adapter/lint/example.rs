@@ -160,7 +160,7 @@ mod tests {
     #[test]
     fn every_question_is_there_with_its_right_answer() {
         let spec = Spec::embedded().unwrap();
-        let plans = Wire::ALL.map(|wire| suite::plan(&spec, &Options::new(wire)));
+        let plans = [suite::plan(&spec, &Wire::ALL, &Options::new())];
         let examples = Example::all(&plans);
         assert_eq!(examples.len(), CHECKS.len());
         for example in examples {

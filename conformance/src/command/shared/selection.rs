@@ -13,9 +13,9 @@ use super::{Failure, one_of, wire};
 /// The selection of checks.
 #[derive(Debug, Args)]
 pub(crate) struct Selection {
-    /// The wire whose checks are run
-    #[arg(long, value_parser = wire(), default_value_t)]
-    pub(crate) wire: Wire,
+    /// Only the checks of this wire; may be given more than once
+    #[arg(long, value_parser = wire())]
+    wire: Vec<Wire>,
     /// Only the checks whose id matches; may be given more than once
     #[arg(long, value_name = "GLOB")]
     select: Vec<String>,
@@ -52,6 +52,32 @@ pub(crate) struct Growth {
 }
 
 impl Selection {
+    /// The selected wires; all of them if none was selected.
+    pub(crate) fn wires(&self) -> Vec<Wire> {
+        let selected = |wire: &Wire| self.wire.is_empty() || self.wire.contains(wire);
+        Wire::ALL.into_iter().filter(selected).collect()
+    }
+
+    /// The selected wires that the implementation offers.
+    pub(crate) fn offered_wires(&self, hello: &Hello) -> Result<Vec<Wire>, Failure> {
+        let offered = |wire: &Wire| hello.wires.iter().any(|id| id == wire.id());
+        let mut wires = self.wires();
+        if let Some(other) = self.wire.iter().find(|wire| !offered(wire)) {
+            let offers = Wire::ALL.iter().filter(|wire| offered(wire)).map(|wire| wire.id());
+            let offers = offers.collect::<Vec<_>>().join(" and ");
+            let offers = if offers.is_empty() { "no wire".to_owned() } else { offers };
+            let message = format!("the adapter offers no {}; it offers {offers}", other.id());
+            return Err(Failure::usage(message));
+        }
+        wires.retain(offered);
+        if wires.is_empty() {
+            let known = Wire::ALL.map(|wire| wire.id()).join(" and ");
+            let message = format!("the adapter offers no wire that this program knows: {known}");
+            return Err(Failure::usage(message));
+        }
+        Ok(wires)
+    }
+
     /// Restricts a plan to the selected checks.
     pub(crate) fn restrict(&self, plan: &mut Plan<'_>) -> Result<(), Failure> {
         plan.restrict(&self.select, &self.skip, self.level).map_err(Failure::usage)
@@ -59,17 +85,22 @@ impl Selection {
 }
 
 impl Growth {
-    /// Every check of a wire. If the implementation states the length of its longest packet, there
-    /// are checks around that length.
-    pub(crate) fn plan<'a>(&self, spec: &'a Spec, wire: Wire, hello: Option<&Hello>) -> Plan<'a> {
-        suite::plan(spec, &self.options(wire, hello))
+    /// Every check of these wires. If the implementation states the length of its longest packet,
+    /// there are checks around that length.
+    pub(crate) fn plan<'a>(
+        &self,
+        spec: &'a Spec,
+        wires: &[Wire],
+        hello: Option<&Hello>,
+    ) -> Plan<'a> {
+        suite::plan(spec, wires, &self.options(hello))
     }
 
     /// What decides which checks a wire has.
-    pub(crate) fn options(&self, wire: Wire, hello: Option<&Hello>) -> Options {
+    pub(crate) fn options(&self, hello: Option<&Hello>) -> Options {
         let max_packet = hello.and_then(|hello| hello.limits.max_packet);
         let Self { seed, cases, body_length } = *self;
-        let options = Options { seed, cases, max_packet, ..Options::new(wire) };
+        let options = Options { seed, cases, max_packet, ..Options::new() };
         body_length.map_or(options, |length| options.with_bodies(length))
     }
 
@@ -79,13 +110,11 @@ impl Growth {
         spec: &Spec,
         id: &str,
         hello: Option<&Hello>,
-    ) -> Result<(Wire, Check), Failure> {
+    ) -> Result<Check, Failure> {
         let longest = Self { body_length: Some(Options::LONGEST_BODY), ..*self };
-        let plan = |wire| longest.plan(spec, wire, hello);
-        let found = Wire::ALL.into_iter().find_map(|wire| Some((wire, plan(wire).find(id)?)));
-        found.ok_or_else(|| {
-            let nearest = Wire::ALL.into_iter().find_map(|wire| plan(wire).nearest(id));
-            let hint = nearest.map(|other| format!("did you mean `{other}`? "));
+        let plan = longest.plan(spec, &Wire::ALL, hello);
+        plan.find(id).ok_or_else(|| {
+            let hint = plan.nearest(id).map(|other| format!("did you mean `{other}`? "));
             let hint = hint.unwrap_or_default();
             let message =
                 format!("no check has the id `{id}`; {hint}`actucheck list` has them all");

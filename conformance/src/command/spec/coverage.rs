@@ -52,11 +52,8 @@ pub(super) fn text(spec: &Spec, options: &Coverage) -> Result<String, Failure> {
         return Ok(sentences::text(spec, document));
     }
     let role = options.role;
-    let mut checks = Vec::new();
-    for wire in Wire::ALL {
-        let plan = suite::plan(spec, &Options::new(wire));
-        checks.extend(plan.checks().map(|check| (check.id, check.requirement)));
-    }
+    let plan = suite::plan(spec, &Wire::ALL, &Options::new());
+    let checks: Vec<_> = plan.checks().map(|check| (check.id, check.requirement)).collect();
     // All checks of the suite are for codecs.
     let names =
         checks.iter().map(|(id, requirement)| CheckName { id, requirement, role: Role::Codec });

@@ -10,7 +10,7 @@ use crate::report::words::{self, count, mark};
 /// Writes the comparison.
 pub(super) fn write(comparison: &Comparison, out: &mut dyn Write) -> io::Result<()> {
     let many = comparison.implementations.len();
-    writeln!(out, "## {many} implementations on wire {}", comparison.wire.id())?;
+    writeln!(out, "## {many} implementations on {}", words::wires(&comparison.wires))?;
     if !comparison.asked_alike() {
         writeln!(out, "\n{ASKED_DIFFERENTLY}")?;
     }

@@ -11,7 +11,7 @@ use std::io::{self, Write};
 
 use anstream::adapter::strip_bytes;
 
-pub use model::{Answers, Cell, Comparison, Implementation, MixedWires, Row, Standing};
+pub use model::{Answers, Cell, Comparison, Implementation, NoCommonWire, Row, Standing};
 pub use text::write as write_text;
 
 use super::format::Format;

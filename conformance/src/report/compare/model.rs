@@ -3,19 +3,20 @@
 use std::hash::Hash;
 
 use actucheck_spec::model::Level;
-use indexmap::IndexMap;
+use indexmap::{IndexMap, IndexSet};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::adapter::{self, Wire};
 use crate::report::model::{
-    CheckResult, ProfileEntry, Report, RequirementResult, Statement, Stopped, Tally,
+    CheckResult, Header, ProfileEntry, Report, RequirementResult, Statement, Stopped, Tally,
 };
+use crate::report::words;
 use crate::verdict::{Totals, Verdict};
 
 /// Version of the comparison's format. It changes when a field is removed or gets another meaning.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 /// The matrix of implementations and requirements.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -24,8 +25,8 @@ pub struct Comparison {
     pub version: u32,
     /// Version of the program that wrote it.
     pub actucheck: String,
-    /// The wire.
-    pub wire: Wire,
+    /// The wires, those of all reports.
+    pub wires: Vec<Wire>,
     /// The columns.
     pub implementations: Vec<Implementation>,
     /// The rows, in the order of the documents.
@@ -98,34 +99,38 @@ pub enum Standing {
     Alike,
 }
 
-/// Reports of two wires, which have no requirement in common.
+/// Reports without a common wire, so without a common requirement.
 #[derive(Debug, Error)]
-#[error(
-    "{} was checked on wire {}, {} on wire {}; compare reports of one wire",
-    .first.0, .first.1.id(), .other.0, .other.1.id()
-)]
-pub struct MixedWires {
-    first: (String, Wire),
-    other: (String, Wire),
+#[error("{} was checked on {}, {} on {}; compare reports with a common wire", .first.0, .first.1, .other.0, .other.1)]
+pub struct NoCommonWire {
+    first: (String, String),
+    other: (String, String),
 }
 
 impl Comparison {
     /// Compares reports.
     ///
     /// # Errors
-    /// If they are of different wires.
-    pub fn of(first: Report, others: Vec<Report>) -> Result<Self, MixedWires> {
-        let wire = first.header.wire;
-        if let Some(other) = others.iter().find(|other| other.header.wire != wire) {
-            let name =
-                |report: &Report| (report.header.implementation.name.clone(), report.header.wire);
-            return Err(MixedWires { first: name(&first), other: name(other) });
+    /// If one of them has no wire in common with the first.
+    pub fn of(first: Report, others: Vec<Report>) -> Result<Self, NoCommonWire> {
+        let mut wires: IndexSet<Wire> = first.header.wires.iter().copied().collect();
+        for other in &others {
+            if !other.header.wires.iter().any(|wire| first.header.wires.contains(wire)) {
+                let name = |Header { implementation, wires, .. }: &Header| {
+                    (implementation.name.clone(), words::wires(wires))
+                };
+                return Err(NoCommonWire {
+                    first: name(&first.header),
+                    other: name(&other.header),
+                });
+            }
+            wires.extend(&other.header.wires);
         }
         let reports: Vec<_> = [first].into_iter().chain(others).collect();
         Ok(Self {
             version: VERSION,
             actucheck: env!("CARGO_PKG_VERSION").to_owned(),
-            wire,
+            wires: wires.into_iter().collect(),
             implementations: reports.iter().map(implementation).collect(),
             requirements: requirements(&reports),
             profile: profile(&reports),

@@ -25,7 +25,7 @@ pub fn write(comparison: &Comparison, out: &mut dyn Write) -> io::Result<()> {
 
 /// The numbers of the columns, and their implementations.
 fn implementations(comparison: &Comparison, out: &mut dyn Write) -> io::Result<()> {
-    writeln!(out, "wire {}", comparison.wire.id())?;
+    writeln!(out, "{}", words::wires(&comparison.wires))?;
     for (index, one) in comparison.implementations.iter().enumerate() {
         let name = format!("{} {} ({})", one.who.name, one.who.version, one.who.language);
         let cut = if one.stopped.is_some() { "  cut short" } else { "" };
