@@ -5,7 +5,7 @@
 
 use std::collections::BTreeSet;
 
-use actucheck::adapter::{Hello, Output, Question, Wire};
+use actucheck::adapter::{Hello, Output, Question, Request, Wire};
 use actucheck::run;
 use actucheck::subject::{Answer, Builtin, Subject};
 use actucheck::suite;
@@ -148,6 +148,22 @@ fn another_class_is_a_warning_and_a_breakdown_a_failure() {
     let recorded = rejected.filter(|behaviour| behaviour.answer == "rejects it (crc)").count();
     let broken = Totals::of(&with_class(Fault::Internal));
     assert_eq!(broken.count(Verdict::Fail), other.count(Verdict::Warn) + recorded);
+    let wordless = Totals::of(&with_class(Fault::Unspecified));
+    assert_eq!((wordless.count(Verdict::Fail), wordless.count(Verdict::Warn)), (0, 0));
+}
+
+#[test]
+fn every_packet_to_encode_has_its_call() {
+    let spec = Spec::embedded().unwrap();
+    let mut general = 0;
+    for check in suite::plan(&spec, &Wire::ALL, &suite::Options::new()).checks() {
+        let Question::Encode { packet, .. } = &check.question else { continue };
+        let call = packet.call.as_ref().unwrap_or_else(|| panic!("{}", check.id));
+        general += usize::from(call.is_general);
+        let old = Request::Ask(&check.question).in_version(1);
+        assert_eq!(old.contains("\"call\""), !call.is_general, "{}", check.id);
+    }
+    assert!(general > 0);
 }
 
 #[test]

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use actucheck_spec::Spec;
 use actucheck_spec::model::{HexBytes, Outcome};
 use actucheck_spec::wire::dynamixel2::{Packet, reference};
-use actucheck_spec::wire::{self, Wire};
+use actucheck_spec::wire::{self, Call, Wire};
 
 #[test]
 fn every_golden_vector_is_built_read_or_rejected_as_it_says() {
@@ -123,7 +123,7 @@ fn a_call_asks_what_the_printed_packet_does() {
 }
 
 #[test]
-fn parameters_that_do_not_fit_have_no_call() {
+fn what_fits_no_call_has_a_general_one() {
     for (instruction, params) in [
         (0x01, "00"),
         (0x02, "440204"),
@@ -135,11 +135,55 @@ fn parameters_that_do_not_fit_have_no_call() {
         (0x83, "740004000196000000 02aa0000"),
         (0x92, "0190000200 02920001"),
         (0x93, "0120000200a000 021f000200 50"),
+        (0x82, "84000400"),
+        (0x83, "74000400"),
+        (0x92, ""),
+        (0x93, ""),
         (0x55, "00"),
         (0xEE, ""),
     ] {
         let bytes = HexBytes::parse(params).unwrap();
-        let packet = Packet::Instruction { id: 1, instruction, params: bytes };
-        assert_eq!(reference::call(&packet), None, "{instruction:#04X} {params}");
+        let packet = Packet::Instruction { id: 254, instruction, params: bytes.clone() };
+        let call = Call {
+            instruction: Some(instruction),
+            params: Some(bytes),
+            ..Call::general("instruction")
+        };
+        assert_eq!(reference::call(&packet), call, "{instruction:#04X} {params}");
+    }
+}
+
+#[test]
+fn a_sync_read_to_one_device_has_a_general_call() {
+    let params = HexBytes::parse("8400040001").unwrap();
+    let to = |id| Packet::Instruction { id, instruction: 0x82, params: params.clone() };
+    assert_eq!(reference::call(&to(254)).name, "sync_read");
+    assert_eq!(reference::call(&to(1)).name, "instruction");
+}
+
+#[test]
+fn an_answer_and_a_command_have_general_calls() {
+    for (packet, expected) in [
+        (
+            r#"{"kind":"status","id":1,"error":128,"params":"a6"}"#,
+            r#"{"name":"status","error":128,"params":"a6"}"#,
+        ),
+        (
+            r#"{"kind":"fast_status","blocks":[{"error":1,"id":2,"data":"a6"}]}"#,
+            r#"{"name":"fast_status","devices":[{"id":2,"error":1,"data":"a6"}]}"#,
+        ),
+        (
+            r#"{"kind":"request","address":6,"command":42,"data":"01"}"#,
+            r#"{"name":"request","command":42,"data":"01"}"#,
+        ),
+        (
+            r#"{"kind":"reply","address":6,"command":42,"data":"01"}"#,
+            r#"{"name":"reply","command":42,"data":"01"}"#,
+        ),
+    ] {
+        let packet: wire::Packet = serde_json::from_str(packet).unwrap();
+        let call = packet.wire().call(&packet).unwrap();
+        assert_eq!(serde_json::to_string(&call).unwrap(), expected);
+        assert!(call.is_general);
     }
 }

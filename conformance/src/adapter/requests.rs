@@ -116,9 +116,13 @@ impl Question {
         }
     }
 
-    /// Version 1 has no direction, but for wires whose frames do not state theirs a `kind`.
+    /// Version 1 has no general calls. It has no direction, but for wires whose frames do not state
+    /// theirs a `kind`.
     fn in_version_1(&self) -> String {
         let mut question = self.clone();
+        if let Self::Encode { packet, .. } = &mut question {
+            packet.call.take_if(|call| call.is_general);
+        }
         let direction = match &mut question {
             Self::Decode { context, .. } => context.direction.take(),
             Self::Stream { direction, .. } => direction.take(),
@@ -176,13 +180,13 @@ impl fmt::Display for Question {
     }
 }
 
-/// A packet, with the call that sends it for libraries that have calls instead of packets.
+/// A packet, with the call that sends it for libraries that have functions instead of packets.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Called {
     /// The packet.
     #[serde(flatten)]
     pub packet: Packet,
-    /// The same request as a call; only for instruction packets that have one.
+    /// The same as a call. It is missing in requests of version 1 only, if it is a general one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub call: Option<Call>,
 }
@@ -191,11 +195,10 @@ impl<'de> Deserialize<'de> for Called {
     /// The call is derived from the packet again, as it has the same content.
     fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let mut fields = serde_json::Map::deserialize(deserializer)?;
-        let called = fields.remove("call").is_some();
+        fields.remove("call");
         let packet: Packet =
             serde_json::from_value(Value::Object(fields)).map_err(serde::de::Error::custom)?;
-        let call = called.then(|| packet.wire().call(&packet)).flatten();
-        Ok(Self { packet, call })
+        Ok(packet.into())
     }
 }
 

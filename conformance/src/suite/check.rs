@@ -39,7 +39,7 @@ pub enum Demand {
     Yield(Output),
     /// One of these outputs.
     YieldOneOf(Vec<Output>),
-    /// A rejection. A rejection for another reason gets a warning.
+    /// A rejection. A rejection for another reason gets a warning, one without a reason does not.
     Reject(Fault),
     /// Any answer: the documents leave it unspecified. The report shows what the subject does.
     Record(Unspecified),
@@ -71,6 +71,9 @@ impl Unspecified {
                 Some(way) => way.name.clone(),
                 None => self.other(output),
             },
+            Answer::Rejected(Rejection { class: Fault::Unspecified, .. }) => {
+                "rejects it".to_owned()
+            }
             Answer::Rejected(Rejection { class, .. }) if *class != Fault::Internal => {
                 format!("rejects it ({class})")
             }
@@ -190,7 +193,9 @@ impl Check {
             Demand::Yield(_) | Demand::YieldOneOf(_) | Demand::Record(_) => {
                 (Verdict::Fail, format!("rejected ({class}: {detail}), but is valid"), None)
             }
-            Demand::Reject(fault) if fault == class => (Verdict::Pass, String::new(), None),
+            Demand::Reject(fault) if fault == class || *class == Fault::Unspecified => {
+                (Verdict::Pass, String::new(), None)
+            }
             Demand::Reject(fault) => {
                 (Verdict::Warn, format!("rejected as {class}, the fault is {fault}"), None)
             }

@@ -112,7 +112,9 @@ pub enum Fault {
     Parameter,
     /// It does not end with the end byte.
     Tail,
-    /// The implementation failed with an exception or a crash.
+    /// The implementation does not say what is wrong. No vector has this fault.
+    Unspecified,
+    /// The implementation failed with an exception or a crash. No vector has this fault.
     Internal,
 }
 
@@ -130,6 +132,7 @@ impl fmt::Display for Fault {
             Self::Instruction => "instruction",
             Self::Parameter => "parameter",
             Self::Tail => "tail",
+            Self::Unspecified => "unspecified",
             Self::Internal => "internal",
         })
     }

@@ -1,7 +1,7 @@
 //! Rule: a vector's bytes and fields agree, and its result has the fields that it needs.
 
 use crate::load::File;
-use crate::model::{HexBytes, Outcome, Vector, VectorsFile};
+use crate::model::{Fault, HexBytes, Outcome, Vector, VectorsFile};
 use crate::wire::Wire;
 use crate::{Diagnostic, Spec};
 
@@ -29,7 +29,12 @@ fn defect(file: &File<VectorsFile>, node: &str, vector: &Vector, message: &str) 
 /// Whether the vector has exactly the fields that its result needs.
 fn shape(vector: &Vector) -> Option<String> {
     let invalid = vector.result == Outcome::Invalid;
+    let faults = [vector.fault, vector.printed_fault];
+    let of_answer = |fault| matches!(fault, Some(Fault::Unspecified | Fault::Internal));
     let message = match (&vector.printed, &vector.bytes) {
+        _ if faults.into_iter().any(of_answer) => {
+            "this fault is an answer of implementations; say what is wrong with the bytes"
+        }
         (None, None) => "neither `printed` nor `bytes`",
         (Some(printed), Some(bytes)) if printed == bytes => {
             "`bytes` repeats `printed`; leave it out"

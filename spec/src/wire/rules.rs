@@ -87,10 +87,8 @@ pub trait Rules: Sync + RefUnwindSafe {
         false
     }
 
-    /// A request in words; `None` if it has none.
-    fn call(&self, _packet: &Packet) -> Option<Call> {
-        None
-    }
+    /// What a packet says in words; `None` for a packet of another wire.
+    fn call(&self, packet: &Packet) -> Option<Call>;
 
     /// The part of a whole frame that the byte at `offset` belongs to.
     fn part(&self, frame: &[u8], offset: usize) -> &'static str;

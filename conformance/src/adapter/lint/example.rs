@@ -10,11 +10,12 @@ use crate::suite::plan::Plan;
 
 /// The checks whose questions are asked, each with a description. Every op of every wire occurs at
 /// least once, and so does each kind of packet that only a host or only a device has to read.
-const CHECKS: [(&str, &str); 14] = [
+const CHECKS: [(&str, &str); 16] = [
     ("dynamixel2.write.instruction/crc", "crc on dynamixel2"),
     ("dynamixel2.stuffing.data/stuff", "stuff on dynamixel2"),
     ("dynamixel2.stuffing.data/unstuff", "unstuff on dynamixel2"),
     ("dynamixel2.write.instruction/encode", "encode of an instruction packet"),
+    ("dynamixel2.instruction.ee-with-params/encode", "encode of an instruction without a name"),
     ("dynamixel2.read.status/encode", "encode of a status packet"),
     ("dynamixel2.write.instruction/decode", "decode of an instruction packet"),
     ("dynamixel2.read.status/decode", "decode of a status packet"),
@@ -22,6 +23,7 @@ const CHECKS: [(&str, &str); 14] = [
     ("dynamixel2.read.status/stream", "stream on dynamixel2"),
     ("innfos.iq.sixty-revolutions/crc", "crc on innfos"),
     ("innfos.iq.sixty-revolutions/encode", "encode of a request"),
+    ("innfos.reply.command.06/encode", "encode of a reply"),
     ("innfos.iq.sixty-revolutions/decode", "decode of a request"),
     ("innfos.reply.command.06/decode", "decode of a reply"),
     ("innfos.request.command.06/stream-twice", "stream on innfos"),
@@ -54,7 +56,8 @@ impl Example {
         let right = match &check.demand {
             Demand::Yield(output) => vec![output.clone()],
             Demand::YieldOneOf(outputs) => outputs.clone(),
-            Demand::Reject(_) | Demand::Record(_) => Vec::new(),
+            Demand::Record(open) => open.ways.iter().map(|way| way.output.clone()).collect(),
+            Demand::Reject(_) => Vec::new(),
         };
         let question = check.question.clone();
         Self { name, question, version: 0, request: String::new(), right }.in_version(VERSION)

@@ -119,7 +119,7 @@ impl Rules for This {
     }
 
     fn call(&self, packet: &super::Packet) -> Option<Call> {
-        reference::call(own(packet)?)
+        own(packet).map(reference::call)
     }
 
     fn part(&self, frame: &[u8], offset: usize) -> &'static str {

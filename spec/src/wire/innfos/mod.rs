@@ -19,7 +19,7 @@ pub use model::{
 };
 pub use packet::Packet;
 
-use super::{Ask, Cited, Context, Direction, Fields, Rules, Wire};
+use super::{Ask, Call, Cited, Context, Direction, Fields, Rules, Wire};
 use crate::export::c_header::Header;
 use crate::export::markdown::Text;
 use crate::model::{Fault, HexBytes, Requirement};
@@ -106,6 +106,10 @@ impl Rules for This {
     fn is_unspecified(&self, bytes: &[u8], context: &Context) -> bool {
         let packet = reference::decode(context.direction.unwrap_or(Direction::Request), bytes);
         packet.is_ok_and(|packet| reference::is_unspecified(&packet))
+    }
+
+    fn call(&self, packet: &super::Packet) -> Option<Call> {
+        own(packet).map(reference::call)
     }
 
     fn part(&self, frame: &[u8], offset: usize) -> &'static str {

@@ -2,8 +2,8 @@
 //! obviously right, and shares no code with the codec or the generator.
 
 use crate::model::{Fault, HexBytes};
-use crate::wire::Direction;
 use crate::wire::innfos::Packet;
+use crate::wire::{Call, Direction};
 
 /// The first byte of a frame.
 const HEADER: u8 = 0xEE;
@@ -152,6 +152,17 @@ fn first(direction: Direction, bytes: &[u8]) -> Result<First, Fault> {
         return Err(Fault::Tail);
     }
     Ok(First { packet: packet(), size: without_crc + 2, crc_matches: open || found == crc(data) })
+}
+
+/// What a packet says in words: its command with the data.
+#[must_use]
+pub fn call(packet: &Packet) -> Call {
+    let name = match packet.direction {
+        Direction::Request => "request",
+        Direction::Reply => "reply",
+    };
+    let (command, data) = (Some(packet.command), Some(packet.data.clone()));
+    Call { command, data, ..Call::general(name) }
 }
 
 /// The part of a whole frame that the byte at `offset` belongs to.

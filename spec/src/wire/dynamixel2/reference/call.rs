@@ -1,32 +1,59 @@
-//! An instruction packet as a call, for libraries that have one function per instruction instead of
-//! packets.
+//! A packet as a call, for libraries that have functions instead of packets.
 
-use crate::wire::dynamixel2::Packet;
+use crate::model::HexBytes;
+use crate::wire::dynamixel2::{Block, Packet};
 use crate::wire::{Call, Target};
 
-/// The call that sends this packet; `None` if it is no instruction packet, has an unknown
-/// instruction, or its parameters do not fit the instruction.
+/// The ID that instructions to several devices are sent to.
+const BROADCAST: u8 = 0xFE;
+
+/// The call that sends this packet. It is a general one for every answer, and for an instruction that
+/// has no call of its own or other parameters than that call.
 #[must_use]
-pub fn call(packet: &Packet) -> Option<Call> {
-    let Packet::Instruction { instruction, params, .. } = packet else { return None };
-    let params = params.0.as_slice();
-    match *instruction {
-        0x01 => plain("ping", params),
-        0x02 => read("read", params),
-        0x03 => write("write", params),
-        0x04 => write("reg_write", params),
-        0x05 => plain("action", params),
-        0x06 => factory_reset(params),
-        0x08 => plain("reboot", params),
+pub fn call(packet: &Packet) -> Call {
+    match packet {
+        Packet::Instruction { id, instruction, params } => own(*id, *instruction, params)
+            .unwrap_or_else(|| Call {
+                instruction: Some(*instruction),
+                ..with_params(Call::general("instruction"), params)
+            }),
+        Packet::Status { error, params, .. } => {
+            Call { error: Some(*error), ..with_params(Call::general("status"), params) }
+        }
+        Packet::FastStatus { blocks } => {
+            let devices = Some(blocks.iter().map(answer).collect());
+            Call { devices, ..Call::general("fast_status") }
+        }
+    }
+}
+
+fn answer(block: &Block) -> Target {
+    let (error, data) = (Some(block.error), Some(block.data.clone()));
+    Target { id: block.id, error, data, ..Target::default() }
+}
+
+/// The instruction's own call; `None` if it has none, or its parameters do not fit.
+fn own(id: u8, instruction: u8, params: &HexBytes) -> Option<Call> {
+    let bytes = params.0.as_slice();
+    match instruction {
+        0x01 => plain("ping", bytes),
+        0x02 => read("read", bytes),
+        0x03 => write("write", bytes),
+        0x04 => write("reg_write", bytes),
+        0x05 => plain("action", bytes),
+        0x06 => factory_reset(bytes),
+        0x08 => plain("reboot", bytes),
         // The meaning of these bytes depends on the device; a call takes them as they are.
-        0x10 => Some(with_params("clear", params)),
-        0x20 => Some(with_params("control_table_backup", params)),
-        0x82 => sync_read("sync_read", params),
-        0x83 => sync_write("sync_write", params),
-        0x8A => sync_read("fast_sync_read", params),
-        0x8B => sync_write("fast_sync_write", params),
-        0x92 => Some(to_each("bulk_read", bulk_read(params)?)),
-        0x93 => Some(to_each("bulk_write", bulk_write(params)?)),
+        0x10 => Some(with_params(Call::named("clear"), params)),
+        0x20 => Some(with_params(Call::named("control_table_backup"), params)),
+        // A call for several devices has no ID beside theirs.
+        _ if id != BROADCAST => None,
+        0x82 => sync_read("sync_read", bytes),
+        0x83 => sync_write("sync_write", bytes),
+        0x8A => sync_read("fast_sync_read", bytes),
+        0x8B => sync_write("fast_sync_write", bytes),
+        0x92 => to_each("bulk_read", bulk_read(bytes)?),
+        0x93 => to_each("bulk_write", bulk_write(bytes)?),
         _ => None,
     }
 }
@@ -35,8 +62,8 @@ fn plain(name: &'static str, params: &[u8]) -> Option<Call> {
     params.is_empty().then(|| Call::named(name))
 }
 
-fn with_params(name: &'static str, params: &[u8]) -> Call {
-    Call { params: Some(params.to_vec().into()), ..Call::named(name) }
+fn with_params(call: Call, params: &HexBytes) -> Call {
+    Call { params: Some(params.clone()), ..call }
 }
 
 fn factory_reset(params: &[u8]) -> Option<Call> {
@@ -58,6 +85,9 @@ fn write(name: &'static str, params: &[u8]) -> Option<Call> {
 fn sync_read(name: &'static str, params: &[u8]) -> Option<Call> {
     let (address, params) = number(params)?;
     let (length, ids) = number(params)?;
+    if ids.is_empty() {
+        return None;
+    }
     let (address, length, ids) = (Some(address), Some(length), Some(ids.to_vec()));
     Some(Call { address, length, ids, ..Call::named(name) })
 }
@@ -73,13 +103,15 @@ fn sync_write(name: &'static str, params: &[u8]) -> Option<Call> {
         rest = next;
     }
     let (address, length) = (Some(address), Some(length));
-    Some(Call { address, length, ..to_each(name, devices) })
+    Some(Call { address, length, ..to_each(name, devices)? })
 }
 
-fn to_each(name: &'static str, devices: Vec<Target>) -> Call {
-    let devices = Some(devices).filter(|devices| !devices.is_empty());
-    Call { devices, ..Call::named(name) }
+/// `None` without a device.
+fn to_each(name: &'static str, devices: Vec<Target>) -> Option<Call> {
+    let devices = Some(devices).filter(|devices| !devices.is_empty())?;
+    Some(Call { devices: Some(devices), ..Call::named(name) })
 }
+
 fn bulk_read(params: &[u8]) -> Option<Vec<Target>> {
     let mut devices = Vec::new();
     let mut rest = params;
@@ -87,7 +119,7 @@ fn bulk_read(params: &[u8]) -> Option<Vec<Target>> {
         let (address, behind) = number(behind)?;
         let (length, next) = number(behind)?;
         let (address, length) = (Some(address), Some(length));
-        devices.push(Target { id: *id, address, length, data: None });
+        devices.push(Target { id: *id, address, length, ..Target::default() });
         rest = next;
     }
     Some(devices)
@@ -100,8 +132,8 @@ fn bulk_write(params: &[u8]) -> Option<Vec<Target>> {
         let (address, behind) = number(behind)?;
         let (length, behind) = number(behind)?;
         let (data, next) = behind.split_at_checked(length.into())?;
-        let data = Some(data.to_vec().into());
-        devices.push(Target { id: *id, address: Some(address), length: None, data });
+        let (address, data) = (Some(address), Some(data.to_vec().into()));
+        devices.push(Target { id: *id, address, data, ..Target::default() });
         rest = next;
     }
     Some(devices)
