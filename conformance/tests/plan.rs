@@ -53,9 +53,9 @@ const PERMANENT: [(&str, usize); 11] = [
     ("dynamixel2.error.", 512),
     ("dynamixel2.stream.", 310),
     ("dynamixel2.length.", 136),
-    ("innfos.request.", 2_589),
-    ("innfos.reply.", 2_589),
-    ("innfos.negative.", 230),
+    ("innfos.request.", 1_863),
+    ("innfos.reply.", 1_842),
+    ("innfos.negative.", 1_948),
 ];
 
 #[test]

@@ -26,7 +26,7 @@ const CHECKS: [(&str, &str); 16] = [
     ("innfos.reply.command.06/encode", "encode of a reply"),
     ("innfos.iq.sixty-revolutions/decode", "decode of a request"),
     ("innfos.reply.command.06/decode", "decode of a reply"),
-    ("innfos.request.command.06/stream-twice", "stream on innfos"),
+    ("innfos.request.command.06/stream", "stream on innfos"),
 ];
 
 /// A question from the suite, as it is sent to the adapter.

@@ -104,8 +104,10 @@ impl Rules for This {
     }
 
     fn is_unspecified(&self, bytes: &[u8], context: &Context) -> bool {
-        let packet = reference::decode(context.direction.unwrap_or(Direction::Request), bytes);
-        packet.is_ok_and(|packet| reference::is_unspecified(&packet))
+        let direction = context.direction.unwrap_or(Direction::Request);
+        reference::is_short_reply_with_crc(direction, bytes)
+            || reference::decode(direction, bytes)
+                .is_ok_and(|packet| reference::is_unspecified(&packet))
     }
 
     fn call(&self, packet: &super::Packet) -> Option<Call> {

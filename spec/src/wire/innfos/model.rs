@@ -7,6 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::model::{Citation, Crc, Id, Length};
+use crate::wire::Direction;
 
 /// `wires/innfos.yaml`: the wire and its commands.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
@@ -189,6 +190,30 @@ pub struct Command {
     /// Ids of the errata that it depends on.
     #[serde(default)]
     pub errata: Vec<String>,
+}
+
+impl Command {
+    /// Bytes of data in this direction; `None` if nothing is sent. Of several sizes it is the one
+    /// that the document prints, the first.
+    #[must_use]
+    pub fn size_in(&self, direction: Direction) -> Option<u16> {
+        match direction {
+            Direction::Request => Some(self.request),
+            Direction::Reply => self.reply.first().copied(),
+        }
+    }
+
+    /// The format of the data in this direction; `None` if there is no data.
+    #[must_use]
+    pub const fn format_in(&self, direction: Direction) -> Option<Format> {
+        match (direction, self.operation) {
+            (Direction::Reply, Operation::Read) | (Direction::Request, Operation::Write) => {
+                self.format
+            }
+            (Direction::Reply, Operation::Write) => Some(Format::Flag),
+            (Direction::Request, Operation::Read) => None,
+        }
+    }
 }
 
 /// Whether a command reads or writes.

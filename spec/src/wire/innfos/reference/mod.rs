@@ -1,6 +1,10 @@
 //! The reference model: CRC and frames as the document describes them, byte by byte. It is slow and
 //! obviously right, and shares no code with the codec or the generator.
 
+mod tables;
+
+pub use tables::is_in_tables;
+
 use crate::model::{Fault, HexBytes};
 use crate::wire::innfos::Packet;
 use crate::wire::{Call, Direction};
@@ -54,6 +58,18 @@ fn has_crc(direction: Direction, data: &[u8]) -> bool {
 /// Whether a reply may have no CRC, zeros in its place, or a CRC.
 fn has_optional_crc(direction: Direction, command: u8, data: &[u8]) -> bool {
     direction == Direction::Reply && data.len() == 1 && OPTIONAL_CRC.contains(&command)
+}
+
+/// Whether this is a reply with one byte of data and its right CRC: the format of a frame has that
+/// CRC, the document's examples do not.
+#[must_use]
+pub fn is_short_reply_with_crc(direction: Direction, bytes: &[u8]) -> bool {
+    match *bytes {
+        [HEADER, _, _, 0, 1, data, first, second, TAIL] => {
+            direction == Direction::Reply && crc(&[data]).to_le_bytes() == [first, second]
+        }
+        _ => false,
+    }
 }
 
 /// Whether the documents leave the frame of this packet unspecified.

@@ -1,0 +1,57 @@
+//! Checks of the INNFOS Ethernet protocol.
+//!
+//! - golden: the test vectors;
+//! - packets: packets of the document's tables, with every address, every command and the bytes that
+//!   could be mistaken for the ends of a frame;
+//! - damaged: frames that break one rule each;
+//! - open: questions that the document leaves unspecified, such as packets that no table has.
+
+mod damaged;
+mod golden;
+mod open;
+mod packets;
+mod tables;
+
+use actucheck_spec::wire::innfos::Packet;
+use actucheck_spec::wire::{Direction, Packet as AnyPacket};
+
+use crate::adapter::Question;
+use crate::suite::plan::Family;
+use crate::suite::{Author, Options};
+
+pub(super) fn families<'a>(author: Author<'a>, options: &Options) -> Vec<Family<'a>> {
+    let max_packet = options.max_packet;
+    let mut families = vec![Family::of("", move || golden::checks(&author))];
+    for direction in Direction::ALL {
+        families.extend(packets::families(author, direction));
+        families.extend(damaged::families(author, direction));
+        families.push(open::family(author, direction, max_packet));
+    }
+    families.push(damaged::replies_as_requests(author));
+    families
+}
+
+fn encode(author: &Author<'_>, packet: &AnyPacket) -> Question {
+    Question::Encode { wire: author.wire, packet: packet.clone().into() }
+}
+
+fn decode(author: &Author<'_>, direction: Direction, bytes: &[u8]) -> Question {
+    let bytes = bytes.to_vec().into();
+    Question::Decode { wire: author.wire, bytes, context: direction.into() }
+}
+
+/// Each of `datagrams` is one.
+fn stream(author: &Author<'_>, direction: Direction, datagrams: Vec<Vec<u8>>) -> Question {
+    let chunks = datagrams.into_iter().map(Into::into).collect();
+    Question::Stream { wire: author.wire, chunks, direction: Some(direction) }
+}
+
+/// The requirement on the data and the CRC of a packet; `other` if only the usual ones apply.
+fn requirement_of(packet: &Packet, other: &'static str) -> &'static str {
+    match (packet.direction, packet.data.len()) {
+        (_, 0) => "innfos.frame.no-data",
+        (Direction::Request, 1) => "innfos.crc.request",
+        (Direction::Reply, 1) => "innfos.crc.reply",
+        _ => other,
+    }
+}
