@@ -165,15 +165,17 @@ pub(crate) struct Parts<'a> {
 }
 
 impl<'a> Parts<'a> {
+    #[inline]
     pub(crate) fn split(bytes: &'a [u8]) -> Result<Self, FrameError> {
         let available = bytes.len();
         let truncated = |needed| FrameError::Truncated { available, needed };
-        let header = Header::check(bytes);
-        // A packet that ends within its prefix is truncated, even if its ID is wrong.
-        if available < PREFIX && !matches!(header, Err(FrameError::Header { .. })) {
-            return Err(truncated(PREFIX));
-        }
-        let header = header?.ok_or(truncated(PREFIX))?;
+        let Some(&prefix) = bytes.first_chunk() else {
+            // An ID may be wrong too, but that the packet is truncated comes first.
+            let other_header = |error: &FrameError| matches!(error, FrameError::Header { .. });
+            let broken = Header::check_start(bytes).err().filter(other_header);
+            return Err(broken.unwrap_or(truncated(PREFIX)));
+        };
+        let header = Header::check(prefix)?;
         let end = header.packet_len();
         if available > end {
             return Err(FrameError::Trailing { end, available });

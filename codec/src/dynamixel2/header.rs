@@ -30,29 +30,33 @@ pub(crate) struct Header {
 }
 
 impl Header {
-    /// Checks `bytes` against the rules, in the order of the bytes that can break them; `None` if
-    /// more bytes are needed.
+    /// Checks a prefix against the rules, in the order of the bytes that can break them.
     ///
     /// # Errors
-    /// The first rule that they break: [`FrameError::Header`], [`FrameError::Id`] or
+    /// The first rule that it breaks: [`FrameError::Header`], [`FrameError::Id`] or
     /// [`FrameError::Length`].
     #[inline]
-    pub(crate) fn check(bytes: &[u8]) -> Result<Option<Self>, FrameError> {
-        if !bytes.starts_with(&HEADER) {
-            return other_header(bytes).map_or(Ok(None), Err);
-        }
-        let Some(&id) = bytes.get(HEADER.len()) else {
-            return Ok(None);
-        };
-        if !is_id(id) {
-            return Err(FrameError::Id { found: id });
-        }
-        let Some(&[.., low, high]) = bytes.first_chunk::<PREFIX>() else {
-            return Ok(None);
-        };
+    pub(crate) fn check(prefix: [u8; PREFIX]) -> Result<Self, FrameError> {
+        Self::check_start(&prefix)?;
+        let [.., id, low, high] = prefix;
         let header = Self { id, length: u16::from_le_bytes([low, high]) };
         header.check_length(MIN_LENGTH)?;
-        Ok(Some(header))
+        Ok(header)
+    }
+
+    /// Checks the beginning of a prefix: its header and ID, or the part of them that is there.
+    ///
+    /// # Errors
+    /// The first rule that it breaks: [`FrameError::Header`] or [`FrameError::Id`].
+    #[inline]
+    pub(crate) fn check_start(bytes: &[u8]) -> Result<(), FrameError> {
+        if !bytes.starts_with(&HEADER) {
+            return other_header(bytes).map_or(Ok(()), Err);
+        }
+        match bytes.get(HEADER.len()) {
+            Some(&found) if !is_id(found) => Err(FrameError::Id { found }),
+            _ => Ok(()),
+        }
     }
 
     /// Checks that the length is enough for a packet with this instruction: a status packet has an

@@ -16,6 +16,16 @@ pub(super) enum Verdict {
     Whole(Whole),
 }
 
+impl Verdict {
+    /// For a rule that the bytes after a whole header break.
+    fn broken(error: FrameError) -> Self {
+        Self::False(match error {
+            FrameError::Id { .. } => Reason::Id,
+            _ => Reason::Length,
+        })
+    }
+}
+
 /// A packet whose CRC is not checked yet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Whole {
@@ -45,11 +55,12 @@ impl Progress {
     /// come.
     #[inline]
     pub(super) fn judge(&mut self, bytes: &[u8], max_packet: usize) -> Verdict {
-        let header = match Header::check(bytes) {
-            Ok(Some(header)) => header,
-            Ok(None) => return Verdict::Open,
-            Err(FrameError::Id { .. }) => return Verdict::False(Reason::Id),
-            Err(_) => return Verdict::False(Reason::Length),
+        let Some(&prefix) = bytes.first_chunk() else {
+            return Header::check_start(bytes).map_or_else(Verdict::broken, |()| Verdict::Open);
+        };
+        let header = match Header::check(prefix) {
+            Ok(header) => header,
+            Err(error) => return Verdict::broken(error),
         };
         let len = header.packet_len();
         if len > max_packet {

@@ -109,9 +109,8 @@ fn in_body(len: usize) -> u64 {
 /// its body.
 #[inline]
 fn len(bytes: &[u8], max_packet: usize) -> Option<usize> {
-    let front: &[u8; PREFIX + 1] = bytes.first_chunk()?;
-    let [.., instruction] = *front;
-    let header = Header::check(front).ok()??;
+    let header = Header::check(*bytes.first_chunk()?).ok()?;
+    let instruction = *bytes.get(PREFIX)?;
     header.check_instruction(instruction).ok()?;
     let len = header.packet_len();
     (len <= max_packet.min(WINDOW) && !header.is_fast(instruction)).then_some(len)
