@@ -3,7 +3,7 @@
 use actucheck_codec::crc;
 use actucheck_codec::dynamixel2::fast_status::{self, Block};
 use actucheck_codec::dynamixel2::status::{self, StatusError};
-use actucheck_codec::dynamixel2::stream::{Event, Parser};
+use actucheck_codec::dynamixel2::stream::{DEFAULT_MAX_PACKET, Event, Parser};
 use actucheck_codec::dynamixel2::stuffing::{self, UnstuffError};
 use actucheck_codec::dynamixel2::{FastStatus, Frame, FrameError, Instruction, frame};
 use actucheck_spec::model::{Fault, HexBytes};
@@ -80,26 +80,33 @@ fn packet(frame: &Frame<'_>) -> Packet {
     }
 }
 
-/// The packets that the stream parser finds. The bus is quiet after the last chunk.
+/// Blocks of a parser that takes the longest packet that a length field allows.
+const LONGEST: usize = (65_535 + 7_usize).div_ceil(64);
+
+/// The packets that the stream parser finds. A parser for the longest packets has 131 kB, so short
+/// streams, which can't hold one, get a small parser.
 fn stream(chunks: &[HexBytes]) -> Output {
-    let mut parser = Parser::new();
+    let size: usize = chunks.iter().map(|chunk| chunk.len()).sum();
+    if size <= DEFAULT_MAX_PACKET {
+        found(&mut Parser::new(), chunks)
+    } else {
+        found(&mut Box::<Parser<LONGEST>>::default(), chunks)
+    }
+}
+
+/// The bus is quiet after the last chunk.
+fn found<const BLOCKS: usize>(parser: &mut Parser<BLOCKS>, chunks: &[HexBytes]) -> Output {
     let mut packets = Vec::new();
-    let mut drain = |parser: &mut Parser| {
-        while let Some(event) = parser.next_event() {
-            if let Event::Frame(frame) = event {
-                packets.push(packet(&frame).into());
-            }
+    let mut take = |event: Event<'_>| {
+        if let Event::Frame(frame) = event {
+            packets.push(packet(&frame).into());
         }
     };
     for chunk in chunks {
-        let mut rest: &[u8] = chunk;
-        while !rest.is_empty() {
-            rest = parser.push(rest);
-            drain(&mut parser);
-        }
+        parser.feed(chunk, &mut take);
     }
     parser.idle();
-    drain(&mut parser);
+    parser.feed(&[], &mut take);
     Output::Packets(packets)
 }
 
