@@ -265,6 +265,6 @@ fn not_offered(hello: &Hello, check: &Check) -> Option<String> {
         Question::Encode { .. } => hello.limits.send(),
         _ => hello.limits.receive(),
     };
-    let (limit, size) = (limit?, check.packet_size()?);
-    (size > limit).then(|| format!("{size} bytes, the adapter's limit is {limit}"))
+    let limit = limit?;
+    check.packet_over(limit).map(|size| format!("{size} bytes, the adapter's limit is {limit}"))
 }

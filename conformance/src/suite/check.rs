@@ -146,17 +146,23 @@ impl Check {
         Behaviour { question, answer: answer.to_owned() }
     }
 
-    /// Size in bytes of the packet in the question; `None` if the question has no whole packet.
+    /// Size in bytes of the longest packet in the question, if that is more than `limit`.
     #[must_use]
-    pub fn packet_size(&self) -> Option<usize> {
-        match (&self.question, self.expected()) {
+    pub fn packet_over(&self, limit: usize) -> Option<usize> {
+        let size = match (&self.question, self.expected()) {
             (Question::Decode { bytes, .. }, _)
-            | (Question::Encode { .. }, Some(Output::Bytes(bytes))) => Some(bytes.len()),
-            (Question::Stream { chunks, .. }, _) => {
-                Some(chunks.iter().map(|chunk| chunk.len()).sum())
+            | (Question::Encode { .. }, Some(Output::Bytes(bytes))) => bytes.len(),
+            (Question::Stream { wire, chunks, .. }, Some(Output::Packets(packets))) => {
+                let all: usize = chunks.iter().map(|chunk| chunk.len()).sum();
+                if all <= limit {
+                    return None;
+                }
+                let frames = packets.iter().filter_map(|packet| wire.encode(packet));
+                frames.map(|frame| frame.len()).max()?
             }
-            _ => None,
-        }
+            _ => return None,
+        };
+        (size > limit).then_some(size)
     }
 
     fn expected(&self) -> Option<&Output> {
