@@ -68,6 +68,28 @@ fn the_reference_knows_which_packets_every_receiver_finds() {
     }
 }
 
+/// A receiver that trusts a length waits if the stream ends before that length is full.
+#[test]
+fn the_reference_knows_when_a_length_is_full() {
+    let good =
+        reference::encode(&Packet::Status { id: 1, error: 0, params: vec![7].into() }).unwrap();
+    let header = |length: u8| [0xFF, 0xFF, 0xFD, 0x00, 0x01, length, 0x00];
+    let fitting = u8::try_from(good.len()).unwrap();
+    for (before, lacks) in [
+        (vec![], false),
+        (vec![0xFF, 0xFF, 0xFD, 0x00], true),
+        (header(0).to_vec(), false),
+        (header(fitting).to_vec(), false),
+        (header(fitting + 1).to_vec(), true),
+        // The second length covers more than the first.
+        ([header(fitting), header(fitting + 1)].concat(), true),
+    ] {
+        let stream = [&before[..], &good].concat();
+        assert_eq!(reference::lacks_bytes(&stream), lacks, "{before:02x?}");
+        assert!(before.is_empty() || reference::lacks_bytes(&[&good[..], &before].concat()));
+    }
+}
+
 /// Packets that the documents print, and their calls, worked out by hand.
 const CALLS: [(&str, &str); 15] = [
     ("dynamixel2.ping.1.instruction", r#"{"name":"ping"}"#),

@@ -101,10 +101,10 @@ impl Author<'_> {
         &self,
         id: String,
         requirement: &str,
-        direction: Direction,
+        context: impl Into<Context>,
         bytes: Vec<u8>,
     ) -> Check {
-        let context = Context::from(direction);
+        let context = context.into();
         let demand = match self.wire.decode(&bytes, &context) {
             Ok(packet) => Demand::Yield(Output::Packet(packet)),
             Err(fault) => Demand::Reject(fault),

@@ -304,6 +304,15 @@ impl<'a> Group<'a> {
         Self { stem, names: Names::Fixed(names), build: Box::new(build) }
     }
 
+    /// The same with names of its own.
+    pub(crate) fn named(
+        stem: String,
+        names: Vec<String>,
+        build: impl FnOnce(&str) -> Vec<Check> + Send + 'a,
+    ) -> Self {
+        Self { stem, names: Names::Own(names), build: Box::new(build) }
+    }
+
     fn ids(&self) -> impl Iterator<Item = String> {
         self.names.iter().map(|name| format!("{}{name}", self.stem))
     }

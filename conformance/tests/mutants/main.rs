@@ -76,7 +76,8 @@ impl Subject for Mutated {
 }
 
 fn checks(wire: Wire) -> Vec<Check> {
-    let options = suite::Options { cases: 50, ..suite::Options::new() };
+    let max_packet = Some(2000);
+    let options = suite::Options { cases: 50, max_packet, ..suite::Options::new() };
     suite::plan(&Spec::embedded().unwrap(), &[wire], &options).checks().collect()
 }
 

@@ -12,7 +12,7 @@ use proptest::sample::select;
 use proptest::strategy::{SBoxedStrategy, Union, ValueTree};
 
 use super::parameters_of;
-use super::unspecified::resumed;
+use super::streams::resumed;
 use crate::suite::Author;
 use crate::suite::check::Check;
 use crate::suite::plan::{Family, Group};

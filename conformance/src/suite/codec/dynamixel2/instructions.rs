@@ -1,14 +1,11 @@
 //! Checks of single instructions and their answers: for each sentence of the documents, packets
 //! that come out wrong if the sentence is not followed.
 
-use actucheck_spec::model::Fault;
-use actucheck_spec::wire::Fast;
-use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST};
-use actucheck_spec::wire::dynamixel2::{Block, Packet};
+use actucheck_spec::wire::dynamixel2::Packet;
+use actucheck_spec::wire::dynamixel2::reference::BROADCAST;
 
-use crate::adapter::{Output, Question};
 use crate::suite::Author;
-use crate::suite::check::{Check, Demand};
+use crate::suite::check::Check;
 
 pub(super) fn checks(author: &Author<'_>) -> Vec<Check> {
     let mut checks = Vec::new();
@@ -16,9 +13,6 @@ pub(super) fn checks(author: &Author<'_>) -> Vec<Check> {
         let (document, rest) = requirement.split_once('.').unwrap_or(("", requirement));
         let id = format!("{document}.said.{rest}.{name}");
         checks.extend(author.both_ways(&id, requirement, &packet));
-    }
-    for (requirement, name, packet, fast) in fast_packets() {
-        checks.extend(fast_both_ways(author, requirement, name, &packet, &fast));
     }
     checks
 }
@@ -61,71 +55,6 @@ fn packets() -> Vec<(&'static str, &'static str, Packet)> {
             "ja40.fast-sync-write.same-registers",
             "three",
             to_all(0x8B, &[64, 0, 1, 0, 7, 1, 3, 0, 9, 1]),
-        ),
-    ]
-}
-
-/// The same for fast status packets, each with the request that it answers.
-fn fast_packets() -> Vec<(&'static str, &'static str, Packet, Fast)> {
-    let read = |size: usize, ids: &[u8]| {
-        let block = |id: &u8| Block { error: 0, id: *id, data: vec![*id; size].into() };
-        let fast = Fast { length: u16::try_from(size).unwrap_or_default(), ids: ids.to_vec() };
-        (Packet::FastStatus { blocks: ids.iter().map(block).collect() }, fast)
-    };
-    let mut list = Vec::new();
-    for (requirement, name, size, ids) in [
-        ("ja40.fast-sync-read.length", "one", 4, &[7][..]),
-        ("ja40.fast-sync-read.length", "three", 4, &[7, 3, 9]),
-        ("ja40.fast-sync-read.length", "three-of-one-byte", 1, &[7, 3, 9]),
-        ("ja40.fast-sync-write.length", "one", 0, &[7]),
-        ("ja40.fast-sync-write.length", "three", 0, &[7, 3, 9]),
-    ] {
-        let (packet, fast) = read(size, ids);
-        list.push((requirement, name, packet, fast));
-    }
-    list
-}
-
-/// A fast status packet that is built and read; one with another device's ID; and one for more
-/// devices than its length covers.
-fn fast_both_ways(
-    author: &Author<'_>,
-    requirement: &'static str,
-    name: &str,
-    packet: &Packet,
-    fast: &Fast,
-) -> Vec<Check> {
-    let frame = reference::encode(packet).unwrap_or_default();
-    let (document, rest) = requirement.split_once('.').unwrap_or(("", requirement));
-    let id = format!("{document}.said.{rest}.{name}");
-    let decode = |bytes: &[u8], fast: &Fast| {
-        let bytes = bytes.to_vec().into();
-        Question::Decode { wire: author.wire, bytes, context: fast.clone().into() }
-    };
-    let more = Fast { ids: [fast.ids.as_slice(), &[42]].concat(), ..fast.clone() };
-    let from_one = reference::frame(
-        fast.ids.first().copied().unwrap_or_default(),
-        frame.get(reference::PREFIX..frame.len().saturating_sub(2)).unwrap_or_default(),
-    );
-    let broadcast_id = if fast.length == 0 {
-        "ja40.fast-sync-write.broadcast-id"
-    } else {
-        "ja40.fast-sync-read.broadcast-id"
-    };
-    let read = Demand::Yield(Output::Packet(packet.clone().into()));
-    vec![
-        author.check(format!("{id}/decode"), requirement, decode(&frame, fast), read),
-        author.check(
-            format!("{id}.device-more/decode"),
-            requirement,
-            decode(&frame, &more),
-            Demand::Reject(Fault::Length),
-        ),
-        author.check(
-            format!("{id}.from-one-device/decode"),
-            broadcast_id,
-            decode(&from_one, fast),
-            Demand::Reject(Fault::Id),
         ),
     ]
 }

@@ -3,15 +3,19 @@
 //! - golden: the test vectors;
 //! - exhaustive: every case of small sets, such as short bodies and all IDs;
 //! - instructions: single instructions and their answers;
+//! - fast: fast status packets, which answer several devices' requests at once;
 //! - negative: packets that break one rule of the receive procedure;
+//! - streams: packets in a stream, cut into chunks in several ways;
 //! - unspecified: questions that the documents leave unspecified;
 //! - generated: packets and streams that are generated from a seed.
 
 mod exhaustive;
+mod fast;
 pub(crate) mod generated;
 pub(super) mod golden;
 mod instructions;
 mod negative;
+mod streams;
 mod unspecified;
 
 use actucheck_spec::Spec;
@@ -26,7 +30,9 @@ pub(super) fn families<'a>(author: Author<'a>, options: &Options) -> Vec<Family<
     let mut families = vec![golden::family(author)];
     families.extend(exhaustive::families(author, options));
     families.push(Family::of("", move || instructions::checks(&author)));
-    families.extend(negative::families(author));
+    families.extend(fast::families(author));
+    families.push(negative::family(author));
+    families.extend(streams::families(author, options));
     families.push(Family::of("dynamixel2.open.", move || unspecified::checks(&author)));
     families.push(generated::family(author, options.seed, options.cases));
     families

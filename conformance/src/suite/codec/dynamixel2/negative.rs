@@ -1,19 +1,16 @@
-//! Packets that break one rule of the receive procedure each, and the packets after them.
+//! Packets that break one rule of the receive procedure each, and the packets after them. Fast status
+//! packets are in `fast.rs`, streams in `streams`.
 //!
 //! Behaviour that the documents leave unspecified is in `unspecified.rs`.
 
-use actucheck_spec::wire::Direction;
 use actucheck_spec::wire::dynamixel2::{Packet, reference};
 
 use crate::suite::Author;
 use crate::suite::check::Check;
 use crate::suite::plan::Family;
 
-pub(super) fn families(author: Author<'_>) -> [Family<'_>; 2] {
-    [
-        Family::of("dynamixel2.negative.", move || broken(&author)),
-        Family::of("dynamixel2.stream.", move || streams(&author)),
-    ]
+pub(super) fn family(author: Author<'_>) -> Family<'_> {
+    Family::of("dynamixel2.negative.", move || broken(&author))
 }
 
 fn broken(author: &Author<'_>) -> Vec<Check> {
@@ -102,54 +99,4 @@ fn with_crc(mut frame: Vec<u8>) -> Vec<u8> {
     let crc = reference::crc(&frame);
     frame.extend(crc.to_le_bytes());
     frame
-}
-
-/// Valid status packets with other bytes around them, where both readings of the documents find the
-/// packets.
-fn streams(author: &Author<'_>) -> Vec<Check> {
-    let [good, stuffed, _] =
-        packets().map(|(_, packet)| reference::encode(&packet).unwrap_or_default());
-    let last = good.len().saturating_sub(1);
-    let bad = replaced(&good, last, good.get(last).copied().unwrap_or_default() ^ 1);
-    let scenarios: [(&str, Vec<Vec<u8>>); 11] = [
-        ("good-good", vec![good.clone(), stuffed.clone()]),
-        ("bad-crc-good", vec![bad.clone(), good.clone()]),
-        ("good-bad-crc-good", vec![good.clone(), bad.clone(), stuffed.clone()]),
-        ("bad-crc-twice-good", vec![bad.clone(), bad, good.clone()]),
-        ("zeros-good", vec![vec![0; 5], good.clone()]),
-        ("ff-good", vec![vec![0xFF; 5], good.clone()]),
-        ("ff-ff-good", vec![vec![0xFF, 0xFF], good.clone()]),
-        ("header-start-good", vec![vec![0xFF, 0xFF, 0xFD], good.clone()]),
-        ("stuffed-header-good", vec![vec![0xFF, 0xFF, 0xFD, 0xFD], good.clone()]),
-        ("wrong-reserved-good", vec![vec![0xFF, 0xFF, 0xFD, 0x01], good.clone()]),
-        ("good-noise-good", vec![good, vec![0x12, 0xFD, 0x34], stuffed]),
-    ];
-    let mut checks = Vec::new();
-    for (name, parts) in scenarios {
-        let stream = parts.concat();
-        let id = format!("dynamixel2.stream.{name}");
-        let requirement = match name {
-            "stuffed-header-good" => "dynamixel2.receive.header.stuffed",
-            _ => "dynamixel2.receive.stream",
-        };
-        checks.push(author.streamed(format!("{id}/stream"), requirement, Direction::Reply, &parts));
-        for split in 1..stream.len() {
-            let (head, tail) = stream.split_at(split);
-            let chunks = [head.to_vec(), tail.to_vec()];
-            checks.push(author.streamed(
-                format!("{id}/split-at-{split}"),
-                requirement,
-                Direction::Reply,
-                &chunks,
-            ));
-        }
-        let bytes: Vec<_> = stream.iter().map(|byte| vec![*byte]).collect();
-        checks.push(author.streamed(
-            format!("{id}/bytewise"),
-            requirement,
-            Direction::Reply,
-            &bytes,
-        ));
-    }
-    checks
 }

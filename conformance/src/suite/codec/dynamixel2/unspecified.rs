@@ -4,7 +4,7 @@
 use actucheck_spec::model::HexBytes;
 use actucheck_spec::wire::Direction;
 use actucheck_spec::wire::dynamixel2::Packet;
-use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, HEADER, STATUS};
+use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, STATUS};
 
 use crate::adapter::{Output, Question};
 use crate::suite::check::{Check, Demand, Unspecified, Way};
@@ -14,7 +14,6 @@ pub(super) fn checks(author: &Author<'_>) -> Vec<Check> {
     let mut checks = bare_patterns(author);
     checks.extend(ids(author));
     checks.extend(repeated_ids(author));
-    checks.extend(resume_points(author));
     checks.extend(two_faults(author));
     checks
 }
@@ -30,7 +29,10 @@ fn record(
     author.check(id, requirement, op, Demand::Record(open))
 }
 
-fn open(question: &str, ways: impl IntoIterator<Item = (&'static str, Output)>) -> Unspecified {
+pub(super) fn open(
+    question: &str,
+    ways: impl IntoIterator<Item = (&'static str, Output)>,
+) -> Unspecified {
     let ways = ways.into_iter().map(|(name, output)| Way { name: name.to_owned(), output });
     Unspecified { question: question.to_owned(), ways: ways.collect() }
 }
@@ -136,61 +138,6 @@ fn repeated_ids(author: &Author<'_>) -> Vec<Check> {
         record(author, &format!("repeated-id.{name}"), requirement, encode(author, packet), ways)
     };
     cases.map(check).into()
-}
-
-/// Valid packets after a packet with a wrong length.
-fn resume_points(author: &Author<'_>) -> Vec<Check> {
-    let packet = |value| reference::encode(&status(1, &[value, 0, 0, 0])).unwrap_or_default();
-    let good = [packet(1), packet(2), packet(3), packet(4)].concat();
-    let claims = |length: u16| {
-        let [low, high] = length.to_le_bytes();
-        [&HEADER[..], &[1, low, high, STATUS, 0]].concat()
-    };
-    let flipped = |at: usize| {
-        let mut frame = packet(9);
-        if let Some(byte) = frame.get_mut(at) {
-            *byte ^= 0x10;
-        }
-        frame
-    };
-    let cut = |size: usize| packet(9).get(..size).unwrap_or_default().to_vec();
-    let scenarios: [(&str, &str, Vec<u8>); 7] = [
-        (
-            "length-too-long",
-            "a packet whose length, with a bit flipped, covers the next",
-            flipped(5),
-        ),
-        ("length-never-full", "a packet whose length covers more than comes", claims(0x0FFF)),
-        ("length-greatest", "a packet whose length is the greatest", claims(0xFFFF)),
-        ("length-0", "a packet whose length is 0", claims(0)),
-        ("length-2", "a packet whose length is 2", claims(2)),
-        ("cut-in-header", "a packet cut behind its ID", cut(5)),
-        ("cut-in-params", "a packet cut in its parameters", cut(11)),
-    ];
-    let check = |(name, what, bad): (&str, &str, Vec<u8>)| {
-        let id = format!("dynamixel2.open.resume.{name}/stream");
-        resumed(author, id, what, &[[bad, good.clone()].concat()])
-    };
-    scenarios.map(check).into()
-}
-
-/// A stream in which the search has to continue after `what`.
-pub(super) fn resumed(author: &Author<'_>, id: String, what: &str, chunks: &[Vec<u8>]) -> Check {
-    let stream = chunks.concat();
-    let (anywhere, behind) =
-        (reference::packets(&stream), reference::packets_behind_lengths(&stream));
-    let ways = open(
-        &format!("Where does the search go on behind {what}?"),
-        [
-            ("it finds every whole packet", anywhere),
-            ("behind the bytes that the length covers", behind),
-            ("it finds none of the whole packets behind it", Vec::new()),
-        ]
-        .map(|(name, packets)| (name, Output::packets(packets))),
-    );
-    let chunks = chunks.iter().map(|chunk| chunk.clone().into()).collect();
-    let op = Question::Stream { wire: author.wire, chunks, direction: Some(Direction::Reply) };
-    author.check(id, "dynamixel2.receive.resume", op, Demand::Record(ways))
 }
 
 /// A packet that breaks two rules: the documents do not say which one is reported.

@@ -174,6 +174,23 @@ pub fn is_certain(stream: &[u8]) -> bool {
     true
 }
 
+/// Whether the length behind a false header covers more bytes than follow it, so that a receiver that
+/// trusts every length waits at the end of the stream.
+#[must_use]
+pub fn lacks_bytes(stream: &[u8]) -> bool {
+    let mut rest = stream;
+    while !rest.is_empty() {
+        let packet = first(rest).map(|(_, packet_size)| packet_size);
+        let covered = size(rest).map(|size| size.max(SHORTEST));
+        let is_full = covered.is_some_and(|covered| covered <= rest.len());
+        if packet.is_none() && rest.starts_with(&HEADER) && !is_full {
+            return true;
+        }
+        rest = rest.get(packet.unwrap_or(1)..).unwrap_or_default();
+    }
+    false
+}
+
 /// The packet that begins here, and its size.
 fn first(bytes: &[u8]) -> Option<(Packet, usize)> {
     let size = size(bytes)?;

@@ -1,0 +1,170 @@
+//! Fast status packets that break one rule each.
+
+use actucheck_spec::wire::Fast;
+use actucheck_spec::wire::dynamixel2::Block;
+use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, HEADER, PREFIX, STATUS};
+
+use super::{Kind, asked, blocks, ids};
+use crate::suite::Author;
+use crate::suite::check::Check;
+use crate::suite::plan::Family;
+
+const LAST_CRC: &str = "dynamixel2.receive.crc";
+
+pub(super) fn families(author: Author<'_>) -> [Family<'_>; 3] {
+    [
+        Family::of("ja40.fast.crc.", move || crcs(&author)),
+        Family::of("ja40.fast.length.", move || lengths(&author)),
+        Family::of("ja40.fast.field.", move || fields(&author)),
+    ]
+}
+
+/// The bytes of a fast status packet. `crc` yields the CRC of each block from the block's number and
+/// the bytes before the CRC.
+fn frame(blocks: &[Block], crc: impl Fn(usize, &[u8]) -> u16) -> Vec<u8> {
+    let size: usize = blocks.iter().map(|block| block.data.len() + 4).sum();
+    let length = u16::try_from(size + 1).unwrap_or(u16::MAX);
+    let mut frame = [&HEADER[..], &[BROADCAST], &length.to_le_bytes(), &[STATUS]].concat();
+    for (number, block) in blocks.iter().enumerate() {
+        frame.extend([block.error, block.id]);
+        frame.extend(block.data.iter());
+        let crc = crc(number, &frame);
+        frame.extend(crc.to_le_bytes());
+    }
+    frame
+}
+
+fn right(blocks: &[Block]) -> Vec<u8> {
+    frame(blocks, |_, before| reference::crc(before))
+}
+
+/// A wrong CRC behind each block alone, behind every block, and computed over other bytes. The CRCs
+/// behind a wrong one are those of the bytes as they are.
+fn crcs(author: &Author<'_>) -> Vec<Check> {
+    let mut checks = Vec::new();
+    for kind in Kind::ALL {
+        let id = |name: String| format!("ja40.fast.crc.{}.{name}/decode", kind.name());
+        let three = blocks(&ids(3), kind.size());
+        let mut add = |name, requirement, blocks: &[Block], bytes| {
+            checks.push(author.decoded(id(name), requirement, asked(blocks), bytes));
+        };
+        for wrong in 0..3 {
+            let requirement = if wrong == 2 { LAST_CRC } else { kind.status() };
+            for bit in 0..16 {
+                let bytes = flipped(&three, wrong, bit);
+                add(format!("block-{}.bit-{bit}", wrong + 1), requirement, &three, bytes);
+            }
+        }
+        for devices in [16, 253] {
+            let many = blocks(&ids(devices), kind.size());
+            for wrong in [0, devices / 2, devices - 2] {
+                let bytes = flipped(&many, wrong, 0);
+                add(format!("{devices}-devices.block-{}", wrong + 1), kind.status(), &many, bytes);
+            }
+        }
+        let every = frame(&three, |_, before| !reference::crc(before));
+        add("every-block".to_owned(), LAST_CRC, &three, every);
+        let own = kind.size() + 2;
+        let alone = with_inner(&three, |before| before.get(before.len() - own..));
+        add("of-the-block-alone".to_owned(), kind.status(), &three, alone);
+        let body = with_inner(&three, |before| before.get(PREFIX..));
+        add("without-the-header".to_owned(), kind.status(), &three, body);
+    }
+    checks
+}
+
+/// One bit of the CRC behind one block is wrong.
+fn flipped(blocks: &[Block], wrong: usize, bit: u32) -> Vec<u8> {
+    frame(blocks, |number, before| {
+        reference::crc(before) ^ if number == wrong { 1 << bit } else { 0 }
+    })
+}
+
+/// Every CRC but the last one is that of a part of the bytes before it.
+fn with_inner(blocks: &[Block], part: impl Fn(&[u8]) -> Option<&[u8]>) -> Vec<u8> {
+    frame(blocks, |number, before| {
+        let inner = part(before).filter(|_| number + 1 < blocks.len());
+        reference::crc(inner.unwrap_or(before))
+    })
+}
+
+/// Packets with more or fewer bytes or devices than asked for.
+fn lengths(author: &Author<'_>) -> Vec<Check> {
+    let mut checks = Vec::new();
+    for kind in Kind::ALL {
+        let id = |name: String| format!("ja40.fast.length.{}.{name}/decode", kind.name());
+        let [two, three] = [2, 3].map(|devices| blocks(&ids(devices), kind.size()));
+        let (whole, fast) = (right(&two), asked(&two));
+        let mut add = |name: String, requirement, fast: &Fast, bytes| {
+            checks.push(author.decoded(id(name), requirement, fast.clone(), bytes));
+        };
+        let receive = "dynamixel2.receive.length";
+        for end in 0..whole.len() {
+            let bytes = whole.get(..end).unwrap_or_default().to_vec();
+            add(format!("cut-at-{end}"), receive, &fast, bytes);
+        }
+        for byte in [0x00, 0x55, 0xFF] {
+            let bytes = [whole.as_slice(), &[byte]].concat();
+            add(format!("trailing-{byte:02x}"), receive, &fast, bytes);
+        }
+        let twice = [whole.as_slice(), &whole].concat();
+        add("twice".to_owned(), receive, &fast, twice);
+        add("device-missing".to_owned(), kind.length(), &asked(&three), whole.clone());
+        add("device-more".to_owned(), kind.length(), &fast, right(&three));
+        add("no-device".to_owned(), kind.length(), &fast, right(&[]));
+        for size in [1, 2, 8] {
+            let other = right(&blocks(&ids(2), size));
+            add(format!("{size}-bytes"), kind.length(), &fast, other);
+        }
+    }
+    checks
+}
+
+/// Packets with a wrong byte whose CRCs behind it are right, or with a wrong byte that only the last
+/// CRC takes into account.
+fn fields(author: &Author<'_>) -> Vec<Check> {
+    let mut checks = Vec::new();
+    for kind in Kind::ALL {
+        let three = blocks(&ids(3), kind.size());
+        let (whole, fast) = (right(&three), asked(&three));
+        let mut add = |name: &str, requirement, bytes| {
+            let id = format!("ja40.fast.field.{}.{name}/decode", kind.name());
+            checks.push(author.decoded(id, requirement, fast.clone(), bytes));
+        };
+        for (name, requirement, at, byte) in [
+            ("header-1", "dynamixel2.receive.header", 0, 0xFE),
+            ("header-2", "dynamixel2.receive.header", 1, 0xFE),
+            ("header-3", "dynamixel2.receive.header", 2, 0xFC),
+            ("reserved", "dynamixel2.packet.reserved", 3, 0x01),
+            ("instruction", "dynamixel2.status-packet.layout", PREFIX, 0x54),
+        ] {
+            let mut start = whole.clone();
+            start.iter_mut().skip(at).take(1).for_each(|slot| *slot = byte);
+            add(name, requirement, mended(&start, kind));
+        }
+        let block = kind.size() + 4;
+        for number in 0..2 {
+            let begin = PREFIX + 1 + number * block;
+            // All of the block but its ID and CRC.
+            for at in (begin..begin + block - 2).filter(|at| *at != begin + 1) {
+                let mut bytes = whole.clone();
+                bytes.iter_mut().skip(at).take(1).for_each(|byte| *byte ^= 0x10);
+                reference::repair(&mut bytes);
+                add(&format!("block-{}.byte-{}", number + 1, at - begin), kind.status(), bytes);
+            }
+        }
+    }
+    checks
+}
+
+/// The same bytes with the right CRC behind each block.
+fn mended(bytes: &[u8], kind: Kind) -> Vec<u8> {
+    let mut frame = bytes.get(..=PREFIX).unwrap_or_default().to_vec();
+    let blocks = bytes.get(PREFIX + 1..).unwrap_or_default().chunks(kind.size() + 4);
+    for block in blocks {
+        frame.extend(block.split_last_chunk::<2>().map_or(block, |(block, _)| block));
+        let crc = reference::crc(&frame);
+        frame.extend(crc.to_le_bytes());
+    }
+    frame
+}
