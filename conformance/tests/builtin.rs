@@ -209,6 +209,7 @@ fn no_requirement_on_a_codec_is_left_uncovered() {
         id: &check.id,
         requirement: &check.requirement,
         role: Role::Codec,
+        only_records: check.only_records(),
     });
     let uncovered: Vec<_> = coverage::matrix(&spec, names)
         .into_iter()

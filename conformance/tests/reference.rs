@@ -10,8 +10,9 @@ use actucheck::suite::check::Demand;
 use actucheck::verdict::Verdict;
 use actucheck_spec::Spec;
 use actucheck_spec::model::{Fault, Level};
-use actucheck_spec::wire::dynamixel2::WIRE;
-use actucheck_spec::wire::dynamixel2::reference::{self, PATTERN, PREFIX};
+use actucheck_spec::wire;
+use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, PATTERN, PREFIX};
+use actucheck_spec::wire::dynamixel2::{Packet, WIRE};
 
 /// The checks of streams demand the packets that every receiver finds that follows the documents, and
 /// warn of those that one should find.
@@ -70,7 +71,14 @@ impl Subject for Model {
             Question::Stuff { bytes: body, .. } => bytes(wire.stuff(body).unwrap()),
             Question::Unstuff { bytes: body, .. } => wire.unstuff(body).unwrap().and_then(bytes),
             Question::Encode { packet, .. } => {
-                wire.encode(&packet.packet).ok_or(Fault::Length).and_then(bytes)
+                let invalid = |id| id > 252 && id != BROADCAST;
+                let fault = match &packet.packet {
+                    wire::Packet::Dynamixel2(
+                        Packet::Instruction { id, .. } | Packet::Status { id, .. },
+                    ) if invalid(*id) => Fault::Id,
+                    _ => Fault::Oversize,
+                };
+                wire.encode(&packet.packet).ok_or(fault).and_then(bytes)
             }
             Question::Decode { bytes, context, .. } => {
                 wire.decode(bytes, context).map(Output::Packet)

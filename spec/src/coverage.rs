@@ -14,6 +14,8 @@ pub struct CheckName<'a> {
     pub requirement: &'a str,
     /// The role that is asked.
     pub role: Role,
+    /// Whether it only records the answer.
+    pub only_records: bool,
 }
 
 /// A requirement and what checks it.
@@ -31,7 +33,9 @@ pub struct Row<'a> {
 pub struct Checks {
     /// How many.
     pub count: usize,
-    /// Id of the first of them.
+    /// How many of them only record the answer.
+    pub recorded: usize,
+    /// Id of the first of them, one that judges the answer if there is any.
     pub example: String,
 }
 
@@ -40,10 +44,20 @@ pub struct Checks {
 pub enum Cover {
     /// Nothing yet.
     Nothing,
+    /// Checks of the suite that record the answer and judge none.
+    Record,
     /// A test of this repository, which tests only the built-in codec.
     Test,
-    /// A check of the suite, which any subject can be asked.
+    /// A check of the suite that judges the answer, which any subject can be asked.
     Check,
+}
+
+impl Checks {
+    /// Whether none of them judges an answer.
+    #[must_use]
+    pub const fn only_record(&self) -> bool {
+        self.recorded == self.count
+    }
 }
 
 impl Row<'_> {
@@ -51,14 +65,13 @@ impl Row<'_> {
     /// codec shows nothing about a device.
     #[must_use]
     pub fn cover(&self, role: Role) -> Cover {
-        if !self.requirement.binds.contains(&role) {
-            Cover::Nothing
-        } else if self.checks.contains_key(&role) {
-            Cover::Check
-        } else if role == Role::Codec && !self.requirement.tests.is_empty() {
-            Cover::Test
-        } else {
-            Cover::Nothing
+        let tested = role == Role::Codec && !self.requirement.tests.is_empty();
+        match self.checks.get(&role) {
+            _ if !self.requirement.binds.contains(&role) => Cover::Nothing,
+            Some(checks) if !checks.only_record() => Cover::Check,
+            _ if tested => Cover::Test,
+            Some(_) => Cover::Record,
+            None => Cover::Nothing,
         }
     }
 
@@ -78,8 +91,13 @@ pub fn matrix<'a, 'b>(
     let mut by_requirement: BTreeMap<&str, BTreeMap<Role, Checks>> = BTreeMap::new();
     for check in checks {
         let roles = by_requirement.entry(check.requirement).or_default();
-        let example = || Checks { count: 0, example: check.id.to_owned() };
-        roles.entry(check.role).or_insert_with(example).count += 1;
+        let none = || Checks { count: 0, recorded: 0, example: check.id.to_owned() };
+        let checks = roles.entry(check.role).or_insert_with(none);
+        if checks.only_record() && !check.only_records {
+            check.id.clone_into(&mut checks.example);
+        }
+        checks.count += 1;
+        checks.recorded += usize::from(check.only_records);
     }
     spec.requirements
         .iter()
@@ -97,8 +115,10 @@ pub fn matrix<'a, 'b>(
 pub struct Total {
     /// All of them.
     pub requirements: usize,
-    /// Requirements with a check of the suite.
+    /// Requirements with a check of the suite that judges.
     pub checked: usize,
+    /// Requirements with only checks that record.
+    pub recorded: usize,
     /// Requirements with only a test of this repository.
     pub tested: usize,
 }
@@ -107,7 +127,7 @@ impl Total {
     /// Requirements that nothing checks.
     #[must_use]
     pub const fn open(&self) -> usize {
-        self.requirements - self.checked - self.tested
+        self.requirements - self.checked - self.recorded - self.tested
     }
 }
 
@@ -123,6 +143,7 @@ pub fn total(rows: &[Row<'_>], role: Role, level: Level) -> Total {
         total.requirements += 1;
         match row.cover(role) {
             Cover::Check => total.checked += 1,
+            Cover::Record => total.recorded += 1,
             Cover::Test => total.tested += 1,
             Cover::Nothing => {}
         }
@@ -137,7 +158,8 @@ mod tests {
     #[test]
     fn a_check_covers_the_role_that_it_is_asked_of_and_no_other() {
         let spec = Spec::embedded().unwrap();
-        let check = |id, requirement| CheckName { id, requirement, role: Role::Codec };
+        let role = Role::Codec;
+        let check = |id, requirement| CheckName { id, requirement, role, only_records: false };
         let checks = [
             check("a", "ja40.packets"),
             check("b", "ja40.packets"),
@@ -147,7 +169,10 @@ mod tests {
         let row = |id| rows.iter().find(|row| row.requirement.id == id).unwrap();
 
         let packets = row("ja40.packets");
-        assert_eq!(packets.checks[&Role::Codec], Checks { count: 2, example: "a".to_owned() });
+        assert_eq!(
+            packets.checks[&Role::Codec],
+            Checks { count: 2, recorded: 0, example: "a".to_owned() }
+        );
         assert_eq!(packets.cover(Role::Codec), Cover::Check);
         assert_eq!(packets.cover(Role::Device), Cover::Nothing);
         let of_devices = row("dynamixel2.bulk-read.status");
@@ -156,5 +181,22 @@ mod tests {
         let total = total(&rows, Role::Codec, Level::Must);
         assert_eq!(total.checked, 1);
         assert_eq!(total.open() + total.tested + 1, total.requirements);
+    }
+
+    #[test]
+    fn checks_that_only_record_do_not_count_as_checked() {
+        let spec = Spec::embedded().unwrap();
+        let (requirement, role) = ("dynamixel2.receive.id", Role::Codec);
+        let check = |id, only_records| CheckName { id, requirement, role, only_records };
+        let rows = matrix(&spec, [check("a", true), check("b", true)]);
+        let row = rows.iter().find(|row| row.requirement.id == requirement).unwrap();
+        assert_eq!(row.cover(role), Cover::Record);
+        let total = total(&rows, role, Level::Must);
+        assert_eq!((total.checked, total.recorded), (0, 1));
+
+        let rows = matrix(&spec, [check("a", true), check("b", false)]);
+        let row = rows.iter().find(|row| row.requirement.id == requirement).unwrap();
+        assert_eq!(row.cover(role), Cover::Check);
+        assert_eq!(row.checks[&role], Checks { count: 2, recorded: 1, example: "b".to_owned() });
     }
 }

@@ -146,6 +146,12 @@ impl Check {
         Behaviour { question, answer: answer.to_owned() }
     }
 
+    /// Whether no answer is judged: the documents leave it unspecified, or allow either way.
+    #[must_use]
+    pub fn only_records(&self) -> bool {
+        self.level == Level::May || matches!(self.demand, Demand::Record(_))
+    }
+
     /// Size in bytes of the longest packet in the question, if that is more than `limit`.
     #[must_use]
     pub fn packet_over(&self, limit: usize) -> Option<usize> {

@@ -41,8 +41,8 @@ fn every_mutant_is_found_and_made_small() {
     for mutant in &MUTANTS {
         let fuzzed = fuzzed(&mut Mutated::new(mutant), 1, 5_000);
         let sizes = fuzzed.findings.iter().map(|finding| size(&finding.check.question));
-        // A length of two bytes is 256 bytes, and twice as many digits.
-        let smallest = sizes.min().filter(|size| *size < 700);
+        // A length of two bytes is 256 bytes, and twice as many digits; the call has them again.
+        let smallest = sizes.min().filter(|size| *size < 1_400);
         let found: Vec<_> = fuzzed.findings.iter().map(|finding| &finding.check.question).collect();
         assert!(smallest.is_some(), "{}: {found:?}", mutant.name);
     }

@@ -10,12 +10,9 @@ mod killing;
 mod stubs;
 
 use actucheck::adapter::{Hello, Output, Question, Rejection, Wire};
-use actucheck::run;
 use actucheck::subject::{Answer, Builtin, Subject};
 use actucheck::suite;
 use actucheck::suite::check::Check;
-use actucheck::suite::plan::Plan;
-use actucheck::verdict::Outcome;
 use actucheck_spec::Spec;
 use actucheck_spec::model::{Fault, HexBytes};
 
@@ -39,6 +36,18 @@ enum Wrong {
     Rejects(fn(&Question) -> bool),
     /// It rejects everything after such a request.
     RejectsAfter(fn(&Question) -> bool),
+}
+
+impl Wrong {
+    /// Its own answer to a question after the last one; `None` if it answers as the codec does.
+    fn answer(&self, op: &Question, last: Option<&Question>) -> Option<Answer> {
+        let rejection = || Answer::Rejected(Rejection { class: Fault::Crc, detail: String::new() });
+        match self {
+            Self::Answers(answer) => answer(op).map(Answer::Ok),
+            Self::Rejects(rejects) => rejects(op).then(rejection),
+            Self::RejectsAfter(after) => last.is_some_and(after).then(rejection),
+        }
+    }
 }
 
 fn bytes(bytes: Vec<u8>) -> Output {
@@ -65,13 +74,8 @@ impl Subject for Mutated {
 
     fn ask(&mut self, op: &Question) -> Answer {
         let last = self.last.replace(op.clone());
-        let rejection = || Answer::Rejected(Rejection { class: Fault::Crc, detail: String::new() });
-        match self.mutant.wrong {
-            Wrong::Answers(answer) => answer(op).map_or_else(|| self.codec.ask(op), Answer::Ok),
-            Wrong::Rejects(rejects) if rejects(op) => rejection(),
-            Wrong::RejectsAfter(after) if last.is_some_and(|last| after(&last)) => rejection(),
-            _ => self.codec.ask(op),
-        }
+        let own = self.mutant.wrong.answer(op, last.as_ref());
+        own.unwrap_or_else(|| self.codec.ask(op))
     }
 }
 
@@ -79,8 +83,4 @@ fn checks(wire: Wire) -> Vec<Check> {
     let max_packet = Some(2000);
     let options = suite::Options { cases: 50, max_packet, ..suite::Options::new() };
     suite::plan(&Spec::embedded().unwrap(), &[wire], &options).checks().collect()
-}
-
-fn outcomes(subject: impl Subject + Send + 'static, checks: &[Check]) -> Vec<Outcome> {
-    run::outcomes(&mut [Box::new(subject)], &Plan::of(checks.to_vec()))
 }

@@ -91,6 +91,7 @@ fn question(author: &Author<'_>, probe: &Probe) -> Option<Asked> {
                     (id, Demand::Yield(Output::Packet(packet)))
                 }
                 Err(Fault::Header) => ("receive.header", Demand::Reject(Fault::Header)),
+                Err(Fault::Id) => ("receive.id", Demand::Reject(Fault::Id)),
                 Err(Fault::Crc) => ("receive.crc", Demand::Reject(Fault::Crc)),
                 Err(fault) => ("receive.length", Demand::Reject(fault)),
             };

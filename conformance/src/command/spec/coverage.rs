@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use actucheck::adapter::Wire;
+use actucheck::suite::check::Check;
 use actucheck::suite::{self, Options};
 use actucheck_spec::Spec;
 use actucheck_spec::coverage::{self, CheckName, Cover, Row};
@@ -53,10 +54,18 @@ pub(super) fn text(spec: &Spec, options: &Coverage) -> Result<String, Failure> {
     }
     let role = options.role;
     let plan = suite::plan(spec, &Wire::ALL, &Options::new());
-    let checks: Vec<_> = plan.checks().map(|check| (check.id, check.requirement)).collect();
+    let with_facts = |check: Check| {
+        let only_records = check.only_records();
+        (check.id, check.requirement, only_records)
+    };
+    let checks: Vec<_> = plan.checks().map(with_facts).collect();
     // All checks of the suite are for codecs.
-    let names =
-        checks.iter().map(|(id, requirement)| CheckName { id, requirement, role: Role::Codec });
+    let names = checks.iter().map(|(id, requirement, only_records)| CheckName {
+        id,
+        requirement,
+        role: Role::Codec,
+        only_records: *only_records,
+    });
     let mut rows = coverage::matrix(spec, names);
     rows.retain(|row| {
         let Requirement { source, binds, .. } = row.requirement;
@@ -108,6 +117,7 @@ fn checked_by(row: &Row<'_>) -> String {
     for (role, checks) in &row.checks {
         let word = if checks.count == 1 { "check" } else { "checks" };
         let many = format!("{} {word} of a {role}", checks.count);
+        let many = if checks.only_record() { format!("only recorded: {many}") } else { many };
         parts.push(match row.requirement.binds.contains(role) {
             true if checks.count == 1 => format!("{many}, {}", checks.example),
             true => format!("{many}, such as {}", checks.example),
@@ -120,7 +130,7 @@ fn checked_by(row: &Row<'_>) -> String {
 
 /// The totals of one role, or of each role.
 fn totals(rows: &[Row<'_>], only: Option<Role>) -> String {
-    let head = ["role", "level", "requirements", "checked", "tested here", NOTHING];
+    let head = ["role", "level", "requirements", "checked", "recorded", "tested here", NOTHING];
     let mut cells = vec![head.map(str::to_owned)];
     for role in Role::ALL.into_iter().filter(|role| only.is_none_or(|only| only == *role)) {
         for level in Level::ALL {
@@ -128,9 +138,10 @@ fn totals(rows: &[Row<'_>], only: Option<Role>) -> String {
             if total.requirements == 0 {
                 continue;
             }
-            let counts = [total.requirements, total.checked, total.tested, total.open()];
-            let [all, checked, tested, open] = counts.map(|count| count.to_string());
-            cells.push([role.to_string(), level.to_string(), all, checked, tested, open]);
+            let counts =
+                [total.requirements, total.checked, total.recorded, total.tested, total.open()];
+            let [all, checked, recorded, tested, open] = counts.map(|count| count.to_string());
+            cells.push([role.to_string(), level.to_string(), all, checked, recorded, tested, open]);
         }
     }
     table::lines("", &cells).join("\n") + "\n"

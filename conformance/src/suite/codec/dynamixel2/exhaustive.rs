@@ -1,9 +1,10 @@
-//! Exhaustive checks: all short bodies of the pattern's bytes, every instruction, every error byte,
-//! every ID, and the lengths at which counting goes wrong.
+//! Exhaustive checks: all short bodies of the pattern's bytes, every instruction, every error byte, and
+//! the lengths at which counting goes wrong.
 
 use actucheck_spec::wire::dynamixel2::Packet;
 use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, STATUS};
 
+use super::{BOTH_WAYS, recorded};
 use crate::adapter::{Output, Question};
 use crate::suite::check::{Check, Demand};
 use crate::suite::plan::{Family, Group};
@@ -25,9 +26,6 @@ const WRITE_AROUND: usize = 12;
 /// The address of the Write: 116, as some libraries support addresses up to 255 only.
 const REGISTER: [u8; 2] = [0x74, 0x00];
 
-/// What a packet's checks are called.
-const BOTH_WAYS: [&str; 2] = ["/encode", "/decode"];
-
 pub(super) fn families<'a>(author: Author<'a>, options: &Options) -> Vec<Family<'a>> {
     let [body_length, bare_length] =
         [options.body_length, options.bare_length].map(|length| length.min(Options::LONGEST_BODY));
@@ -35,7 +33,6 @@ pub(super) fn families<'a>(author: Author<'a>, options: &Options) -> Vec<Family<
     families.extend(PLACES.map(|place| inside(author, place, body_length)));
     families.push(Family::new("dynamixel2.instruction.", move || instructions(author)));
     families.push(Family::new("dynamixel2.error.", move || error_bytes(author)));
-    families.push(Family::new("dynamixel2.id.", move || ids(author)));
     let around: Vec<_> = LENGTHS.into_iter().chain(largest(options.max_packet)).collect();
     families.push(Family::new("dynamixel2.length.", move || lengths(author, around.clone())));
     families.push(Family::of("dynamixel2.stuffing.from-", move || before_params(&author)));
@@ -68,7 +65,16 @@ fn alone(author: Author<'_>, longest: u32) -> Family<'_> {
     const PREFIX: &str = "dynamixel2.stuffing.body.";
     let group = move |body: Vec<u8>| {
         let id = format!("{PREFIX}{}", hex(&body));
-        Group::new(id, &["/stuff", "/unstuff"], move |id| stuffing(&author, id, &body).into())
+        Group::new(id, &["/stuff", "/unstuff"], move |id| {
+            let checks = stuffing(&author, id, &body);
+            // A body has an instruction.
+            if body.is_empty() {
+                checks.map(|it| recorded(it, "a body of 0 bytes"))
+            } else {
+                checks
+            }
+            .into()
+        })
     };
     Family::new(PREFIX, move || words(longest).map(group))
 }
@@ -92,6 +98,9 @@ fn stuffing(author: &Author<'_>, id: &str, body: &[u8]) -> [Check; 2] {
         ),
     ]
 }
+
+/// What no document has: each Write writes something.
+const NO_DATA: &str = "a Write of 0 bytes";
 
 /// A place in a packet: after the header, in the middle, or before the CRC.
 #[derive(Clone, Copy)]
@@ -151,6 +160,11 @@ impl Place {
     fn is_to_all(self) -> bool {
         self.instruction.is_some_and(|code| code >= 0x80)
     }
+
+    /// Whether a packet without a word is a Write of nothing.
+    fn is_only_data(self) -> bool {
+        self.instruction.is_some() && self.after.is_empty()
+    }
 }
 
 /// The same bytes in one place of a packet.
@@ -162,7 +176,11 @@ fn inside(author: Author<'_>, place: Place, longest: u32) -> Family<'_> {
             move |word| {
                 let id = format!("{prefix}{}", hex(&word));
                 Group::new(id, &["/encode", "/decode", "/stream"], move |id| {
-                    found_in(&author, id, &place.packet(&word))
+                    let checks = found_in(&author, id, &place.packet(&word));
+                    if word.is_empty() && place.is_only_data() {
+                        return checks.into_iter().map(|it| recorded(it, NO_DATA)).collect();
+                    }
+                    checks
                 })
             },
         )
@@ -192,11 +210,55 @@ fn found_in(author: &Author<'_>, id: &str, packet: &Packet) -> Vec<Check> {
 fn instructions(author: Author<'_>) -> impl Iterator<Item = Group<'_>> {
     const NAMES: [&str; 4] = ["/encode", "/decode", "-with-params/encode", "-with-params/decode"];
     let codes = (0..=u8::MAX).filter(|code| *code != STATUS);
-    codes.map(move |code| {
+    let codes = codes.map(move |code| {
         let id = format!("dynamixel2.instruction.{code:02x}");
         Group::new(id, &NAMES, move |id| instruction(&author, id, code))
-    })
+    });
+    let fitting = FITTING.into_iter().map(move |(code, params)| {
+        let id = format!("dynamixel2.instruction.{code:02x}-with-own-params");
+        Group::new(id, &BOTH_WAYS, move |id| {
+            let to = if code >= 0x80 { BROADCAST } else { 1 };
+            let params = params.to_vec().into();
+            let packet = Packet::Instruction { id: to, instruction: code, params };
+            author.both_ways(id, codes_of(code), &packet)
+        })
+    });
+    codes.chain(fitting)
 }
+
+/// Parameters of the instructions that neither 0 nor 3 parameters fit.
+const FITTING: [(u8, &[u8]); 10] = [
+    (0x02, &[132, 0, 4, 0]),
+    (0x06, &[0x01]),
+    (0x10, &[0x01, 0x44, 0x58, 0x4C, 0x22]),
+    (0x20, &[0x01, 0x43, 0x54, 0x52, 0x4C]),
+    (0x82, &[132, 0, 4, 0, 1]),
+    (0x83, &[65, 0, 1, 0, 1, 1]),
+    (0x8A, &[132, 0, 4, 0, 1]),
+    (0x8B, &[65, 0, 1, 0, 1, 1]),
+    (0x92, &[1, 132, 0, 4, 0]),
+    (0x93, &[1, 65, 0, 1, 0, 1]),
+];
+
+/// The requirement that gives an instruction its code.
+fn codes_of(code: u8) -> &'static str {
+    match code {
+        0x20 | 0x8A | 0x8B => "ja40.instruction.codes", // in no table of the DYNAMIXEL document
+        _ => "dynamixel2.packet.instruction.codes",
+    }
+}
+
+/// What no sentence demands to build or to read; `None` if a document has such a packet.
+fn unasked(code: u8, params: usize) -> Option<&'static str> {
+    match (code, params) {
+        (0x01 | 0x05 | 0x08, 0) | (0x03 | 0x04, 3) => None,
+        (0x01..=0x06 | 0x08, _) => Some(MISFIT),
+        _ if FITTING.iter().any(|(fitting, _)| *fitting == code) => Some(MISFIT),
+        _ => Some("an instruction that no document names"),
+    }
+}
+
+const MISFIT: &str = "an instruction with parameters that do not fit it";
 
 fn instruction(author: &Author<'_>, id: &str, code: u8) -> Vec<Check> {
     let packet = |params: &[u8]| {
@@ -204,13 +266,15 @@ fn instruction(author: &Author<'_>, id: &str, code: u8) -> Vec<Check> {
         Packet::Instruction { id: 1, instruction: code, params }
     };
     let requirement = "dynamixel2.packet.layout";
-    let codes = match code {
-        0x20 | 0x8A | 0x8B => "ja40.instruction.codes", // in no table of the DYNAMIXEL document
-        _ => "dynamixel2.packet.instruction.codes",
+    let judged = |params: &[u8], check| match unasked(code, params.len()) {
+        Some(what) => recorded(check, what),
+        None => check,
     };
-    let without = author.both_ways(id, codes, &packet(&[]));
-    let with = author.both_ways(&format!("{id}-with-params"), requirement, &packet(&[1, 2, 3]));
-    without.into_iter().chain(with).collect()
+    let without = author.both_ways(id, codes_of(code), &packet(&[]));
+    let without = without.into_iter().map(|check| judged(&[], check));
+    let params = [1, 2, 3];
+    let with = author.both_ways(&format!("{id}-with-params"), requirement, &packet(&params));
+    without.chain(with.into_iter().map(|check| judged(&params, check))).collect()
 }
 
 fn error_bytes(author: Author<'_>) -> impl Iterator<Item = Group<'_>> {
@@ -221,24 +285,6 @@ fn error_bytes(author: Author<'_>) -> impl Iterator<Item = Group<'_>> {
             author.both_ways(id, "dynamixel2.status-packet.error.fields", &packet)
         })
     })
-}
-
-fn ids(author: Author<'_>) -> impl Iterator<Item = Group<'_>> {
-    let pings = (0..=252).chain([BROADCAST]).map(move |id| {
-        let stem = format!("dynamixel2.id.{id}.ping");
-        Group::new(stem, &BOTH_WAYS, move |stem| {
-            let ping = Packet::Instruction { id, instruction: 0x01, params: Vec::new().into() };
-            author.both_ways(stem, "dynamixel2.packet.id.range", &ping)
-        })
-    });
-    let statuses = (0..=252).map(move |id| {
-        let stem = format!("dynamixel2.id.{id}.status");
-        Group::new(stem, &BOTH_WAYS, move |stem| {
-            let status = Packet::Status { id, error: 0, params: vec![0x2A].into() };
-            author.both_ways(stem, "dynamixel2.status-packet.layout", &status)
-        })
-    });
-    pings.chain(statuses)
 }
 
 /// Data lengths, beyond [`LENGTHS`], around the largest packet that a subject takes: a Write one
@@ -281,7 +327,11 @@ fn of_length(author: &Author<'_>, id: &str, length: usize) -> Vec<Check> {
         let params = [&REGISTER, data.as_slice()].concat();
         let write = Packet::Instruction { id: 1, instruction: 0x03, params: params.into() };
         let status = Packet::Status { id: 1, error: 0, params: data.into() };
-        checks.extend(author.both_ways(&format!("{id}.{name}.write"), requirement, &write));
+        let writes = author.both_ways(&format!("{id}.{name}.write"), requirement, &write);
+        checks.extend(writes.into_iter().map(|check| match length {
+            0 => recorded(check, NO_DATA),
+            _ => check,
+        }));
         checks.extend(author.both_ways(&format!("{id}.{name}.status"), of_status, &status));
     }
     checks

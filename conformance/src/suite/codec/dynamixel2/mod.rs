@@ -1,7 +1,8 @@
 //! Checks of DYNAMIXEL Protocol 2.0 and its JA dialect.
 //!
 //! - golden: the test vectors;
-//! - exhaustive: every case of small sets, such as short bodies and all IDs;
+//! - exhaustive: every case of small sets, such as short bodies and all instructions;
+//! - ids: every ID;
 //! - instructions: single instructions and their answers;
 //! - fast: fast status packets, which answer several devices' requests at once;
 //! - negative: packets that break one rule of the receive procedure;
@@ -13,6 +14,7 @@ mod exhaustive;
 mod fast;
 pub(crate) mod generated;
 pub(super) mod golden;
+mod ids;
 mod instructions;
 mod negative;
 mod streams;
@@ -22,13 +24,17 @@ use actucheck_spec::Spec;
 use actucheck_spec::wire::dynamixel2::Packet;
 
 use crate::adapter::{Called, Output, Question};
-use crate::suite::check::{Check, Demand};
+use crate::suite::check::{Check, Demand, Unspecified, Way};
 use crate::suite::plan::Family;
 use crate::suite::{Author, Options};
+
+/// What the checks of a packet are called.
+const BOTH_WAYS: [&str; 2] = ["/encode", "/decode"];
 
 pub(super) fn families<'a>(author: Author<'a>, options: &Options) -> Vec<Family<'a>> {
     let mut families = vec![golden::family(author)];
     families.extend(exhaustive::families(author, options));
+    families.extend(ids::families(author));
     families.push(Family::of("", move || instructions::checks(&author)));
     families.extend(fast::families(author));
     families.push(negative::family(author));
@@ -60,6 +66,21 @@ impl Author<'_> {
             ),
         ]
     }
+}
+
+/// The same check, but no sentence demands that such a packet is built or read. So the answer is
+/// recorded.
+fn recorded(check: Check, what: &str) -> Check {
+    let Demand::Yield(output) = check.demand else { return check };
+    let (asked, way) = match check.question {
+        Question::Encode { .. } => ("built", "builds it"),
+        Question::Decode { .. } => ("read", "reads it"),
+        Question::Stream { .. } => ("found in a stream", "finds it"),
+        _ => ("taken", "takes it"),
+    };
+    let question = format!("Is {what} {asked}?");
+    let ways = vec![Way { name: way.to_owned(), output }];
+    Check { demand: Demand::Record(Unspecified { question, ways }), ..check }
 }
 
 /// The requirement on a receiver that corresponds to one on a sender.

@@ -12,7 +12,7 @@ use crate::suite::{Author, hex};
 
 pub(super) fn checks(author: &Author<'_>) -> Vec<Check> {
     let mut checks = bare_patterns(author);
-    checks.extend(ids(author));
+    checks.push(broadcast(author));
     checks.extend(repeated_ids(author));
     checks.extend(two_faults(author));
     checks
@@ -76,39 +76,14 @@ fn bare_patterns(author: &Author<'_>) -> Vec<Check> {
     checks
 }
 
-/// IDs that no device may have, and the broadcast ID on a status packet.
-fn ids(author: &Author<'_>) -> Vec<Check> {
-    let mut checks = Vec::new();
-    for id in [253, 255, BROADCAST] {
-        let (question, requirement) = match id {
-            BROADCAST => {
-                let question =
-                    "Is a status packet with ID 254 read where no fast one is asked for?";
-                (question.to_owned(), "dynamixel2.status-packet.layout")
-            }
-            id => (format!("Is a packet with ID {id} accepted?"), "dynamixel2.receive.id"),
-        };
-        let packet = status(id, &[0x2A]);
-        let frame = reference::frame(id, &[STATUS, 0, 0x2A]);
-        let ways = open(&question, [("accepts it", Output::Packet(packet.into()))]);
-        let name = format!("id.{id}.status");
-        checks.push(record(author, &name, requirement, decode(author, frame), ways));
-        if id == BROADCAST {
-            continue;
-        }
-        let ping = Packet::Instruction { id, instruction: 0x01, params: HexBytes::default() };
-        let frame = reference::frame(id, &[0x01]);
-        let question = format!("Is a packet with ID {id} built?");
-        let ways = open(&question, [("builds it", Output::Bytes(frame.into()))]);
-        checks.push(record(
-            author,
-            &format!("id.{id}.ping"),
-            requirement,
-            encode(author, ping),
-            ways,
-        ));
-    }
-    checks
+/// A status packet from the broadcast ID.
+fn broadcast(author: &Author<'_>) -> Check {
+    let question = "Is a status packet with ID 254 read where no fast one is asked for?";
+    let packet = status(BROADCAST, &[0x2A]);
+    let frame = reference::frame(BROADCAST, &[STATUS, 0, 0x2A]);
+    let ways = open(question, [("accepts it", Output::Packet(packet.into()))]);
+    let requirement = "dynamixel2.status-packet.layout";
+    record(author, "id.254.status", requirement, decode(author, frame), ways)
 }
 
 fn encode(author: &Author<'_>, packet: Packet) -> Question {

@@ -62,10 +62,11 @@ pub fn frame(id: u8, body: &[u8]) -> Vec<u8> {
     frame
 }
 
-/// The bytes of a packet; `None` if it is too long for its length field.
+/// The bytes of a packet; `None` if it is too long for its length field, or no packet may have its ID.
 #[must_use]
 pub fn encode(packet: &Packet) -> Option<Vec<u8>> {
-    let fitting = |id, body: &[u8]| (body.len() + 2 <= 0xFFFF).then(|| frame(id, body));
+    let fitting =
+        |id, body: &[u8]| (is_id(id) && body.len() + 2 <= 0xFFFF).then(|| frame(id, body));
     match packet {
         Packet::Instruction { id, instruction, params } => {
             fitting(*id, &stuff(&[&[*instruction], params.0.as_slice()].concat()))
@@ -155,7 +156,7 @@ fn body(bytes: &[u8]) -> Result<(u8, &[u8]), Fault> {
         return Err(Fault::Header);
     }
     let [_, _, _, _, id, low, high, ..] = *bytes else { return Err(Fault::Truncated) };
-    if id > 252 && id != BROADCAST {
+    if !is_id(id) {
         return Err(Fault::Id);
     }
     let length = usize::from(u16::from_le_bytes([low, high]));
@@ -176,15 +177,16 @@ fn body(bytes: &[u8]) -> Result<(u8, &[u8]), Fault> {
     Ok((id, before.get(PREFIX..).unwrap_or_default()))
 }
 
-/// Whether the documents leave unspecified if a frame is a packet: a bare pattern, an ID that no
-/// device may have, or a status packet from the broadcast ID where no fast status packet is asked
-/// for.
+/// Whether a packet may have this ID.
+fn is_id(id: u8) -> bool {
+    id <= 252 || id == BROADCAST
+}
+
+/// Whether the documents leave unspecified if a frame is a packet: a bare pattern, or a status packet
+/// from the broadcast ID where no fast status packet is asked for.
 #[must_use]
 pub fn is_unspecified(bytes: &[u8]) -> bool {
-    matches!(
-        decode(bytes),
-        Err(Fault::Stuffing | Fault::Id) | Ok(Packet::Status { id: BROADCAST, .. })
-    )
+    matches!(decode(bytes), Err(Fault::Stuffing) | Ok(Packet::Status { id: BROADCAST, .. }))
 }
 
 /// The part of a whole frame that the byte at `offset` belongs to.
