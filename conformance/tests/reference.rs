@@ -86,6 +86,8 @@ impl Subject for Model {
             Question::Stream { chunks, direction, .. } => {
                 Ok(Output::Packets(wire.stream(chunks, *direction)))
             }
+            // No check asks it yet.
+            Question::Value { .. } => Err(Fault::Parameter),
         };
         answer.map_or_else(
             |class| Answer::Rejected(Rejection { class, detail: String::new() }),

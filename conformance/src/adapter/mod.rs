@@ -6,6 +6,7 @@ pub mod lint;
 mod process;
 mod requests;
 mod trace;
+mod value;
 
 use std::time::Duration;
 
@@ -14,6 +15,7 @@ pub use requests::{
     Wire,
 };
 pub use trace::Trace;
+pub use value::{CommandOf, Given, Owner, RegisterOf};
 
 /// Time limits of an adapter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

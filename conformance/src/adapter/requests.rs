@@ -4,10 +4,12 @@
 use std::fmt;
 
 use actucheck_spec::model::{Fault, HexBytes, Role};
-use actucheck_spec::wire::{Call, Context, Direction, Packet};
+use actucheck_spec::wire::{self, Call, Context, Direction, Form, Number, Packet};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+
+use super::value::{Given, Owner};
 
 /// The newest version of the adapter protocol.
 pub const VERSION: u32 = 2;
@@ -100,6 +102,20 @@ pub enum Question {
         #[serde(alias = "kind", skip_serializing_if = "Option::is_none")]
         direction: Option<Direction>,
     },
+    /// The meaning of the bytes of a register or of a command, or the bytes of a meaning.
+    Value {
+        /// The wire.
+        wire: Wire,
+        /// What has the value.
+        #[serde(flatten)]
+        owner: Owner,
+        /// The form of the value.
+        #[serde(flatten)]
+        form: Form,
+        /// What is given. The rest is the answer.
+        #[serde(flatten)]
+        given: Given,
+    },
 }
 
 impl Question {
@@ -113,6 +129,7 @@ impl Question {
             Self::Encode { .. } => "encode",
             Self::Decode { .. } => "decode",
             Self::Stream { .. } => "stream",
+            Self::Value { .. } => "value",
         }
     }
 
@@ -144,7 +161,10 @@ impl Question {
             Self::Encode { packet, .. } => Some(packet.packet.direction()),
             Self::Decode { context, .. } => context.direction,
             Self::Stream { direction, .. } => *direction,
-            Self::Crc { .. } | Self::Stuff { .. } | Self::Unstuff { .. } => None,
+            Self::Value { owner: Owner::Command(of), .. } => Some(of.direction),
+            Self::Value { .. } | Self::Crc { .. } | Self::Stuff { .. } | Self::Unstuff { .. } => {
+                None
+            }
         }
     }
 
@@ -152,7 +172,8 @@ impl Question {
     /// replies and reads requests. `None` if both do.
     #[must_use]
     pub fn role(&self) -> Option<Role> {
-        let builds = matches!(self, Self::Encode { .. });
+        let builds =
+            matches!(self, Self::Encode { .. } | Self::Value { given: Given::Value(_), .. });
         self.direction().map(|direction| match (direction, builds) {
             (Direction::Request, true) | (Direction::Reply, false) => Role::Host,
             (Direction::Request, false) | (Direction::Reply, true) => Role::Device,
@@ -168,7 +189,8 @@ impl Question {
             | Self::Unstuff { wire, .. }
             | Self::Encode { wire, .. }
             | Self::Decode { wire, .. }
-            | Self::Stream { wire, .. } => *wire,
+            | Self::Stream { wire, .. }
+            | Self::Value { wire, .. } => *wire,
         }
     }
 }
@@ -295,18 +317,29 @@ pub struct Rejection {
 pub enum Output {
     /// Of `crc`.
     Crc(u64),
-    /// Of `stuff`, `unstuff` and `encode`.
+    /// Of `stuff`, `unstuff` and `encode`, and of `value` if the meaning is given.
     Bytes(HexBytes),
     /// Of `decode`.
     Packet(Packet),
     /// Of `stream`.
     Packets(Vec<Packet>),
+    /// Of `value` if the bytes are given.
+    Value(wire::Value),
 }
 
 impl Output {
     /// Of `stream`, the packets of one wire.
     pub fn packets<P: Into<Packet>>(packets: impl IntoIterator<Item = P>) -> Self {
         Self::Packets(packets.into_iter().map(Into::into).collect())
+    }
+
+    /// Whether it is the same as `other`, except that numbers may be less than `within` apart.
+    #[must_use]
+    pub fn is_near(&self, other: &Self, within: Number) -> bool {
+        match (self, other) {
+            (Self::Value(value), Self::Value(other)) => value.is_near(other, within),
+            _ => self == other,
+        }
     }
 
     /// Reads the `ok` object of a reply to `op`.
@@ -330,7 +363,19 @@ impl Output {
         struct Many {
             packets: Vec<Packet>,
         }
+        #[derive(Deserialize)]
+        #[serde(deny_unknown_fields)]
+        struct Meaning {
+            value: wire::Value,
+        }
         Ok(match op {
+            Question::Value { form, given: Given::Bytes(_), .. } => {
+                let Meaning { value } = serde_json::from_value(ok)?;
+                if !form.fits(&value) {
+                    return Err(serde::de::Error::custom(format!("`value` must have {form}")));
+                }
+                Self::Value(value)
+            }
             Question::Crc { .. } => Self::Crc(serde_json::from_value::<Crc>(ok)?.crc),
             Question::Decode { .. } => Self::Packet(serde_json::from_value::<One>(ok)?.packet),
             Question::Stream { .. } => Self::Packets(serde_json::from_value::<Many>(ok)?.packets),
@@ -347,6 +392,7 @@ impl fmt::Display for Output {
             Self::Bytes(bytes) => bytes.fmt(f),
             Self::Packet(packet) => f.write_str(&json(packet)?),
             Self::Packets(packets) => f.write_str(&json(packets)?),
+            Self::Value(value) => f.write_str(&json(value)?),
         }
     }
 }

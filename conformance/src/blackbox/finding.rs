@@ -125,6 +125,7 @@ fn difference(expected: Option<&Output>, actual: Option<&Output>) -> &'static st
             }
         }
         (Some(Output::Crc(_)), _) => "CRC",
+        (Some(Output::Value(_)), _) => "value",
         _ => "kind of answer",
     }
 }

@@ -58,7 +58,7 @@ pub fn check(spec: &Spec, check: &Check, out: &mut dyn Write) -> io::Result<()> 
     writeln!(out, "  {:9} {DIM}{}{DIM:#}", "packet of", spec.place(&check.source))?;
     writeln!(out, "  {:9} {}", "request", check.question)?;
     let (outputs, reject) = match &check.demand {
-        Demand::Yield(output) => (std::slice::from_ref(output), None),
+        Demand::Yield(output) | Demand::Near { output, .. } => (std::slice::from_ref(output), None),
         Demand::YieldOneOf(outputs) => (outputs.as_slice(), None),
         Demand::Reject(fault) => (&[][..], Some(format!("a rejection ({fault})"))),
         Demand::Record(open) => return question(open, out),

@@ -1,6 +1,7 @@
 //! One question to a subject, and the verdict on its answer.
 
 use actucheck_spec::model::{Citation, Fault, Level};
+use actucheck_spec::wire::Number;
 use serde::{Deserialize, Serialize};
 
 use crate::adapter::{Output, Question, Rejection};
@@ -37,6 +38,13 @@ pub struct Check {
 pub enum Demand {
     /// Exactly this output.
     Yield(Output),
+    /// This output, in which a number may be less than `within` away.
+    Near {
+        /// The output.
+        output: Output,
+        /// The tolerance.
+        within: Number,
+    },
     /// One of these outputs.
     YieldOneOf(Vec<Output>),
     /// A rejection. A rejection for another reason gets a warning, one without a reason does not.
@@ -173,7 +181,7 @@ impl Check {
 
     fn expected(&self) -> Option<&Output> {
         match &self.demand {
-            Demand::Yield(output) => Some(output),
+            Demand::Yield(output) | Demand::Near { output, .. } => Some(output),
             Demand::YieldOneOf(outputs) => outputs.first(),
             Demand::Record(open) => open.ways.first().map(|way| &way.output),
             Demand::Reject(_) => None,
@@ -183,6 +191,7 @@ impl Check {
     fn judge_output(&self, actual: Output) -> (Verdict, String, Option<Output>) {
         let right = match &self.demand {
             Demand::Yield(expected) => *expected == actual,
+            Demand::Near { output, within } => output.is_near(&actual, *within),
             Demand::YieldOneOf(outputs) => outputs.contains(&actual),
             Demand::Reject(_) | Demand::Record(_) => false,
         };
@@ -202,7 +211,7 @@ impl Check {
             return (Verdict::Fail, format!("broke down: {detail}"), None);
         }
         match &self.demand {
-            Demand::Yield(_) | Demand::YieldOneOf(_) | Demand::Record(_) => {
+            Demand::Yield(_) | Demand::Near { .. } | Demand::YieldOneOf(_) | Demand::Record(_) => {
                 (Verdict::Fail, format!("rejected ({class}: {detail}), but is valid"), None)
             }
             Demand::Reject(fault) if fault == class || *class == Fault::Unspecified => {

@@ -10,6 +10,7 @@ mod handle;
 pub mod innfos;
 mod packet;
 mod rules;
+mod value;
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -19,6 +20,7 @@ pub use context::{Context, Direction, Fast};
 pub use handle::Wire;
 pub use packet::Fields;
 pub use rules::{Ask, Cited, Rules};
+pub use value::{Form, NotFinite, Number, Value};
 
 use crate::load::{File, Reader};
 

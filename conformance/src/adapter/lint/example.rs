@@ -54,7 +54,7 @@ impl Example {
 
     fn of(check: &Check, name: &'static str) -> Self {
         let right = match &check.demand {
-            Demand::Yield(output) => vec![output.clone()],
+            Demand::Yield(output) | Demand::Near { output, .. } => vec![output.clone()],
             Demand::YieldOneOf(outputs) => outputs.clone(),
             Demand::Record(open) => open.ways.iter().map(|way| way.output.clone()).collect(),
             Demand::Reject(_) => Vec::new(),

@@ -1,5 +1,7 @@
 //! The codec's DYNAMIXEL Protocol 2.0.
 
+mod value;
+
 use actucheck_codec::crc;
 use actucheck_codec::dynamixel2::fast_status::{self, Block};
 use actucheck_codec::dynamixel2::status::{self, StatusError};
@@ -11,7 +13,7 @@ use actucheck_spec::wire::dynamixel2::{self, Packet};
 use actucheck_spec::wire::{self, Fast};
 
 use super::{Answer, Result, answer, not_offered, output, rejection, unbuilt};
-use crate::adapter::{Output, Question, Rejection};
+use crate::adapter::{Output, Owner, Question, Rejection};
 
 /// The codec's answer to a question.
 pub(super) fn ask(question: &Question, buffer: &mut Vec<u8>) -> Answer {
@@ -25,6 +27,10 @@ pub(super) fn ask(question: &Question, buffer: &mut Vec<u8>) -> Answer {
             Some(fast) => decode_fast(bytes, fast),
         },
         Question::Stream { chunks, .. } => Ok(stream(chunks)),
+        Question::Value { owner: Owner::Register(of), form, given, .. } => {
+            value::ask(of, form, given)
+        }
+        Question::Value { .. } => Err(not_offered()),
     })
 }
 

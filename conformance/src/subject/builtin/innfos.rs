@@ -1,5 +1,7 @@
 //! The codec's INNFOS Ethernet protocol.
 
+mod value;
+
 use actucheck_codec::crc;
 use actucheck_codec::innfos::{self, Command, Frame, FrameError};
 use actucheck_spec::model::{Fault, HexBytes};
@@ -7,7 +9,7 @@ use actucheck_spec::wire::innfos::Packet;
 use actucheck_spec::wire::{self, Context, Direction};
 
 use super::{Answer, Result, answer, not_offered, output, rejection, unbuilt};
-use crate::adapter::{Output, Question};
+use crate::adapter::{Output, Owner, Question};
 
 /// The codec's answer to a question.
 pub(super) fn ask(question: &Question, buffer: &mut [u8]) -> Answer {
@@ -20,6 +22,7 @@ pub(super) fn ask(question: &Question, buffer: &mut [u8]) -> Answer {
         Question::Stream { chunks, direction: Some(direction), .. } => {
             Ok(stream(*direction, chunks))
         }
+        Question::Value { owner: Owner::Command(of), given, .. } => value::ask(of, given),
         _ => return Answer::Skipped(format!("the codec has no {}", question.name())),
     })
 }

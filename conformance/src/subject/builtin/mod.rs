@@ -45,7 +45,7 @@ impl Default for Builtin {
                 url: None,
             },
             wires: WIRES.map(|(wire, _)| wire.id().to_owned()).to_vec(),
-            ops: ["crc", "stuff", "unstuff", "encode", "decode", "stream"]
+            ops: ["crc", "stuff", "unstuff", "encode", "decode", "stream", "value"]
                 .map(str::to_owned)
                 .to_vec(),
             roles: vec![Role::Host, Role::Device],
@@ -97,6 +97,12 @@ fn unbuilt(error: &EncodeError) -> Rejection {
         EncodeError::DataLength { .. } => Fault::Parameter,
     };
     rejection(class, error)
+}
+
+/// The bytes do not have the size of the value, or the value is not one of the register's or the
+/// command's.
+fn not_fitting() -> Rejection {
+    rejection(Fault::Parameter, &"the value does not fit")
 }
 
 /// A packet of another wire.

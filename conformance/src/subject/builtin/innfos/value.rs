@@ -1,0 +1,67 @@
+//! The values of the codec's commands.
+
+use actucheck_codec::innfos::{
+    ACTUATORS, Actuator, Alarms, Command, DD_6010, Flag, Format, Mode, Value as Own,
+};
+use actucheck_spec::wire::Value;
+
+use super::super::{not_fitting, output};
+use super::Result;
+use crate::adapter::{CommandOf, Given, Output};
+
+/// What the two flags are called.
+const FLAGS: [(&str, Flag); 2] = [("no", Flag::NO), ("yes", Flag::YES)];
+
+/// The codec's answer to the op `value`.
+pub(super) fn ask(of: &CommandOf, given: &Given) -> Result {
+    let command = Command::from_code(of.command);
+    // Without a model in the question, no full scale matters.
+    let named = |actuator: &Actuator| of.actuator.as_deref() == Some(actuator.name);
+    let actuator = ACTUATORS.into_iter().find(named).unwrap_or(DD_6010);
+    let answer = command.row().and_then(|row| row.format).and_then(|format| match given {
+        Given::Bytes(bytes) => {
+            let value = Own::decode(format, bytes)?;
+            meaning(command, &actuator, value).map(Output::Value)
+        }
+        Given::Value(value) => {
+            let value = own(command, &actuator, format, value)?;
+            Some(output(value.encode().as_bytes()))
+        }
+    });
+    answer.ok_or_else(not_fitting)
+}
+
+/// What a value of the codec means.
+fn meaning(command: Command, actuator: &Actuator, value: Own) -> Option<Value> {
+    Some(match value {
+        Own::Flag(flag) => {
+            let (name, _) = FLAGS.into_iter().find(|(_, named)| *named == flag)?;
+            Value::Name(name.to_owned())
+        }
+        Own::Mode(Mode::Unknown(_)) | Own::Mac(_) => return None,
+        Own::Mode(mode) => Value::Name(mode.name().to_owned()),
+        Own::Alarms(alarms) => Value::Flags(alarms.names().map(str::to_owned).collect()),
+        Own::Iq8(_) | Own::Iq24(_) | Own::Scaled(_) => {
+            Value::Number(command.physical(value, actuator)?.try_into().ok()?)
+        }
+    })
+}
+
+/// The codec's value that means this.
+fn own(command: Command, actuator: &Actuator, format: Format, value: &Value) -> Option<Own> {
+    match (format, value) {
+        (Format::Flag, Value::Name(name)) => {
+            FLAGS.into_iter().find(|(named, _)| named == name).map(|(_, flag)| Own::Flag(flag))
+        }
+        (Format::Mode, Value::Name(name)) => {
+            Mode::ALL.into_iter().find(|mode| mode.name() == name).map(Own::Mode)
+        }
+        (Format::Alarms, Value::Flags(flags)) => {
+            let bits = (0..u16::BITS).map(|bit| Alarms(1 << bit));
+            let set = |alarm: &Alarms| alarm.names().any(|name| flags.contains(name));
+            Some(Own::Alarms(Alarms(bits.filter(set).map(|alarm| alarm.0).sum())))
+        }
+        (_, Value::Number(number)) => command.from_physical((*number).into(), actuator),
+        _ => None,
+    }
+}
