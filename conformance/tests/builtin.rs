@@ -53,7 +53,7 @@ fn failed_ops(outcomes: &[Outcome]) -> BTreeSet<&'static str> {
 }
 
 #[test]
-fn the_builtin_codec_passes_every_golden_vector() {
+fn the_builtin_codec_passes_every_test_vector() {
     let outcomes = outcomes(|_, answer| answer);
     let bad: Vec<_> = outcomes
         .iter()

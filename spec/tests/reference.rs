@@ -10,7 +10,7 @@ use actucheck_spec::wire::dynamixel2::{Packet, reference};
 use actucheck_spec::wire::{self, Call, Wire};
 
 #[test]
-fn every_golden_vector_is_built_read_or_rejected_as_it_says() {
+fn every_test_vector_is_built_read_or_rejected_as_it_says() {
     let spec = Spec::embedded().unwrap();
     for wire in Wire::ALL {
         let mut seen = 0;

@@ -120,7 +120,7 @@ impl<'a> Frame<'a> {
     }
 
     /// Writes the parameters without stuffing to `buffer`; returns them. The bytes after them in
-    /// `buffer` are overwritten.With 128 bytes of room it is fastest: short packets are then copied
+    /// `buffer` are overwritten. With 128 bytes of room it is fastest: short packets are then copied
     /// by moves of a fixed size.
     ///
     /// # Errors

@@ -1,6 +1,7 @@
 use super::{
     BROADCAST_ADDRESS, CRC_LOW_BYTE_FIRST, Command, FrameError, HEADER, LENGTH_LOW_BYTE_FIRST,
-    LENGTH_SIZE, MAX_ADDRESS, MIN_ADDRESS, OPEN_REPLIES, REPLY_CRC_FROM, REQUEST_CRC_FROM, TAIL,
+    LENGTH_SIZE, MAX_ADDRESS, MIN_ADDRESS, OPTIONAL_CRC_REPLIES, REPLY_CRC_FROM, REQUEST_CRC_FROM,
+    TAIL,
 };
 use crate::{BufferTooSmall, EncodeError, crc};
 
@@ -156,7 +157,7 @@ fn has_optional_crc(direction: Direction, command: u8, length: usize) -> bool {
     direction == Direction::Reply
         && length > 0
         && !has_crc(direction, length)
-        && OPEN_REPLIES.contains(&command)
+        && OPTIONAL_CRC_REPLIES.contains(&command)
 }
 
 /// The size of a frame with this many bytes of data.

@@ -9,7 +9,7 @@ use crate::simd;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Verdict {
     /// More bytes are needed to decide.
-    Open,
+    Incomplete,
     /// Not a packet, whatever follows.
     False(Reason),
     /// All bytes have arrived, and all rules hold except that of the CRC, which is not checked yet.
@@ -56,7 +56,8 @@ impl Progress {
     #[inline]
     pub(super) fn judge(&mut self, bytes: &[u8], max_packet: usize) -> Verdict {
         let Some(&prefix) = bytes.first_chunk() else {
-            return Header::check_start(bytes).map_or_else(Verdict::broken, |()| Verdict::Open);
+            return Header::check_start(bytes)
+                .map_or_else(Verdict::broken, |()| Verdict::Incomplete);
         };
         let header = match Header::check(prefix) {
             Ok(header) => header,
@@ -67,7 +68,7 @@ impl Progress {
             return Verdict::False(Reason::Oversize);
         }
         let Some(&instruction) = bytes.get(PREFIX) else {
-            return Verdict::Open;
+            return Verdict::Incomplete;
         };
         let fast = header.is_fast(instruction);
         let room = if fast { header.check_fast() } else { header.check_instruction(instruction) };
@@ -78,7 +79,7 @@ impl Progress {
             return Verdict::False(Reason::Stuffing);
         }
         if bytes.len() < len {
-            return Verdict::Open;
+            return Verdict::Incomplete;
         }
         Verdict::Whole(Whole { len, patterns: self.patterns, fast })
     }

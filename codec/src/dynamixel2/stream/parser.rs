@@ -229,8 +229,8 @@ impl<const BLOCKS: usize> Parser<BLOCKS> {
             Verdict::Whole(whole) if self.crc_matches(whole) => return Some(whole),
             Verdict::Whole(_) => self.begin_run(Reason::Crc),
             Verdict::False(reason) => self.begin_run(reason),
-            Verdict::Open if self.quiet => self.begin_run(Reason::Truncated),
-            Verdict::Open => self.progress = progress,
+            Verdict::Incomplete if self.quiet => self.begin_run(Reason::Truncated),
+            Verdict::Incomplete => self.progress = progress,
         }
         None
     }

@@ -38,7 +38,7 @@ fn constants_of(innfos: &Innfos) -> TokenStream {
         (constants::length(&framing.length, &framing_source), constants::crc(&innfos.crc));
     let (request, reply) = (usize::from(presence.request), usize::from(presence.reply));
     let presence_source = format!(" {}.", places(&presence.source));
-    let open = presence.open.iter().map(|code| hex8(*code));
+    let optional = presence.open.iter().map(|code| hex8(*code));
     let count = presence.open.len();
     let (board, everyone) = (udp.address.octets(), udp.broadcast.octets());
     let port = Literal::u16_unsuffixed(udp.port);
@@ -69,7 +69,7 @@ fn constants_of(innfos: &Innfos) -> TokenStream {
         /// The commands whose shorter replies may have a CRC, or zeros in its place.
         ///
         #[doc = #presence_source]
-        pub const OPEN_REPLIES: [u8; #count] = [#(#open),*];
+        pub const OPTIONAL_CRC_REPLIES: [u8; #count] = [#(#optional),*];
         /// The board's IPv4 address as delivered.
         ///
         #[doc = #udp_source]

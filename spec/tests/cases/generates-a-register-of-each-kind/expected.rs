@@ -220,7 +220,7 @@ pub mod innfos {
     /// The commands whose shorter replies may have a CRC, or zeros in its place.
     ///
     /// book §2.
-    pub const OPEN_REPLIES: [u8; 0usize] = [];
+    pub const OPTIONAL_CRC_REPLIES: [u8; 0usize] = [];
     /// The board's IPv4 address as delivered.
     ///
     /// book §2.

@@ -3,8 +3,8 @@
 use crate::wire::Direction;
 use crate::wire::innfos::{Innfos, Packet};
 
-/// The frames that the packet may have on the wire: one, or several where it is open whether a
-/// CRC belongs into it.
+/// The frames that the packet may have on the wire: one, or several where its CRC is
+/// optional.
 pub(in crate::wire::innfos) fn frames(innfos: &Innfos, packet: &Packet) -> Vec<Vec<u8>> {
     let presence = &innfos.crc_presence;
     let Packet { direction, address, command, data } = packet;
