@@ -7,19 +7,20 @@ mod device;
 mod document;
 mod erratum;
 mod framing;
+mod register;
 mod requirement;
 mod sentence;
 mod vector;
 
 pub use bytes::HexBytes;
 pub use citation::Citation;
-pub use device::{
-    Access, Alarm, Area, BitField, Bound, Condition, Device, Meaning, NamedValue, Range, Register,
-    Type, Unit,
-};
+pub use device::{Alarm, Condition, Device};
 pub use document::{Document, DocumentsFile};
 pub use erratum::{ErrataFile, Erratum, Proof, ProofKind, Status};
 pub use framing::{ByteOrder, Crc, Id, Length};
+pub use register::{
+    Access, Area, BitField, Bound, Meaning, NamedValue, Range, Register, Type, Unit,
+};
 pub use requirement::{CheckedBy, Level, Requirement, RequirementsFile, Role};
 pub use sentence::{NO_DEMAND, Section, Sentence, SentencesFile};
 pub use vector::{Fault, Outcome, Vector, VectorsFile};

@@ -1,16 +1,17 @@
 //! One frame of DYNAMIXEL Protocol 2.0, field by field.
 
-use std::fmt::Write as _;
+mod body;
+mod words;
 
-use actucheck_codec::dynamixel2::{
-    BROADCAST_ID, FastStatus, Frame, FrameError, Instruction, StatusError,
-};
+use actucheck_codec::dynamixel2::{BROADCAST_ID, FastStatus, Frame, FrameError, Instruction};
 use actucheck_codec::layout::{self, Item};
-use actucheck_codec::register::{Device, NamedValue, Row as Register, Unit};
+use actucheck_codec::register::{Device, NamedValue};
 use actucheck_spec::wire::Fast;
 
-use super::table::{Explanation, Table, low_first, rounded};
+use super::table::{Explanation, Table, low_first};
 use super::{Asked, Invalid};
+use body::WireBody;
+use words::{error_words, numbers, value_words, whom};
 
 /// Bytes of header, ID and length.
 const PREFIX: usize = 7;
@@ -76,51 +77,6 @@ fn prefix(table: &mut Table<'_>, id: u8) {
 
 fn crc(table: &mut Table<'_>) {
     table.take_last(2, "CRC", |bytes| format!("{:#06X}, right", low_first(bytes)));
-}
-
-/// Maps the bytes of an unstuffed body to their places in the frame.
-struct WireBody<'a> {
-    plain: &'a [u8],
-    /// The place in the frame of each byte of `plain`, and of its end.
-    places: Vec<usize>,
-}
-
-impl<'a> WireBody<'a> {
-    fn of(stuffed_params: &[u8], plain: &'a [u8]) -> Self {
-        let end = PREFIX + 1 + stuffed_params.len();
-        let mut places = vec![PREFIX];
-        let mut at = PREFIX + 1;
-        let seen = |count: usize| plain.get(..count).unwrap_or_default();
-        for count in 1..plain.len() {
-            // A stuffing byte follows every pattern.
-            if seen(count).ends_with(&[0xFF, 0xFF, 0xFD]) {
-                at += 1;
-            }
-            places.push(at);
-            at += 1;
-        }
-        places.push(end);
-        Self { plain, places }
-    }
-
-    fn place(&self, index: usize) -> usize {
-        self.places.get(index).or(self.places.last()).copied().unwrap_or(PREFIX)
-    }
-
-    /// The bytes from `start` up to `end` with the stuffing that follows each.
-    fn text(&self, start: usize, end: usize) -> String {
-        let bytes = self.plain.get(start..end).unwrap_or_default();
-        let words: Vec<_> = bytes
-            .iter()
-            .enumerate()
-            .map(|(index, byte)| {
-                let at = start + index;
-                let stuffed = self.place(at + 1) - self.place(at) > 1;
-                format!("{byte:02x}{}", if stuffed { " (fd)" } else { "" })
-            })
-            .collect();
-        words.join(" ")
-    }
 }
 
 fn instruction_params(
@@ -245,59 +201,4 @@ fn data(
         let text = wire.text(start + next, start + bytes.len());
         table.push(wire.place(start + next), text, name, "no whole register");
     }
-}
-
-/// `Goal Position = 2000 (2000 count)`, with the names of the value or of its bits.
-fn value_words(register: &Register, value: i64) -> String {
-    let mut words = format!("{} = {value}", register.name);
-    let mut notes = Vec::new();
-    notes.extend(register.value_name(value).map(str::to_owned));
-    let physical = |unit: Unit| {
-        // Registers have 32 bits at most, which a double holds exactly.
-        #[allow(clippy::cast_precision_loss)]
-        let physical = value as f64 * unit.factor;
-        format!("{} {}", rounded(physical), unit.symbol)
-    };
-    notes.extend(register.unit.map(physical));
-    notes.extend(register.meanings.iter().filter_map(|meaning| {
-        Some(format!("{} while {}", physical(meaning.unit?), meaning.when.words))
-    }));
-    for field in register.bits {
-        let part = field.of(value);
-        let named = field.values.iter().find(|row| row.value == part);
-        match named {
-            Some(row) => notes.push(format!("{}: {}", field.name, row.name)),
-            None if part != 0 => notes.push(field.name.to_owned()),
-            None => {}
-        }
-    }
-    if !notes.is_empty() {
-        // Writing to a string can't fail.
-        let _ = write!(words, " ({})", notes.join(", "));
-    }
-    words
-}
-
-/// 1, 2 or 4 bytes as an unsigned and a signed number.
-fn numbers(bytes: &[u8]) -> String {
-    let (unsigned, signed) = match *bytes {
-        [a] => (u32::from(a), i32::from(i8::from_le_bytes([a]))),
-        [a, b] => (u16::from_le_bytes([a, b]).into(), i16::from_le_bytes([a, b]).into()),
-        [a, b, c, d] => (u32::from_le_bytes([a, b, c, d]), i32::from_le_bytes([a, b, c, d])),
-        _ => return String::new(),
-    };
-    if signed < 0 { format!("{unsigned} or {signed}") } else { unsigned.to_string() }
-}
-
-fn error_words(error: StatusError) -> String {
-    let number = error.number();
-    let name = match number.code() {
-        0 => "no error".to_owned(),
-        code => format!("{} ({code})", number.name()),
-    };
-    if error.alert() { format!("{name}, hardware alert") } else { name }
-}
-
-fn whom(id: u8) -> String {
-    if id == BROADCAST_ID { "all devices".to_owned() } else { format!("device {id}") }
 }
