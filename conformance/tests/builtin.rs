@@ -1,4 +1,4 @@
-//! The golden checks pass on the built-in codec, and each kind of check fails on a subject that is
+//! The checks of test vectors pass on the built-in codec, and each kind of check fails on a subject that is
 //! wrong in exactly that.
 
 #![allow(clippy::unwrap_used)] // in what the tests share

@@ -9,12 +9,13 @@ use std::path::{Path, PathBuf};
 use actucheck_spec::Spec;
 
 /// A text in lower case that is not used, the word to use, and the files that may have it.
-const WORDS: [(&str, &str, &[&str]); 10] = [
+const WORDS: [(&str, &str, &[&str]); 11] = [
     ("testee", "subject", &[]),
     ("presume", "require", &["conformance/src/suite/check.rs"]), // reads older files of checks
     ("framekind", "direction", &[]),
     ("golden packet", "test vector", &[]),
     ("golden vector", "test vector", &[]),
+    ("golden_vector", "test vector", &[]),
     ("leave open", "leave unspecified", &[]),
     ("leaves open", "leaves unspecified", &[]),
     ("bit stuffing", "byte stuffing", &[]),
