@@ -2,7 +2,9 @@
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
-use actucheck::adapter::{Hello, Output, Question, Rejection, Wire};
+use std::sync::OnceLock;
+
+use actucheck::adapter::{Hello, Output, Question, Rejection, Told, Wire};
 use actucheck::run::outcomes;
 use actucheck::subject::{Answer, Builtin, Subject};
 use actucheck::suite;
@@ -10,9 +12,9 @@ use actucheck::suite::check::Demand;
 use actucheck::verdict::Verdict;
 use actucheck_spec::Spec;
 use actucheck_spec::model::{Fault, Level};
-use actucheck_spec::wire;
 use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, PATTERN, PREFIX};
 use actucheck_spec::wire::dynamixel2::{Packet, WIRE};
+use actucheck_spec::wire::{self, innfos};
 
 /// The checks of streams demand the packets that every receiver finds that follows the documents, and
 /// warn of those that one should find.
@@ -88,11 +90,29 @@ impl Subject for Model {
             }
             // No check asks it yet.
             Question::Value { .. } => Err(Fault::Parameter),
+            Question::Message { actuator, told, .. } => message(actuator.as_deref(), told),
         };
         answer.map_or_else(
             |class| Answer::Rejected(Rejection { class, detail: String::new() }),
             Answer::Ok,
         )
+    }
+}
+
+fn message(actuator: Option<&str>, told: &Told) -> Result<Output, Fault> {
+    static SPEC: OnceLock<Spec> = OnceLock::new();
+    let innfos = &SPEC.get_or_init(|| Spec::embedded().unwrap()).wires.innfos.content;
+    let actuator = innfos.actuators.rows.iter().find(|row| Some(row.name.as_str()) == actuator);
+    match told {
+        Told::Frame { direction, bytes } => {
+            let packet = innfos::reference::decode(*direction, bytes)?;
+            let meaning = innfos::reference::meaning(innfos, &packet, actuator);
+            Ok(Output::Message(meaning.unwrap().message))
+        }
+        Told::Message { message } => {
+            let packet = innfos::reference::packet(innfos, message, actuator).unwrap();
+            Ok(Output::Bytes(innfos::reference::encode(&packet).unwrap().into()))
+        }
     }
 }
 

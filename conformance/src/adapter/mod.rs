@@ -3,6 +3,7 @@
 
 pub(crate) mod conversation;
 pub mod lint;
+mod message;
 mod process;
 mod requests;
 mod trace;
@@ -10,6 +11,7 @@ mod value;
 
 use std::time::Duration;
 
+pub use message::Told;
 pub use requests::{
     Called, Hello, Implementation, Limits, Output, Question, Rejection, Request, VERSION, VERSIONS,
     Wire,

@@ -4,11 +4,12 @@
 use std::fmt;
 
 use actucheck_spec::model::{Fault, HexBytes, Role};
-use actucheck_spec::wire::{self, Call, Context, Direction, Form, Number, Packet};
+use actucheck_spec::wire::{self, Call, Context, Direction, Form, Message, Number, Packet};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use super::message::Told;
 use super::value::{Given, Owner};
 
 /// The newest version of the adapter protocol.
@@ -116,6 +117,20 @@ pub enum Question {
         #[serde(flatten)]
         given: Given,
     },
+    /// What a packet says, or the packet that says it.
+    Message {
+        /// The wire.
+        wire: Wire,
+        /// The form of the value, if there is one.
+        #[serde(flatten)]
+        form: Option<Form>,
+        /// The actuator's model, if the full scale of the value is the model's.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        actuator: Option<String>,
+        /// What is given. The rest is the answer.
+        #[serde(flatten)]
+        told: Told,
+    },
 }
 
 impl Question {
@@ -130,6 +145,7 @@ impl Question {
             Self::Decode { .. } => "decode",
             Self::Stream { .. } => "stream",
             Self::Value { .. } => "value",
+            Self::Message { .. } => "message",
         }
     }
 
@@ -161,6 +177,7 @@ impl Question {
             Self::Encode { packet, .. } => Some(packet.packet.direction()),
             Self::Decode { context, .. } => context.direction,
             Self::Stream { direction, .. } => *direction,
+            Self::Message { told, .. } => Some(told.direction()),
             Self::Value { owner: Owner::Command(of), .. } => Some(of.direction),
             Self::Value { .. } | Self::Crc { .. } | Self::Stuff { .. } | Self::Unstuff { .. } => {
                 None
@@ -172,8 +189,12 @@ impl Question {
     /// replies and reads requests. `None` if both do.
     #[must_use]
     pub fn role(&self) -> Option<Role> {
-        let builds =
-            matches!(self, Self::Encode { .. } | Self::Value { given: Given::Value(_), .. });
+        let builds = matches!(
+            self,
+            Self::Encode { .. }
+                | Self::Value { given: Given::Value(_), .. }
+                | Self::Message { told: Told::Message { .. }, .. }
+        );
         self.direction().map(|direction| match (direction, builds) {
             (Direction::Request, true) | (Direction::Reply, false) => Role::Host,
             (Direction::Request, false) | (Direction::Reply, true) => Role::Device,
@@ -190,7 +211,8 @@ impl Question {
             | Self::Encode { wire, .. }
             | Self::Decode { wire, .. }
             | Self::Stream { wire, .. }
-            | Self::Value { wire, .. } => *wire,
+            | Self::Value { wire, .. }
+            | Self::Message { wire, .. } => *wire,
         }
     }
 }
@@ -317,7 +339,7 @@ pub struct Rejection {
 pub enum Output {
     /// Of `crc`.
     Crc(u64),
-    /// Of `stuff`, `unstuff` and `encode`, and of `value` if the meaning is given.
+    /// Of `stuff`, `unstuff` and `encode`, and of `value` and `message` if the meaning is given.
     Bytes(HexBytes),
     /// Of `decode`.
     Packet(Packet),
@@ -325,6 +347,8 @@ pub enum Output {
     Packets(Vec<Packet>),
     /// Of `value` if the bytes are given.
     Value(wire::Value),
+    /// Of `message` if the bytes are given.
+    Message(Message),
 }
 
 impl Output {
@@ -338,6 +362,7 @@ impl Output {
     pub fn is_near(&self, other: &Self, within: Number) -> bool {
         match (self, other) {
             (Self::Value(value), Self::Value(other)) => value.is_near(other, within),
+            (Self::Message(message), Self::Message(other)) => message.is_near(other, within),
             _ => self == other,
         }
     }
@@ -368,7 +393,20 @@ impl Output {
         struct Meaning {
             value: wire::Value,
         }
+        #[derive(Deserialize)]
+        struct Said {
+            message: Message,
+        }
         Ok(match op {
+            Question::Message { form, told: Told::Frame { .. }, .. } => {
+                let Said { message } = serde_json::from_value(ok)?;
+                match (form, &message.value) {
+                    (Some(form), Some(value)) if !form.fits(value) => {
+                        Err(serde::de::Error::custom(format!("`value` must have {form}")))
+                    }
+                    _ => Ok(Self::Message(message)),
+                }?
+            }
             Question::Value { form, given: Given::Bytes(_), .. } => {
                 let Meaning { value } = serde_json::from_value(ok)?;
                 if !form.fits(&value) {
@@ -393,6 +431,7 @@ impl fmt::Display for Output {
             Self::Packet(packet) => f.write_str(&json(packet)?),
             Self::Packets(packets) => f.write_str(&json(packets)?),
             Self::Value(value) => f.write_str(&json(value)?),
+            Self::Message(message) => f.write_str(&json(message)?),
         }
     }
 }

@@ -126,6 +126,7 @@ fn difference(expected: Option<&Output>, actual: Option<&Output>) -> &'static st
         }
         (Some(Output::Crc(_)), _) => "CRC",
         (Some(Output::Value(_)), _) => "value",
+        (Some(Output::Message(_)), _) => "message",
         _ => "kind of answer",
     }
 }

@@ -1,13 +1,13 @@
 //! Trivial implementations: a check that passes on all of them and on every mutant could not fail.
 
-use actucheck::adapter::{Output, Question};
+use actucheck::adapter::{Output, Question, Told};
 use actucheck_spec::model::HexBytes;
 use actucheck_spec::wire::dynamixel2::{self, reference};
 use actucheck_spec::wire::{Direction, Packet, innfos};
 
 use super::{Mutant, Wrong, bytes};
 
-pub(super) static MUTANTS: [Mutant; 8] = [
+pub(super) static MUTANTS: [Mutant; 10] = [
     stub(
         "answers CRC 1",
         Wrong::Answers(|op| matches!(op, Question::Crc { .. }).then_some(Output::Crc(1))),
@@ -38,6 +38,17 @@ pub(super) static MUTANTS: [Mutant; 8] = [
             Question::Decode { .. } => Some(Output::Packet(reply())),
             _ => None,
         }),
+    ),
+    stub(
+        "builds nothing from messages",
+        Wrong::Answers(|op| match op {
+            Question::Message { told: Told::Message { .. }, .. } => Some(bytes(Vec::new())),
+            _ => None,
+        }),
+    ),
+    stub(
+        "reads no message",
+        Wrong::Rejects(|op| matches!(op, Question::Message { told: Told::Frame { .. }, .. })),
     ),
     stub(
         "finds nothing in a stream",

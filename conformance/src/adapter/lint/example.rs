@@ -10,7 +10,7 @@ use crate::suite::plan::Plan;
 
 /// The checks whose questions are asked, each with a description. Every op of every wire occurs at
 /// least once, and so does each kind of packet that only a host or only a device has to read.
-const CHECKS: [(&str, &str); 16] = [
+const CHECKS: [(&str, &str); 18] = [
     ("dynamixel2.write.instruction/crc", "crc on dynamixel2"),
     ("dynamixel2.stuffing.data/stuff", "stuff on dynamixel2"),
     ("dynamixel2.stuffing.data/unstuff", "unstuff on dynamixel2"),
@@ -27,6 +27,8 @@ const CHECKS: [(&str, &str); 16] = [
     ("innfos.iq.sixty-revolutions/decode", "decode of a request"),
     ("innfos.reply.command.06/decode", "decode of a reply"),
     ("innfos.request.command.06/stream", "stream on innfos"),
+    ("innfos.iq.sixty-revolutions/message", "message of a request"),
+    ("innfos.iq.sixty-revolutions/message-frame", "frame of a message"),
 ];
 
 /// A question from the suite, as it is sent to the adapter.

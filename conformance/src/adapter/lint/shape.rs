@@ -6,8 +6,8 @@ use super::Problem;
 use crate::adapter::{Hello, Output, Question, VERSIONS, Wire};
 
 /// The ops that `hello` may name. Every adapter has `hello` and `bye`, so they are not listed.
-const OPS: [&str; 9] =
-    ["hello", "crc", "stuff", "unstuff", "encode", "decode", "stream", "value", "bye"];
+const OPS: [&str; 10] =
+    ["hello", "crc", "stuff", "unstuff", "encode", "decode", "stream", "value", "message", "bye"];
 
 /// Reads the `ok` object of `hello`.
 pub(super) fn hello(ok: &Value) -> Result<Hello, Problem> {
@@ -31,7 +31,8 @@ pub(super) fn hello(ok: &Value) -> Result<Hello, Problem> {
         &hello.ops,
         &OPS,
         "ops",
-        "name in `ops` what the adapter does of crc, stuff, unstuff, encode, decode, stream and value",
+        "name in `ops` what the adapter does of crc, stuff, unstuff, encode, decode, stream, value \
+         and message",
     )?;
     if hello.max_in_flight == 0 {
         return Err(Problem::new(
@@ -73,7 +74,7 @@ pub(super) fn output(op: &Question, ok: &Value) -> Result<Output, Problem> {
         }
         Output::Packet(packet) => std::slice::from_ref(packet),
         Output::Packets(packets) => packets,
-        Output::Crc(_) | Output::Bytes(_) | Output::Value(_) => &[],
+        Output::Crc(_) | Output::Bytes(_) | Output::Value(_) | Output::Message(_) => &[],
     };
     if packets.iter().any(|packet| packet.wire() != op.wire()) {
         return Err(Problem::new("the packet is of a kind that this wire has not", kinds()));

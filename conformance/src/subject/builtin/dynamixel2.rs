@@ -30,7 +30,7 @@ pub(super) fn ask(question: &Question, buffer: &mut Vec<u8>) -> Answer {
         Question::Value { owner: Owner::Register(of), form, given, .. } => {
             value::ask(of, form, given)
         }
-        Question::Value { .. } => Err(not_offered()),
+        Question::Value { .. } | Question::Message { .. } => Err(not_offered()),
     })
 }
 

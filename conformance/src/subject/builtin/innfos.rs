@@ -1,5 +1,6 @@
 //! The codec's INNFOS Ethernet protocol.
 
+mod message;
 mod value;
 
 use actucheck_codec::crc;
@@ -9,7 +10,7 @@ use actucheck_spec::wire::innfos::Packet;
 use actucheck_spec::wire::{self, Context, Direction};
 
 use super::{Answer, Result, answer, not_offered, output, rejection, unbuilt};
-use crate::adapter::{Output, Owner, Question};
+use crate::adapter::{Output, Owner, Question, Rejection, Told};
 
 /// The codec's answer to a question.
 pub(super) fn ask(question: &Question, buffer: &mut [u8]) -> Answer {
@@ -23,6 +24,13 @@ pub(super) fn ask(question: &Question, buffer: &mut [u8]) -> Answer {
             Ok(stream(*direction, chunks))
         }
         Question::Value { owner: Owner::Command(of), given, .. } => value::ask(of, given),
+        Question::Message { actuator, told, .. } => {
+            let actuator = value::actuator(actuator.as_deref());
+            match told {
+                Told::Frame { direction, bytes } => message::read(*direction, bytes, &actuator),
+                Told::Message { message } => message::build(message, &actuator, buffer),
+            }
+        }
         _ => return Answer::Skipped(format!("the codec has no {}", question.name())),
     })
 }
@@ -37,8 +45,11 @@ fn encode(packet: &wire::Packet, buffer: &mut [u8]) -> Result {
 }
 
 fn decode(direction: Direction, bytes: &[u8]) -> Result {
-    let frame = Frame::parse(of(direction), bytes);
-    frame.map(|frame| Output::Packet(packet(&frame).into())).map_err(|error| {
+    frame(direction, bytes).map(|frame| Output::Packet(packet(&frame).into()))
+}
+
+fn frame(direction: Direction, bytes: &[u8]) -> std::result::Result<Frame<'_>, Rejection> {
+    Frame::parse(of(direction), bytes).map_err(|error| {
         let class = match error {
             FrameError::Header { .. } => Fault::Header,
             FrameError::Truncated { .. } => Fault::Truncated,

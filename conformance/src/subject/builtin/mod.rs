@@ -45,7 +45,7 @@ impl Default for Builtin {
                 url: None,
             },
             wires: WIRES.map(|(wire, _)| wire.id().to_owned()).to_vec(),
-            ops: ["crc", "stuff", "unstuff", "encode", "decode", "stream", "value"]
+            ops: ["crc", "stuff", "unstuff", "encode", "decode", "stream", "value", "message"]
                 .map(str::to_owned)
                 .to_vec(),
             roles: vec![Role::Host, Role::Device],

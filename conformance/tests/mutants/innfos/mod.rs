@@ -1,6 +1,7 @@
 //! Implementations of the INNFOS Ethernet protocol that are wrong in one way each.
 
 mod frames;
+mod messages;
 
 use actucheck::adapter::{Output, Question};
 use actucheck_spec::model::Fault;
@@ -10,7 +11,8 @@ use actucheck_spec::wire::{Context, Direction};
 use super::{Mutant, Wrong};
 
 /// Every mutant.
-pub(super) static LISTS: [&[Mutant]; 3] = [&CRC, &frames::BUILDING, &frames::READING];
+pub(super) static LISTS: [&[Mutant]; 4] =
+    [&CRC, &frames::BUILDING, &frames::READING, &messages::VALUES];
 
 static CRC: [Mutant; 2] = [
     Mutant {

@@ -15,9 +15,7 @@ const FLAGS: [(&str, Flag); 2] = [("no", Flag::NO), ("yes", Flag::YES)];
 /// The codec's answer to the op `value`.
 pub(super) fn ask(of: &CommandOf, given: &Given) -> Result {
     let command = Command::from_code(of.command);
-    // Without a model in the question, no full scale matters.
-    let named = |actuator: &Actuator| of.actuator.as_deref() == Some(actuator.name);
-    let actuator = ACTUATORS.into_iter().find(named).unwrap_or(DD_6010);
+    let actuator = actuator(of.actuator.as_deref());
     let answer = command.row().and_then(|row| row.format).and_then(|format| match given {
         Given::Bytes(bytes) => {
             let value = Own::decode(format, bytes)?;
@@ -31,8 +29,14 @@ pub(super) fn ask(of: &CommandOf, given: &Given) -> Result {
     answer.ok_or_else(not_fitting)
 }
 
+/// The model of this name. Without a model in the question, no full scale matters.
+pub(super) fn actuator(name: Option<&str>) -> Actuator {
+    let named = |actuator: &Actuator| name == Some(actuator.name);
+    ACTUATORS.into_iter().find(named).unwrap_or(DD_6010)
+}
+
 /// What a value of the codec means.
-fn meaning(command: Command, actuator: &Actuator, value: Own) -> Option<Value> {
+pub(super) fn meaning(command: Command, actuator: &Actuator, value: Own) -> Option<Value> {
     Some(match value {
         Own::Flag(flag) => {
             let (name, _) = FLAGS.into_iter().find(|(_, named)| *named == flag)?;
@@ -48,7 +52,12 @@ fn meaning(command: Command, actuator: &Actuator, value: Own) -> Option<Value> {
 }
 
 /// The codec's value that means this.
-fn own(command: Command, actuator: &Actuator, format: Format, value: &Value) -> Option<Own> {
+pub(super) fn own(
+    command: Command,
+    actuator: &Actuator,
+    format: Format,
+    value: &Value,
+) -> Option<Own> {
     match (format, value) {
         (Format::Flag, Value::Name(name)) => {
             FLAGS.into_iter().find(|(named, _)| named == name).map(|(_, flag)| Own::Flag(flag))

@@ -3,11 +3,13 @@
 //! - golden: the test vectors;
 //! - packets: packets of the document's tables, with every address, every command and the bytes that
 //!   could be mistaken for the ends of a frame;
+//! - messages: what these packets say, by name or in the document's unit;
 //! - damaged: frames that break one rule each;
 //! - open: questions that the document leaves unspecified, such as packets that no table has.
 
 mod damaged;
 mod golden;
+mod messages;
 mod open;
 mod packets;
 mod tables;
@@ -24,6 +26,7 @@ pub(super) fn families<'a>(author: Author<'a>, options: &Options) -> Vec<Family<
     let mut families = vec![Family::of("", move || golden::checks(&author))];
     for direction in Direction::ALL {
         families.extend(packets::families(author, direction));
+        families.push(messages::family(author, direction));
         families.extend(damaged::families(author, direction));
         families.push(open::family(author, direction, max_packet));
     }

@@ -75,7 +75,10 @@ fn read_or_not(question: &str, packet: Packet) -> Demand {
     record(question, [("reads it", Output::Packet(packet.into()))])
 }
 
-fn record(question: &str, ways: impl IntoIterator<Item = (&'static str, Output)>) -> Demand {
+pub(super) fn record(
+    question: &str,
+    ways: impl IntoIterator<Item = (&'static str, Output)>,
+) -> Demand {
     let ways = ways.into_iter().map(|(name, output)| Way { name: name.to_owned(), output });
     Demand::Record(Unspecified { question: question.to_owned(), ways: ways.collect() })
 }

@@ -1,8 +1,10 @@
 //! The reference model: CRC and frames as the document describes them, byte by byte. It is slow and
 //! obviously right, and shares no code with the codec or the generator.
 
+mod message;
 mod tables;
 
+pub use message::{Meaning, meaning, packet};
 pub use tables::is_in_tables;
 
 use crate::model::{Fault, HexBytes};
