@@ -52,7 +52,7 @@ const PERMANENT: [(&str, usize); 12] = [
     ("dynamixel2.negative.", 948),
     ("dynamixel2.error.", 512),
     ("dynamixel2.stream.", 3_439),
-    ("ja40.fast.", 632),
+    ("ja40.fast.", 634),
     ("dynamixel2.length.", 136),
     ("innfos.request.", 1_863),
     ("innfos.reply.", 1_842),

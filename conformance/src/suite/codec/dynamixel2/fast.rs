@@ -1,9 +1,9 @@
 //! Fast status packets: the one answer to a Fast Sync Read or a Fast Sync Write, with a block for
 //! each device and a CRC behind each block.
 
-use actucheck_spec::wire::Fast;
 use actucheck_spec::wire::dynamixel2::reference::{self, HEADER, PATTERN};
 use actucheck_spec::wire::dynamixel2::{Block, Packet};
+use actucheck_spec::wire::{Direction, Fast};
 
 use super::unspecified::open;
 use crate::adapter::{Output, Question};
@@ -26,7 +26,7 @@ pub(super) fn families(author: Author<'_>) -> Vec<Family<'_>> {
         Family::new("ja40.fast.size.", move || sizes(author)),
         Family::new("ja40.fast.error.", move || errors(author)),
         Family::new("ja40.fast.order.", move || orders(author)),
-        Family::of("ja40.fast.open.", move || other_devices(&author)),
+        Family::of("ja40.fast.open.", move || unspecified(&author)),
         Family::new("ja40.fast.pattern.", move || patterns(author)),
     ];
     families.extend(broken::families(author));
@@ -217,6 +217,33 @@ fn orders(author: Author<'_>) -> impl Iterator<Item = Group<'_>> {
             both_ways(author, stem, kind.status(), move || blocks(&ids, kind.size()))
         })
     })
+}
+
+fn unspecified(author: &Author<'_>) -> Vec<Check> {
+    let mut checks = other_devices(author);
+    checks.extend(Kind::ALL.map(|kind| in_a_stream(author, kind)));
+    checks
+}
+
+/// A fast status packet between two status packets. A stream does not say which request it answers.
+fn in_a_stream(author: &Author<'_>, kind: Kind) -> Check {
+    let status = |id| Packet::Status { id, error: 0, params: vec![id].into() };
+    let fast = Packet::FastStatus { blocks: blocks(&ids(2), kind.size()) };
+    let chunks =
+        [&status(1), &fast, &status(2)].map(|packet| reference::encode(packet).unwrap_or_default());
+    let ways = open(
+        "What is a fast status packet in a stream?",
+        [
+            ("a status packet from ID 254", reference::packets(&chunks.concat())),
+            ("left out, and those around it are found", vec![status(1), status(2)]),
+        ]
+        .map(|(name, packets)| (name, Output::packets(packets))),
+    );
+    let chunks = chunks.map(Into::into).into();
+    let question =
+        Question::Stream { wire: author.wire, chunks, direction: Some(Direction::Reply) };
+    let id = format!("ja40.fast.open.{}.in-a-stream/stream", kind.name());
+    author.check(id, "dynamixel2.receive.stream", question, Demand::Record(ways))
 }
 
 /// Blocks of other devices than the request names at their places. The devices must not answer so;

@@ -39,8 +39,10 @@ fn checks(author: &Author<'_>) -> Vec<Check> {
             _ => FOUND,
         };
         let mut add = |name: String, chunks: &[Vec<u8>]| {
+            let requires = (name != "stream").then(|| format!("{id}/stream"));
             let id = format!("{id}/{name}");
-            checks.push(author.streamed(id, requirement, Direction::Reply, chunks));
+            let check = author.streamed(id, requirement, Direction::Reply, chunks);
+            checks.push(Check { requires, ..check });
         };
         add("stream".to_owned(), &parts);
         for split in 1..stream.len() {

@@ -225,7 +225,8 @@ impl Scenario {
 /// Reads one packet.
 fn decoded(author: &Author<'_>, id: String, packet: &Packet, frame: &[u8]) -> Check {
     let context = author.wire.context(&packet.clone().into());
-    let is_stuffed = reference::unstuff(frame).is_ok_and(|plain| plain.len() < frame.len());
+    let body = frame.get(reference::PREFIX..frame.len().saturating_sub(2)).unwrap_or_default();
+    let is_stuffed = reference::unstuff(body).is_ok_and(|plain| plain.len() < body.len());
     let requirement = match packet {
         _ if is_stuffed => "dynamixel2.stuffing.receive",
         Packet::Instruction { .. } => "dynamixel2.packet.layout",
