@@ -56,8 +56,8 @@ fn what_is_wrong_is_told_with_the_lines_and_what_to_do() {
     let told: Vec<_> = text.lines().skip(4).take(4).collect();
     insta::assert_snapshot!(told.join("\n"), @r#"
       WRONG  answers crc on dynamixel2: `ok` does not fit crc: invalid type: string "89ca", expected u64
-             sent  {"id":18,"op":"crc","wire":"dynamixel2","bytes":"fffffd0001090003740000020000"}
-             got   {"id":18,"ok":{"crc":"89ca"}}
+             sent  {"id":20,"op":"crc","wire":"dynamixel2","bytes":"fffffd0001090003740000020000"}
+             got   {"id":20,"ok":{"crc":"89ca"}}
              mend  the guide has a table of what `ok` holds; here it is {"crc":35274}
     "#);
 }
