@@ -1,5 +1,6 @@
-"""Conformance adapter for innfos.py."""
+"""Conformance adapter for innfos.py and commands.py."""
 
+import commands
 import innfos
 from adapter_kit import Rejected, serve, unhex
 
@@ -37,9 +38,33 @@ def stream(request):
     return {"packets": [packet_object(kind, packet) for packet in packets]}
 
 
+def message(request):
+    try:
+        return _frame_of(request) if "message" in request else _message_of(request)
+    except innfos.Rejected as rejected:
+        raise Rejected(rejected.fault, str(rejected)) from None
+    except commands.NoMeaning as reason:
+        raise Rejected("parameter", str(reason)) from None
+
+
+def _message_of(request):
+    direction = request["direction"]
+    address, command, data = innfos.decode(direction, unhex(request["bytes"]))
+    value = commands.read(direction, command, data, request.get("actuator"))
+    told = {"direction": direction, "address": address, "command": command}
+    return {"message": told if value is None else {**told, "value": value}}
+
+
+def _frame_of(request):
+    told = request["message"]
+    direction, command = told["direction"], told["command"]
+    data = commands.build(direction, command, told.get("value"), request.get("actuator"))
+    return {"bytes": innfos.encode(direction, told["address"], command, data).hex()}
+
+
 if __name__ == "__main__":
     serve(
         {"name": "innfos-python", "version": "1"},
         "innfos",
-        {op.__name__: op for op in (crc, encode, decode, stream)},
+        {op.__name__: op for op in (crc, encode, decode, stream, message)},
     )
