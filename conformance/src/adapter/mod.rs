@@ -2,15 +2,18 @@
 //! adapter.
 
 pub(crate) mod conversation;
+mod greeting;
 pub mod lint;
 mod message;
 mod process;
 mod requests;
+pub mod schema;
 mod trace;
 mod value;
 
 use std::time::Duration;
 
+pub use greeting::{Contradiction, Greeting};
 pub use message::Told;
 pub use requests::{
     Called, Hello, Implementation, Limits, Output, Question, Rejection, Request, VERSION, VERSIONS,

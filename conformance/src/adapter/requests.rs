@@ -21,7 +21,7 @@ pub const VERSIONS: [u32; 2] = [1, VERSION];
 pub use actucheck_spec::wire::Wire;
 
 /// What the suite says to an adapter, as it is sent over the pipe, without its id.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 #[serde(tag = "op", rename_all = "lowercase")]
 pub enum Request<'a> {
     /// Who are you, and what can you do?
@@ -253,8 +253,8 @@ impl<P: Into<Packet>> From<P> for Called {
     }
 }
 
-/// An adapter's answer to `hello`.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+/// What an adapter says of itself; see [`super::Greeting::meant`].
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Hello {
     /// The version of the adapter protocol that it speaks.
     pub protocol: u32,
@@ -264,23 +264,12 @@ pub struct Hello {
     pub wires: Vec<String>,
     /// The ops that it offers.
     pub ops: Vec<String>,
-    /// The roles that it plays; version 1 does not say.
-    #[serde(default = "both")]
+    /// The roles that it plays.
     pub roles: Vec<Role>,
     /// The maximum number of outstanding requests.
-    #[serde(default = "one")]
     pub max_in_flight: usize,
     /// The limits of the implementation.
-    #[serde(default)]
     pub limits: Limits,
-}
-
-const fn one() -> usize {
-    1
-}
-
-fn both() -> Vec<Role> {
-    vec![Role::Host, Role::Device]
 }
 
 /// An implementation under test.
@@ -298,7 +287,7 @@ pub struct Implementation {
 }
 
 /// The limits of an implementation.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 pub struct Limits {
     /// Size in bytes of the longest frame that it builds or reads. Version 1 has no other limit;
     /// in version 2 the limit for one of them only comes before it.
@@ -324,7 +313,7 @@ impl Limits {
 }
 
 /// Why bytes or a packet are rejected.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Rejection {
     /// What is wrong.
     pub class: Fault,

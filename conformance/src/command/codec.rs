@@ -75,6 +75,7 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     let hello = subjects.hello.clone();
     let wires = selection.offered_wires(&hello)?;
     let mut plan = selection.growth.plan(&spec, &wires, Some(&hello));
+    subjects.say_other_role(&plan);
     let mut records = BTreeMap::new();
     for path in &options.also {
         let more = saved::read(path).map_err(Failure::usage)?;

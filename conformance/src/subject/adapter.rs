@@ -11,7 +11,9 @@ use thiserror::Error;
 
 use super::{Answer, Questions, Subject};
 use crate::adapter::conversation::{Conversation, Lost, Malformed, Reply};
-use crate::adapter::{Hello, Output, Question, Request, Settings, VERSIONS};
+use crate::adapter::{
+    Contradiction, Greeting, Hello, Output, Question, Request, Settings, VERSIONS,
+};
 
 /// The maximum number of outstanding questions, even if the adapter offers more.
 const MAX_IN_FLIGHT: usize = 256;
@@ -45,6 +47,7 @@ pub struct Process {
     command: Vec<String>,
     settings: Settings,
     hello: Hello,
+    contradictions: Vec<Contradiction>,
     /// How many questions may be outstanding.
     at_once: usize,
     conversation: Option<Conversation>,
@@ -59,16 +62,24 @@ impl Process {
     /// # Errors
     /// If it can't be run, or does not answer `hello` correctly and in time.
     pub fn start(command: &[String], settings: Settings) -> Result<Self, StartError> {
-        let (conversation, hello) = start(command, &settings)?;
+        let (conversation, greeting) = start(command, &settings)?;
+        let (hello, contradictions) = greeting.meant();
         Ok(Self {
             command: command.to_vec(),
             settings,
-            at_once: hello.max_in_flight.clamp(1, MAX_IN_FLIGHT),
+            at_once: hello.max_in_flight.min(MAX_IN_FLIGHT),
             hello,
+            contradictions,
             conversation: Some(conversation),
             restarts: 0,
             last_log: String::new(),
         })
+    }
+
+    /// What its answer to `hello` says that makes no sense.
+    #[must_use]
+    pub fn contradictions(&self) -> &[Contradiction] {
+        &self.contradictions
     }
 
     /// The conversation with the adapter, which is restarted if necessary and allowed.
@@ -196,12 +207,12 @@ impl Drop for Process {
     }
 }
 
-fn start(command: &[String], settings: &Settings) -> Result<(Conversation, Hello), StartError> {
+fn start(command: &[String], settings: &Settings) -> Result<(Conversation, Greeting), StartError> {
     let name = command.join(" ");
     let mut conversation = Conversation::start(command, settings)
         .map_err(|error| StartError::Spawn { command: name.clone(), error })?;
     match greet(&mut conversation, settings.timeouts.start) {
-        Ok(hello) => Ok((conversation, hello)),
+        Ok(greeting) => Ok((conversation, greeting)),
         Err(problem) => {
             let mut log = String::new();
             for line in conversation.log().lines() {
@@ -214,7 +225,7 @@ fn start(command: &[String], settings: &Settings) -> Result<(Conversation, Hello
 }
 
 /// Sends `hello`. The error says what the adapter did wrong.
-fn greet(conversation: &mut Conversation, limit: Duration) -> Result<Hello, String> {
+fn greet(conversation: &mut Conversation, limit: Duration) -> Result<Greeting, String> {
     conversation.send(&Request::Hello { protocol: &VERSIONS });
     let (_, reply) = conversation.receive(limit).map_err(|lost| match lost {
         Lost::Silent(_) => format!(
@@ -227,17 +238,17 @@ fn greet(conversation: &mut Conversation, limit: Duration) -> Result<Hello, Stri
     let Ok(Reply::Ok(object)) = reply else {
         return Err("did not answer hello with `ok`".to_owned());
     };
-    let hello: Hello = serde_json::from_value(object)
+    let greeting: Greeting = serde_json::from_value(object)
         .map_err(|error| format!("answered hello wrongly: {error}"))?;
-    if !VERSIONS.contains(&hello.protocol) {
+    if !VERSIONS.contains(&greeting.protocol) {
         return Err(format!(
             "speaks version {} of the adapter protocol; this suite speaks {}",
-            hello.protocol,
+            greeting.protocol,
             VERSIONS.map(|version| version.to_string()).join(" and ")
         ));
     }
-    conversation.speak(hello.protocol);
-    Ok(hello)
+    conversation.speak(greeting.protocol);
+    Ok(greeting)
 }
 
 impl From<Lost> for Answer {

@@ -17,8 +17,14 @@ done
 
 /// The exit status and the output.
 fn check(script: &str) -> (i32, String) {
+    check_with(&[], script)
+}
+
+/// The same with more options.
+fn check_with(options: &[&str], script: &str) -> (i32, String) {
     let output = Command::new(env!("CARGO_BIN_EXE_actucheck"))
         .args(["adapter", "check", "--timeout", "1.5", "--start-timeout", "2"])
+        .args(options)
         .args(["--", "sh", "-c", script])
         .output()
         .unwrap();
@@ -31,10 +37,12 @@ fn a_good_one_is_good() {
     assert_eq!(status, 0, "{text}");
     insta::assert_snapshot!(text.replace(GOOD, "GOOD"), @r"
       ok     starts and says who it is (fake 1 (sh), dynamixel2: crc)
+      ok     says what makes sense
       ok     skips an op that it does not know
       ok     skips a wire that it does not know
       ok     skips what it does not offer
       ok     answers crc on dynamixel2
+      ok     takes what is valid
       ok     answers the same when asked again
       ok     passes over a field that it does not know
       ok     outlives requests that lack a field
@@ -53,7 +61,7 @@ fn what_is_wrong_is_told_with_the_lines_and_what_to_do() {
     let (status, text) =
         check(&GOOD.replace(ANSWER, r#"printf '{"id":%s,"ok":{"crc":"89ca"}}\n' "$id""#));
     assert_eq!(status, 1, "{text}");
-    let told: Vec<_> = text.lines().skip(4).take(4).collect();
+    let told: Vec<_> = text.lines().skip(5).take(4).collect();
     insta::assert_snapshot!(told.join("\n"), @r#"
       WRONG  answers crc on dynamixel2: `ok` does not fit crc: invalid type: string "89ca", expected u64
              sent  {"id":20,"op":"crc","wire":"dynamixel2","bytes":"fffffd0001090003740000020000"}
@@ -124,21 +132,95 @@ fn a_bad_start_is_found() {
             "starts and says who it is: it speaks version 3",
         ),
         (
-            &[(r#"["crc"]"#, r#"["crc","sing"]"#)],
-            4,
-            "starts and says who it is: `ops` names `sing`",
-        ),
-        (
-            &[(r#"["dynamixel2"]"#, r#"["can"]"#)],
-            4,
-            "starts and says who it is: `wires` names `can`",
-        ),
-        (
             &[(r#""ok":{"protocol""#, r#""skip":{"protocol""#)],
             4,
             "starts and says who it is: `skip` has no `reason`",
         ),
     ]);
+}
+
+/// The good adapter in version 2.
+const NEW: &[(&str, &str)] = &[(r#""protocol":1"#, r#""protocol":2,"roles":["host"]"#)];
+
+#[test]
+fn what_makes_no_sense_is_found() {
+    let (status, text) = check(&changed(NEW));
+    assert_eq!(status, 0, "{text}");
+    assert!(text.contains("(fake 1 (sh), host on dynamixel2: crc)"), "{text}");
+    let limits = r#"["crc"],"limits""#;
+    let point = "says what makes sense";
+    let cases = [
+        (r#"["crc"]"#, r#"["crc","sing"]"#.to_owned(), "`ops` names `sing`"),
+        (r#"["dynamixel2"]"#, r#"["can"]"#.to_owned(), "`wires` names `can`"),
+        (r#""roles":["host"],"#, String::new(), "`roles` names neither"),
+        (r#"["host"]"#, r#"["codec","host"]"#.to_owned(), "`roles` names `codec`"),
+        (r#"["host"]"#, "[]".to_owned(), "`roles` names neither"),
+        (r#"["crc"]"#, format!(r#"{limits}:{{"max_send":9}}"#), "`limits.max_send` is 9"),
+        (
+            r#"["crc"]"#,
+            format!(r#"{limits}:{{"max_packet":30,"max_send":10,"max_receive":20}}"#),
+            "`limits.max_packet` is 30 beside",
+        ),
+        (r#"["crc"]"#, r#"["crc"],"max_in_flight":0"#.to_owned(), "`max_in_flight` is 0"),
+    ];
+    std::thread::scope(|scope| {
+        for (from, to, what) in cases {
+            scope.spawn(move || {
+                let (status, text) = check(&changed(NEW).replace(from, &to));
+                assert!(text.contains(&format!("  WRONG  {point}: {what}")), "{text}");
+                assert_eq!(status, 1, "{text}");
+                assert!(text.contains(r#"got   {"id":0,"ok":{"protocol":2"#), "{text}");
+            });
+        }
+    });
+}
+
+/// Answers for every packet what a Write encodes, and for every frame what a Read is answered.
+const BOTH_ROLES: &str = r#"*'"op":"encode"'*) printf '{"id":%s,"ok":{"bytes":"fffffd0001090003740000020000ca89"}}\n' "$id" ;;
+        *'"op":"decode"'*) printf '{"id":%s,"ok":{"packet":{"kind":"status","id":1,"error":0,"params":"a6000000"}}}\n' "$id" ;;
+        *'"op":"crc"'"#;
+
+/// The changes that make the good adapter answer encode and decode, in this role.
+fn playing(role: &str) -> String {
+    changed(NEW)
+        .replace(r#""host""#, &format!("{role:?}"))
+        .replace(OPS, r#""ops":["crc","encode","decode"]"#)
+        .replace(r#"*'"op":"crc"'"#, BOTH_ROLES)
+}
+
+#[test]
+fn one_that_answers_for_the_other_role_is_found() {
+    for role in ["host", "device"] {
+        let (status, text) = check(&playing(role));
+        let wrong = "WRONG  skips what only the other role does: the reply is no `skip`";
+        assert!(text.contains(wrong), "{text}");
+        assert_eq!(status, 1);
+    }
+}
+
+#[test]
+fn one_that_rejects_or_fails_all_is_found() {
+    let err = r#"printf '{"id":%s,"err":{"class":"unspecified"}}\n' "$id""#;
+    let rejecting = check(&changed(&[(ANSWER, err)]));
+    let wrong = "WRONG  takes what is valid: each crc is rejected, though it is valid";
+    assert!(rejecting.1.contains(wrong), "{}", rejecting.1);
+    assert_eq!(rejecting.0, 1);
+    let building = playing("device").replace(r#"["crc","encode","decode"]"#, r#"["crc","encode"]"#);
+    let (status, text) = check(&building);
+    assert!(text.contains("WRONG  takes what is valid: no packet is built right"), "{text}");
+    assert_eq!(status, 1);
+}
+
+#[test]
+fn every_line_is_printed_if_wanted() {
+    let (status, text) = check_with(&["-v"], GOOD);
+    assert_eq!(status, 0, "{text}");
+    let count = |what: &str| text.lines().filter(|line| line.starts_with(what)).count();
+    let (sent, got) = (count("         sent  {"), count("         got   {"));
+    assert!(sent > 20, "{text}");
+    assert_eq!(sent, got + 1, "nothing is replied to bye");
+    let (_, text) = check(&changed(&[(SKIP, ANSWER)]).replace("35274", "\u{1b}"));
+    assert!(!text.contains('\u{1b}'), "{text:?}");
 }
 
 #[test]

@@ -128,6 +128,42 @@ fn one_that_ends_or_babbles_at_the_start_is_not_started() {
     assert!(run.stderr().contains("answered hello wrongly"), "{}", run.stderr());
 }
 
+/// An adapter of version 2 that says these things of itself.
+fn saying(said: &str, answer: &str) -> super::Run {
+    check(&WELL_BEHAVED.replace(r#""protocol":1"#, said).replace("ANSWER", answer))
+}
+
+#[test]
+fn what_makes_no_sense_is_said_and_passed_over() {
+    let wrong = r#"printf '{"id":%s,"ok":{"crc":1}}\n' "$id""#;
+    let said = r#""protocol":2,"roles":["host","robot"],"limits":{"max_send":3}"#;
+    let run = saying(said, wrong);
+    assert_eq!(run.exit(), 1);
+    for sentence in [
+        "actucheck: the adapter says in hello: `roles` names `robot`; that is passed over\n",
+        "`limits.max_send` is 3, and the shortest packet has 10 bytes; that is passed over\n",
+    ] {
+        assert_eq!(run.stderr().matches(sentence).count(), 1, "{}", run.stderr());
+    }
+}
+
+#[test]
+fn one_that_answers_for_the_other_role_is_named() {
+    let packet = r#"{"kind":"status","id":1,"error":0,"params":""}"#;
+    let both = format!(
+        r#"case $line in
+            *'"op":"crc"'*) printf '{{"id":%s,"ok":{{"crc":1}}}}\n' "$id" ;;
+            *) printf '{{"id":%s,"ok":{{"packet":{packet}}}}}\n' "$id" ;;
+        esac"#
+    );
+    let run = saying(r#""protocol":2,"roles":["host"]"#, &both);
+    let sentence = "actucheck: the adapter plays host only, but answers decode of an instruction \
+                    packet; what only the other role does is not asked\n";
+    assert!(run.stderr().contains(sentence), "{}", run.stderr());
+    let run = saying(r#""protocol":2,"roles":["host","device"]"#, &both);
+    assert!(!run.stderr().contains("plays"), "{}", run.stderr());
+}
+
 #[test]
 fn its_children_end_with_it() {
     let folder = tempfile::tempdir().unwrap();

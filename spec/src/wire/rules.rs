@@ -70,6 +70,9 @@ pub trait Rules: Sync + RefUnwindSafe {
         None
     }
 
+    /// Size in bytes of the shortest frame.
+    fn shortest_frame(&self) -> usize;
+
     /// The bytes of a packet; `None` if it is too long for its length field.
     fn encode(&self, packet: &Packet) -> Option<Vec<u8>>;
 

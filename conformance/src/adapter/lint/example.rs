@@ -82,6 +82,26 @@ impl Example {
         wire && has(&hello.ops, self.question.name())
     }
 
+    /// Whether the adapter plays a role that does this.
+    pub(super) fn fits_role(&self, hello: &Hello) -> bool {
+        self.question.role().is_none_or(|role| hello.roles.contains(&role))
+    }
+
+    pub(super) const fn question(&self) -> &Question {
+        &self.question
+    }
+
+    /// The name of the question's op.
+    pub(super) fn op(&self) -> &'static str {
+        self.question.name()
+    }
+
+    /// Whether an answer is a right one.
+    pub(super) fn is_right(&self, answer: &Answer) -> bool {
+        let Answer::Ok(ok) = answer else { return false };
+        shape::output(&self.question, ok).is_ok_and(|output| self.right.contains(&output))
+    }
+
     /// A remark on an answer whose form is right.
     pub(super) fn remark(&self, answer: &Answer) -> Result<String, Problem> {
         Ok(match answer {
@@ -105,7 +125,7 @@ impl Example {
     }
 
     /// A problem with the form of an answer, with the right answer as an example.
-    fn shown(&self, problem: Problem) -> Problem {
+    pub(super) fn shown(&self, problem: Problem) -> Problem {
         let right = self.right.first().and_then(|right| serde_json::to_string(right).ok());
         let Some(right) = right else { return problem };
         Problem { mend: format!("{}; here it is {right}", problem.mend), ..problem }
@@ -117,8 +137,8 @@ impl Example {
         format!("{fields},\"no-such-field\":[1]}}")
     }
 
-    /// For each field other than the op and the wire, the request without that field. The call is
-    /// removed from all of them, as not every packet has one.
+    /// For each field other than the op and the wire, the request without that field; and the request
+    /// without the packet's call.
     pub(super) fn lacking_fields(&self) -> Vec<String> {
         let Ok(Value::Object(request)) = serde_json::from_str(&self.request) else {
             return Vec::new();

@@ -1,5 +1,8 @@
 //! Checks an adapter itself: whether it follows the adapter protocol, whatever its library does.
 //!
+//! Its questions come from the plans of all wires ([`Example`](example::Example)); a new op needs a
+//! question there.
+//!
 //! Each point relies on the points before it. A problem after which no reply can be trusted ends
 //! the check.
 
@@ -13,6 +16,7 @@ use std::fmt;
 pub use super::conversation::Said;
 use crate::adapter::Hello;
 use crate::adapter::Settings;
+use crate::subject::{Answer, Subject};
 use crate::suite::plan::Plan;
 
 /// The result for one point of the adapter protocol.
@@ -73,6 +77,23 @@ impl Report {
         let last = self.points.last().map(|point| &point.result);
         last.is_some_and(|result| result.as_ref().is_err_and(|problem| problem.ends))
     }
+}
+
+/// Asks an adapter what only the role does that it does not play. If it answers instead of skipping
+/// it, a sentence says so.
+pub fn other_role(subject: &mut dyn Subject, plan: &Plan<'_>) -> Option<String> {
+    let hello = subject.hello().clone();
+    let examples = example::Example::all(std::slice::from_ref(plan));
+    let offered = examples.iter().filter(|example| example.is_offered(&hello));
+    let mut others = offered.filter(|example| !example.fits_role(&hello));
+    let answered = |answer| matches!(answer, Answer::Ok(_) | Answer::Rejected(_));
+    let example = others.find(|example| answered(subject.ask(example.question())))?;
+    let roles: Vec<_> = hello.roles.iter().map(ToString::to_string).collect();
+    Some(format!(
+        "the adapter plays {} only, but answers {}; what only the other role does is not asked",
+        roles.join(" and "),
+        example.name
+    ))
 }
 
 /// Checks the adapter that `command` (a program and its arguments) starts. The questions come from

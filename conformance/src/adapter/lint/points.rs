@@ -9,7 +9,7 @@ use super::talk::{Answer, ONLY_REPLIES, TOO_LONG, Talk};
 use super::{Point, Problem, Report, shape};
 use crate::adapter::conversation::ended;
 use crate::adapter::process::Line;
-use crate::adapter::{Hello, Request, Settings, VERSIONS};
+use crate::adapter::{Contradiction, Greeting, Hello, Request, Settings, VERSIONS};
 
 /// Size of a line, in bytes, that overflows any usual fixed buffer.
 const LONG: usize = 70_000;
@@ -32,9 +32,13 @@ pub(super) fn look(
 ) -> io::Result<Report> {
     let mut points = Points { talk: Talk::start(command, settings)?, points: Vec::new() };
     let greeting = greet(&mut points.talk, settings);
-    let hello = greeting.as_ref().ok().cloned();
-    points.note("starts and says who it is", greeting.map(|hello| introduction(&hello)));
+    let told = greeting.as_ref().ok().cloned().map(Greeting::meant);
+    points.note("starts and says who it is", greeting.map(|greeting| introduction(&greeting)));
+    let said = points.points.last().map(|point| point.said.clone()).unwrap_or_default();
+    let (hello, contradictions) = told.unzip();
     if let Some(hello) = &hello {
+        let result = without(contradictions.unwrap_or_default());
+        points.points.push(Point { name: "says what makes sense".to_owned(), result, said });
         // The last point reports an early end of the conversation.
         let in_version = |example: &Example| example.in_version(hello.protocol);
         let examples: Vec<_> = examples.iter().map(in_version).collect();
@@ -61,6 +65,13 @@ impl Points {
         let (offered, others): (Vec<_>, Vec<_>) =
             examples.iter().partition(|example| example.is_offered(hello));
         self.point("skips what it does not offer", |talk| not_offered(talk, &others))?;
+        let (offered, of_other_role): (Vec<_>, Vec<_>) =
+            offered.into_iter().partition(|example| example.fits_role(hello));
+        if !of_other_role.is_empty() {
+            self.point("skips what only the other role does", |talk| {
+                other_role(talk, &of_other_role)
+            })?;
+        }
 
         let mut answered = Vec::new();
         for example in offered {
@@ -71,6 +82,7 @@ impl Points {
                 Ok(remark)
             })?;
         }
+        self.point("takes what is valid", |talk| valid(talk, &answered))?;
         self.point("answers the same when asked again", |talk| again(talk, &answered))?;
         self.point("passes over a field that it does not know", |talk| {
             further_field(talk, &answered)
@@ -101,7 +113,17 @@ impl Points {
     }
 }
 
-fn greet(talk: &mut Talk, settings: &Settings) -> Result<Hello, Problem> {
+/// Whether there is no contradiction.
+fn without(contradictions: Vec<Contradiction>) -> Found {
+    let (what, mend): (Vec<_>, Vec<_>) =
+        contradictions.into_iter().map(|found| (found.what, found.mend)).unzip();
+    if what.is_empty() {
+        return Ok(String::new());
+    }
+    Err(Problem::new(what.join("; "), mend.join("; ")))
+}
+
+fn greet(talk: &mut Talk, settings: &Settings) -> Result<Greeting, Problem> {
     let hello = Request::Hello { protocol: &VERSIONS };
     // Every request has string keys only, so it can be written as JSON.
     talk.send(&serde_json::to_string(&hello).unwrap_or_default());
@@ -114,13 +136,17 @@ fn greet(talk: &mut Talk, settings: &Settings) -> Result<Hello, Problem> {
     }
 }
 
-fn introduction(hello: &Hello) -> String {
-    let who = &hello.implementation;
+fn introduction(greeting: &Greeting) -> String {
+    let who = &greeting.implementation;
     let offered = |names: &[String]| {
         if names.is_empty() { "nothing".to_owned() } else { names.join(", ") }
     };
-    let (wires, ops) = (offered(&hello.wires), offered(&hello.ops));
-    format!("{} {} ({}), {wires}: {ops}", who.name, who.version, who.language)
+    let (wires, ops) = (offered(&greeting.wires), offered(&greeting.ops));
+    let roles = greeting
+        .roles
+        .as_deref()
+        .map_or_else(String::new, |roles| format!("{} on ", roles.join(" and ")));
+    format!("{} {} ({}), {roles}{wires}: {ops}", who.name, who.version, who.language)
 }
 
 fn invented_op(talk: &mut Talk) -> Found {
@@ -138,11 +164,42 @@ fn not_offered(talk: &mut Talk, others: &[&Example]) -> Found {
     others.iter().try_fold(String::new(), |_, example| must_skip(talk, &example.request, mend))
 }
 
+fn other_role(talk: &mut Talk, others: &[&Example]) -> Found {
+    let mend = "name the role in `roles` if the library plays it, or skip what only it does";
+    others.iter().try_fold(String::new(), |_, example| must_skip(talk, &example.request, mend))
+}
+
 fn must_skip(talk: &mut Talk, request: &str, mend: &'static str) -> Found {
     match talk.ask(request)? {
         Answer::Skip(_) => Ok(String::new()),
         Answer::Ok(_) | Answer::Err(_) => Err(Problem::new("the reply is no `skip`", mend)),
     }
+}
+
+/// Whether some valid packet or bytes were taken with each op, and some packet was built right.
+fn valid(talk: &mut Talk, answered: &[Answered<'_>]) -> Found {
+    let mut ops: Vec<_> = answered.iter().map(|(example, _)| example.op()).collect();
+    ops.dedup();
+    for op in ops {
+        let of_op = answered.iter().filter(|(example, _)| example.op() == op);
+        let done: Vec<_> = of_op.filter(|(_, answer)| !matches!(answer, Answer::Skip(_))).collect();
+        let Some((example, _)) = done.first() else { continue };
+        let rejected = |(_, answer): &&Answered<'_>| matches!(answer, Answer::Err(_));
+        let wrong = |(example, answer): &&Answered<'_>| !example.is_right(answer);
+        let what = if done.iter().all(rejected) {
+            format!("each {op} is rejected, though it is valid")
+        } else if op == "encode" && done.iter().all(wrong) {
+            "no packet is built right".to_owned()
+        } else {
+            continue;
+        };
+        // The lines of the first answer are shown once more.
+        talk.ask(&example.request)?;
+        let mend = "see what the library got and what it gave: more likely the adapter is wrong; \
+                    what the library can't do is skipped";
+        return Err(example.shown(Problem::new(what, mend)));
+    }
+    Ok(String::new())
 }
 
 /// Asks the same questions in reverse order, after bytes that leave a parser in the middle of a
@@ -231,7 +288,7 @@ fn another(command: &[String], settings: &Settings, hello: &Hello) -> Found {
         .map_err(|error| Problem::new(error, mend))
         .and_then(|mut talk| greet(&mut talk, settings))
         .map_err(|problem| Problem::new(format!("the other one: {}", problem.what), mend))?;
-    if told == *hello {
+    if told.meant().0 == *hello {
         Ok(String::new())
     } else {
         Err(Problem::new("the other one says other things of itself", mend))

@@ -3,57 +3,24 @@
 use serde_json::Value;
 
 use super::Problem;
-use crate::adapter::{Hello, Output, Question, VERSIONS, Wire};
-
-/// The ops that `hello` may name. Every adapter has `hello` and `bye`, so they are not listed.
-const OPS: [&str; 10] =
-    ["hello", "crc", "stuff", "unstuff", "encode", "decode", "stream", "value", "message", "bye"];
+use crate::adapter::{Greeting, Output, Question, VERSIONS, Wire};
 
 /// Reads the `ok` object of `hello`.
-pub(super) fn hello(ok: &Value) -> Result<Hello, Problem> {
-    let hello: Hello = serde_json::from_value(ok.clone()).map_err(|error| {
+pub(super) fn hello(ok: &Value) -> Result<Greeting, Problem> {
+    let greeting: Greeting = serde_json::from_value(ok.clone()).map_err(|error| {
         Problem::ending(
             format!("`ok` is incomplete: {error}"),
-            "tell `protocol`, `implementation` with `name`, `version` and `language`, `wires` and \
-             `ops`; `max_in_flight` and `limits` if there is something to tell",
+            "tell `protocol`, `implementation` with `name`, `version` and `language`, `roles`, \
+             `wires` and `ops`; `max_in_flight` and `limits` if there is something to tell",
         )
     })?;
-    if !VERSIONS.contains(&hello.protocol) {
+    if !VERSIONS.contains(&greeting.protocol) {
         return Err(Problem::ending(
-            format!("it speaks version {} of the adapter protocol", hello.protocol),
+            format!("it speaks version {} of the adapter protocol", greeting.protocol),
             "answer with one of the versions that the request offers",
         ));
     }
-    let wires = Wire::ALL.map(|wire| wire.id());
-    let mend = format!("name in `wires` what the adapter does of {}", wires.join(", "));
-    named(&hello.wires, &wires, "wires", &mend)?;
-    named(
-        &hello.ops,
-        &OPS,
-        "ops",
-        "name in `ops` what the adapter does of crc, stuff, unstuff, encode, decode, stream, value \
-         and message",
-    )?;
-    if hello.max_in_flight == 0 {
-        return Err(Problem::new(
-            "`max_in_flight` is 0",
-            "leave it out, or say how many requests may be without a reply at once",
-        ));
-    }
-    if hello.limits.max_packet == Some(0) {
-        return Err(Problem::new(
-            "`limits.max_packet` is 0",
-            "leave it out, or say how many bytes the longest packet has",
-        ));
-    }
-    Ok(hello)
-}
-
-fn named(given: &[String], known: &[&str], field: &str, mend: &str) -> Result<(), Problem> {
-    match given.iter().find(|name| !known.contains(&name.as_str())) {
-        Some(name) => Err(Problem::new(format!("`{field}` names `{name}`"), mend)),
-        None => Ok(()),
-    }
+    Ok(greeting)
 }
 
 /// Reads the `ok` object of a reply to a question.

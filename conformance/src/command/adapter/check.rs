@@ -15,6 +15,8 @@ use crate::command::shared::{self, Exchange, Failure};
 const EXAMPLES: &str = "\
 Examples:
   actucheck adapter check -- python3 adapter.py
+  actucheck adapter check --verbose -- ./my-adapter
+      with every line exchanged
   actucheck adapter check --start-timeout 60 -- ./run
 
 Exit status: 0 all is well, 1 something is wrong, 2 wrong usage, 4 the adapter could not be started.";
@@ -25,12 +27,15 @@ Exit status: 0 all is well, 1 something is wrong, 2 wrong usage, 4 the adapter c
 pub(crate) struct Check {
     #[command(flatten)]
     exchange: Exchange,
+    /// Print every line exchanged, not only the last few before a problem
+    #[arg(short, long)]
+    verbose: bool,
     /// The adapter's command with its arguments
     #[arg(last = true, required = true, value_name = "COMMAND")]
     command: Vec<String>,
 }
 
-/// How many of the last lines of a conversation are shown.
+/// How many of the last lines before a problem are shown.
 const SHOWN: usize = 4;
 /// How many characters of a line are shown.
 const WIDTH: usize = 400;
@@ -46,7 +51,8 @@ pub(crate) fn run(options: &Check) -> Result<ExitCode, Failure> {
         Failure::not_started(message)
     })?;
     shared::finish(settings.trace)?;
-    write(&report, &command, &mut anstream::stdout()).map_err(Failure::incomplete)?;
+    write(&report, &command, options.verbose, &mut anstream::stdout())
+        .map_err(Failure::incomplete)?;
     Ok(ExitCode::from(match &report.hello {
         Some(_) if report.is_good() => 0,
         Some(_) => Failure::FAILED,
@@ -54,8 +60,8 @@ pub(crate) fn run(options: &Check) -> Result<ExitCode, Failure> {
     }))
 }
 
-fn write(report: &Report, command: &str, out: &mut impl Write) -> io::Result<()> {
-    report.points.iter().try_for_each(|point| line(point, out))?;
+fn write(report: &Report, command: &str, verbose: bool, out: &mut impl Write) -> io::Result<()> {
+    report.points.iter().try_for_each(|point| line(point, verbose, out))?;
     let wrong = report.points.iter().filter(|point| point.result.is_err()).count();
     if wrong == 0 {
         let style = AnsiColor::Green.on_default().bold();
@@ -76,24 +82,37 @@ fn write(report: &Report, command: &str, out: &mut impl Write) -> io::Result<()>
     writeln!(out, "\n{style}WRONG{style:#}  {wrong} of {} points{rest}", report.points.len())
 }
 
-/// Prints a point on one line; a problem and how to fix it follow on more lines.
-fn line(point: &Point, out: &mut impl Write) -> io::Result<()> {
+/// Prints a point on one line. The exchanged lines, and how to fix a problem, follow on more lines.
+fn line(point: &Point, verbose: bool, out: &mut impl Write) -> io::Result<()> {
     let name = &point.name;
-    let problem = match &point.result {
+    match &point.result {
         Ok(remark) => {
             let style = AnsiColor::Green.on_default();
             let remark = if remark.is_empty() { String::new() } else { format!(" ({remark})") };
-            return writeln!(out, "  {style}ok{style:#}     {name}{remark}");
+            writeln!(out, "  {style}ok{style:#}     {name}{remark}")?;
         }
-        Err(problem) => problem,
+        Err(problem) => {
+            let style = AnsiColor::Red.on_default().bold();
+            writeln!(out, "  {style}WRONG{style:#}  {name}: {}", problem.what)?;
+        }
+    }
+    let left_out = match (verbose, &point.result) {
+        (true, _) => 0,
+        (false, Ok(_)) => point.said.len(),
+        (false, Err(_)) => point.said.len().saturating_sub(SHOWN),
     };
-    let style = AnsiColor::Red.on_default().bold();
-    writeln!(out, "  {style}WRONG{style:#}  {name}: {}", problem.what)?;
-    for Said { by_adapter, line } in point.said.iter().skip(point.said.len().saturating_sub(SHOWN))
-    {
+    if left_out > 0 && point.result.is_err() {
+        writeln!(out, "         {left_out} lines before these; --verbose prints them")?;
+    }
+    for Said { by_adapter, line } in point.said.iter().skip(left_out) {
         let dots = if line.chars().count() > WIDTH { "…" } else { "" };
-        let line: String = line.chars().take(WIDTH).collect();
+        // What an adapter writes must not move the terminal's cursor.
+        let visible = |c: char| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c };
+        let line: String = line.chars().take(WIDTH).map(visible).collect();
         writeln!(out, "         {}  {line}{dots}", if *by_adapter { "got " } else { "sent" })?;
     }
-    writeln!(out, "         mend  {}", problem.mend)
+    match &point.result {
+        Ok(_) => Ok(()),
+        Err(problem) => writeln!(out, "         mend  {}", problem.mend),
+    }
 }

@@ -5,8 +5,9 @@ use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use actucheck::adapter::{Hello, Settings, Timeouts, Trace};
+use actucheck::adapter::{Hello, Settings, Timeouts, Trace, lint};
 use actucheck::subject::{Builtin, Process, Subject};
+use actucheck::suite::plan::Plan;
 use clap::Args;
 
 use super::Failure;
@@ -77,7 +78,11 @@ impl Subjects {
             Process::start(&adapter.command, Settings { restarts, number, ..settings.clone() })
                 .map_err(Failure::not_started)
         };
-        let mut subjects = Self::of(start(1)?);
+        let first = start(1)?;
+        for contradiction in first.contradictions() {
+            anstream::eprintln!("actucheck: the adapter says in hello: {contradiction}");
+        }
+        let mut subjects = Self::of(first);
         for number in 2..=u32::from(jobs) {
             subjects.all.push(Box::new(start(number)?));
         }
@@ -86,6 +91,14 @@ impl Subjects {
 
     fn of(subject: impl Subject + Send + 'static) -> Self {
         Self { hello: subject.hello().clone(), all: vec![Box::new(subject)], trace: None }
+    }
+
+    /// Says which question of the other role the adapter answers, if it plays one role only.
+    pub(crate) fn say_other_role(&mut self, plan: &Plan<'_>) {
+        let first = self.all.first_mut();
+        if let Some(said) = first.and_then(|first| lint::other_role(first.as_mut(), plan)) {
+            anstream::eprintln!("actucheck: {said}");
+        }
     }
 
     /// Ends the processes. Returns the last lines that they logged.

@@ -97,6 +97,10 @@ impl Rules for This {
         Some(reference::unstuff(stuffed))
     }
 
+    fn shortest_frame(&self) -> usize {
+        reference::PREFIX + 3 // instruction and CRC
+    }
+
     fn encode(&self, packet: &super::Packet) -> Option<Vec<u8>> {
         reference::encode(own(packet)?)
     }

@@ -87,6 +87,10 @@ impl Rules for This {
         vec![crc.into(), crc.swap_bytes().into()]
     }
 
+    fn shortest_frame(&self) -> usize {
+        reference::PREFIX + 1 // the end
+    }
+
     fn encode(&self, packet: &super::Packet) -> Option<Vec<u8>> {
         reference::encode(own(packet)?)
     }

@@ -1,11 +1,9 @@
 //! A packet as a call, for libraries that have functions instead of packets.
 
 use crate::model::HexBytes;
+use crate::wire::dynamixel2::reference::BROADCAST;
 use crate::wire::dynamixel2::{Block, Packet};
 use crate::wire::{Call, Target};
-
-/// The ID that instructions to several devices are sent to.
-const BROADCAST: u8 = 0xFE;
 
 /// The call that sends this packet. It is a general one for every answer, and for an instruction that
 /// has no call of its own or other parameters than that call.

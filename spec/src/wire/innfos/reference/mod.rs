@@ -16,7 +16,7 @@ const HEADER: u8 = 0xEE;
 /// The last byte of a frame.
 const TAIL: u8 = 0xED;
 /// Bytes of header, address, command and length.
-const PREFIX: usize = 5;
+pub const PREFIX: usize = 5;
 /// The commands whose replies of one byte may or may not have a CRC.
 const OPTIONAL_CRC: [u8; 2] = [0x02, 0x44];
 

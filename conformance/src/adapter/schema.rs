@@ -1,0 +1,77 @@
+//! JSON Schemas of the lines between the suite and an adapter, in version 2 of the adapter protocol.
+//! `ACCEPT=1 cargo test -p actucheck --test reports` rewrites the files in `conformance/schema`.
+
+use actucheck_spec::schema::{of_read, of_written};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{Greeting, Output, Rejection, Request};
+
+/// Each schema's name and text.
+#[must_use]
+pub fn all() -> [(&'static str, String); 2] {
+    [("request", request()), ("reply", reply())]
+}
+
+/// The schema of requests.
+#[must_use]
+pub fn request() -> String {
+    of_written::<RequestLine<'_>>()
+}
+
+/// The schema of replies.
+#[must_use]
+pub fn reply() -> String {
+    of_read::<ReplyLine>()
+}
+
+/// A request to an adapter, which is one line.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[schemars(title = "Request")]
+pub struct RequestLine<'a> {
+    /// The number of the request.
+    pub id: u64,
+    /// What is asked.
+    #[serde(flatten)]
+    pub request: Request<'a>,
+}
+
+/// A reply of an adapter, which is one line.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[schemars(title = "Reply")]
+pub struct ReplyLine {
+    /// The number of the request.
+    pub id: u64,
+    /// The answer.
+    #[serde(flatten)]
+    pub answer: Answer,
+}
+
+/// The content of a reply.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Answer {
+    /// The result.
+    Ok(Success),
+    /// The library rejects the bytes or the packet.
+    Err(Rejection),
+    /// The library does not offer this.
+    Skip(Skipped),
+}
+
+/// The result of a request.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Success {
+    /// Of `hello`.
+    Hello(Greeting),
+    /// Of any other op.
+    Output(Output),
+}
+
+/// Why a request is skipped.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct Skipped {
+    /// The reason in words.
+    pub reason: String,
+}
