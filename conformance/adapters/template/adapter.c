@@ -11,7 +11,8 @@
 
 /* Answers: each op gives one of them, once. */
 void ok(const char *format, ...);                        /* the object that `ok` holds */
-void rejected(const char *fault, const char *detail);    /* one of the error classes */
+/* One of the error classes, `unspecified` if the library does not say why; and what it says. */
+void rejected(const char *fault, const char *detail);
 void skipped(const char *reason);
 
 /* Fields of a request or of an object in it; all of these point into the request's text. */
@@ -47,9 +48,13 @@ static const struct op {
     {NULL, NULL},
 };
 
-static const char WIRE[] = "dynamixel2";
 static const char IMPLEMENTATION[] =
     "{\"name\":\"my_library\",\"version\":\"0\",\"language\":\"C\"}";
+static const char WIRE[] = "dynamixel2";
+/* A host builds requests and reads replies, a device the reverse; name both if it does both. */
+static const char *const ROLES[] = {"host", NULL};
+/* The longest packets that it builds and reads, in bytes: {"max_send":...,"max_receive":...} */
+static const char LIMITS[] = "{}";
 
 /* The id of the request in hand. */
 static long id;
@@ -247,12 +252,32 @@ static char *read_line(void)
 
 static void say_hello(void)
 {
+    const char *const *role;
     const struct op *op;
-    printf("{\"id\":%ld,\"ok\":{\"protocol\":1,\"implementation\":%s", id, IMPLEMENTATION);
-    printf(",\"wires\":[\"%s\"],\"ops\":[", WIRE);
+    printf("{\"id\":%ld,\"ok\":{\"protocol\":2,\"implementation\":%s", id, IMPLEMENTATION);
+    printf(",\"roles\":[");
+    for (role = ROLES; *role != NULL; role++)
+        printf("%s\"%s\"", role == ROLES ? "" : ",", *role);
+    printf("],\"wires\":[\"%s\"],\"ops\":[", WIRE);
     for (op = OPS; op->name != NULL; op++)
         printf("%s\"%s\"", op == OPS ? "" : ",", op->name);
-    printf("]}}\n");
+    printf("],\"limits\":%s}}\n", LIMITS);
+}
+
+/* Whether the library plays the role that does this. */
+static int plays(const char *request)
+{
+    const char *const *role = ROLES;
+    const char *kind = field(field(request, "packet"), "kind");
+    const char *direction = field(request, "direction");
+    int builds = is(field(request, "op"), "encode");
+    int is_request = builds ? is(kind, "instruction") || is(kind, "request")
+                            : is(direction, "request");
+    if (!builds && direction == NULL)
+        return 1;
+    while (*role != NULL && strcmp(*role, is_request == builds ? "host" : "device") != 0)
+        role++;
+    return *role != NULL;
 }
 
 static void answer(const char *request)
@@ -269,6 +294,8 @@ static void answer(const char *request)
         skipped("the adapter has no such op");
     else if (!is(field(request, "wire"), WIRE))
         skipped("the library does not speak this wire");
+    else if (!plays(request))
+        skipped("the other role does this");
     else
         op->answer(request);
 }

@@ -7,7 +7,7 @@ import sys
 class Rejected(Exception):
     """Raise it where the library rejects its input, with one of the error classes."""
 
-    def __init__(self, fault, detail=""):
+    def __init__(self, detail="", fault="unspecified"):
         super().__init__(detail)
         self.fault = fault
 
@@ -25,11 +25,25 @@ class Skipped(Exception):
 OPS = {}
 
 HELLO = {
-    "protocol": 1,
+    "protocol": 2,
     "implementation": {"name": "my_library", "version": "0", "language": "Python"},
+    # A host builds requests and reads replies, a device the reverse; name both if it does both.
+    "roles": ["host"],
     "wires": ["dynamixel2"],
     "ops": list(OPS),
+    # The longest packets that it builds and reads, in bytes: {"max_send": …, "max_receive": …}.
+    "limits": {},
 }
+
+
+def role(request):
+    """The role that does this; None if both do."""
+    if request["op"] == "encode":
+        is_request = request["packet"]["kind"] in ("instruction", "request")
+        return "host" if is_request else "device"
+    if "direction" in request:
+        return "device" if request["direction"] == "request" else "host"
+    return None
 
 
 def answer(request):
@@ -39,6 +53,8 @@ def answer(request):
     if op not in OPS or request["wire"] not in HELLO["wires"]:
         return {"skip": {"reason": f"no {op}"}}
     try:
+        if role(request) not in (None, *HELLO["roles"]):
+            return {"skip": {"reason": "the other role does this"}}
         return {"ok": OPS[op](request)}
     except Skipped as skipped:
         return {"skip": {"reason": str(skipped)}}

@@ -10,7 +10,7 @@ use crate::command::shared::one_of;
 const EXAMPLES: &str = "\
 Examples:
   actucheck adapter template python > adapter.py
-  actucheck adapter template c > adapter.c";
+  actucheck adapter template rust > src/main.rs";
 
 /// Prints an adapter to start from, which skips every question
 #[derive(Debug, Args)]
@@ -22,13 +22,24 @@ pub(crate) struct Template {
 }
 
 /// The source of each template, by language.
-const LANGUAGES: [(&str, &str, &str); 2] = [
+const LANGUAGES: [(&str, &str, &str); 5] = [
     (
         include_str!("../../../adapters/template/adapter.py"),
         "python",
         "Python 3, without further packages",
     ),
     (include_str!("../../../adapters/template/adapter.c"), "c", "C99, without further libraries"),
+    (
+        include_str!("../../../adapters/template/adapter.cpp"),
+        "cpp",
+        "C++17, without further libraries",
+    ),
+    (include_str!("../../../adapters/template/adapter.rs"), "rust", "Rust, without further crates"),
+    (
+        include_str!("../../../adapters/template/adapter.js"),
+        "javascript",
+        "JavaScript for Node.js, without further packages",
+    ),
 ];
 
 /// Prints the template.
