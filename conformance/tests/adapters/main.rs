@@ -4,6 +4,7 @@
 #![cfg(unix)]
 
 mod adapter_check;
+mod contract;
 mod early_end;
 mod fuzzing;
 mod misbehaving;

@@ -1,6 +1,8 @@
 //! `actucheck adapter …`.
 
 mod check;
+mod guide;
+mod schema;
 mod template;
 
 use std::process::ExitCode;
@@ -9,17 +11,21 @@ use clap::Subcommand;
 
 use super::Failure;
 
-/// Prints a template of an adapter, or checks an adapter
+/// Helps to write an adapter, and checks it
 #[derive(Debug, Subcommand)]
 pub(crate) enum Adapter {
+    Guide(guide::Guide),
     Template(template::Template),
+    Schema(schema::Schema),
     Check(check::Check),
 }
 
 /// Does what the subcommand says.
 pub(crate) fn run(command: &Adapter) -> Result<ExitCode, Failure> {
     match command {
+        Adapter::Guide(_) => Ok(guide::run()),
         Adapter::Template(options) => Ok(template::run(options)),
+        Adapter::Schema(options) => Ok(schema::run(options)),
         Adapter::Check(options) => check::run(options),
     }
 }

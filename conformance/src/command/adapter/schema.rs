@@ -1,0 +1,34 @@
+//! `actucheck adapter schema`.
+
+use std::io::{self, Write as _};
+use std::process::ExitCode;
+
+use actucheck::adapter::schema;
+use clap::Args;
+
+use crate::command::shared::one_of;
+
+/// Prints the JSON Schema of a line of the adapter protocol
+#[derive(Debug, Args)]
+pub(crate) struct Schema {
+    /// Of which lines
+    #[arg(value_parser = one_of(LINES))]
+    lines: Text,
+}
+
+/// Writes the text of a schema.
+type Text = fn() -> String;
+
+/// Each schema, by the kind of lines.
+const LINES: [(Text, &str, &str); 2] = [
+    (schema::request, "request", "Of what the suite writes"),
+    (schema::reply, "reply", "Of what an adapter writes"),
+];
+
+/// Prints the schema.
+pub(crate) fn run(options: &Schema) -> ExitCode {
+    let text = (options.lines)();
+    // A closed pipe, as of `| head`, is not an error.
+    let _ = io::stdout().write_all(text.as_bytes());
+    ExitCode::SUCCESS
+}
