@@ -17,7 +17,7 @@ from dxl2.v2 import (
     calc_crc_16,
 )
 
-from adapter_kit import Rejected, Skipped, is_instruction, serve, unhex
+from adapter_kit import Rejected, Skipped, serve, unhex
 from calls import CALLS, sync_read_params
 from memory_serial import MemorySerial
 
@@ -47,31 +47,23 @@ def unstuff(request):
 
 def encode(request):
     packet = request["packet"]
-    if packet["kind"] != "instruction":
-        raise Skipped("a host's library: it sends no status packets")
-    call = packet.get("call")
+    call = packet["call"]
     serial = MemorySerial()
     bus = bus_over(serial)
-    if call and call["name"] in CALLS:
+    if call["name"] in CALLS:
         CALLS[call["name"]](bus, packet["id"], call)
     else:
-        # No call, or Fast Sync Write, which has no method: the packet's class is public.
+        # A general call, or Fast Sync Write, which has no method: the packet's class is public.
         params = Params(list(unhex(packet["params"])))
         bus.conn.write_packet(InstructionPacket(packet["id"], packet["instruction"], params))
     return {"bytes": serial.written.hex()}
 
 
 def decode(request):
-    frame = unhex(request["bytes"])
-    bus = bus_over(MemorySerial(frame))
+    bus = bus_over(MemorySerial(unhex(request["bytes"])))
     if "fast" in request:
         return {"packet": fast_status(bus, request["fast"])}
-    try:
-        return {"packet": status(bus.conn.read_packet())}
-    except Rejected:
-        if is_instruction(frame):
-            raise Skipped("a host's library: it reads no instruction packets") from None
-        raise
+    return {"packet": status(bus.conn.read_packet())}
 
 
 def status(packet):
@@ -79,7 +71,7 @@ def status(packet):
     if packet is None:
         raise Rejected("truncated", "no packet")
     if not packet.valid:
-        raise Rejected("crc", "not valid")
+        raise Rejected("unspecified", "not valid")
     packet.remove_stuffing()
     return {
         "kind": "status",
@@ -98,7 +90,7 @@ def fast_status(bus, fast):
     if response.timeout:
         raise Rejected("truncated", "no packet")
     if not response.valid:
-        raise Rejected("crc", "not valid")
+        raise Rejected("unspecified", "not valid")
     if response.error:
         raise Skipped("an error number comes alone, without ID and data")
     # The devices' error numbers and IDs are thrown away: its caller is left to believe that there
@@ -131,6 +123,7 @@ if __name__ == "__main__":
             "version": version("dynamixel-python"),
             "url": "https://github.com/seagullcjung/dynamixel-python",
         },
+        ["host"],
         "dynamixel2",
         {op.__name__: op for op in (crc, stuff, unstuff, encode, decode, stream)},
     )

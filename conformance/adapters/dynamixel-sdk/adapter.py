@@ -24,10 +24,11 @@ from dynamixel_sdk.protocol2_packet_handler import (
     PKT_LENGTH_H,
     PKT_LENGTH_L,
     PKT_PARAMETER0,
+    RXPACKET_MAX_LEN,
     TXPACKET_MAX_LEN,
 )
 
-from adapter_kit import Skipped, is_instruction, serve, unhex
+from adapter_kit import Skipped, serve, unhex
 from calls import CALLS, sync_read_group
 from common import SDK, rejected
 from memory_port import MemoryPort
@@ -68,16 +69,14 @@ def unstuff(request):
 
 def encode(request):
     packet = request["packet"]
-    if packet["kind"] != "instruction":
-        raise Skipped("a host's SDK: it sends no status packets")
-    call = packet.get("call")
-    method = CALLS.get(call["name"]) if call else None
+    call = packet["call"]
+    method = CALLS.get(call["name"])
     port = MemoryPort()
     if method:
         result = method(port, packet["id"], call)
     else:
-        # No call, or one that the SDK has no method for (Control Table Backup, Fast Sync Write):
-        # txPacket is public and frames any instruction.
+        # A general call, or one that the SDK has no method for (Control Table Backup, Fast Sync
+        # Write): txPacket is public and frames any instruction.
         body = bytes([packet["instruction"]]) + unhex(packet["params"])
         result = SDK.txPacket(port, packet_list(packet["id"], body))
     # Some methods also wait for the answer, which never comes.
@@ -87,17 +86,14 @@ def encode(request):
 
 
 def decode(request):
-    frame = unhex(request["bytes"])
-    port = MemoryPort([frame])
+    port = MemoryPort([unhex(request["bytes"])])
     if "fast" in request:
         return {"packet": fast_status(port, request["fast"])}
     # rxPacket takes one packet and leaves what follows to the next call: it never sees trailing bytes.
     received, result = SDK.rxPacket(port, False)
-    if result == COMM_SUCCESS:
-        return {"packet": status(received)}
-    if is_instruction(frame):
-        raise Skipped("a host's SDK: it reads no instruction packets")
-    raise rejected(result)
+    if result != COMM_SUCCESS:
+        raise rejected(result)
+    return {"packet": status(received)}
 
 
 def status(received):
@@ -146,7 +142,9 @@ if __name__ == "__main__":
             "version": version("dynamixel-sdk"),
             "url": "https://github.com/ROBOTIS-GIT/DynamixelSDK",
         },
+        ["host"],
         "dynamixel2",
         {op.__name__: op for op in (crc, stuff, unstuff, encode, decode, stream)},
-        {"max_packet": TXPACKET_MAX_LEN},
+        # It compares a received packet's length field, which counts from the instruction on.
+        {"max_send": TXPACKET_MAX_LEN, "max_receive": RXPACKET_MAX_LEN + PKT_INSTRUCTION},
     )

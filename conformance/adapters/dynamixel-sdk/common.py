@@ -17,7 +17,7 @@ SDK = PacketHandler(2.0)
 # The SDK's result codes as error classes. It has one code, RX_CORRUPT, for a wrong CRC, a packet cut
 # short and bytes that are no packet at all; its callers cannot tell these apart, so neither do we.
 ERROR_CLASSES = {
-    COMM_RX_CORRUPT: "crc",
+    COMM_RX_CORRUPT: "unspecified",
     COMM_RX_TIMEOUT: "truncated",  # not one byte received
     COMM_TX_ERROR: "oversize",
     COMM_TX_FAIL: "length",  # fewer or more bytes written than the length field says

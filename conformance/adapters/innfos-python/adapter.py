@@ -22,7 +22,7 @@ def encode(request):
 
 
 def decode(request):
-    kind = request["kind"]
+    kind = request["direction"]
     try:
         packet = innfos.decode(kind, unhex(request["bytes"]))
     except innfos.Rejected as rejected:
@@ -31,7 +31,7 @@ def decode(request):
 
 
 def stream(request):
-    kind = request["kind"]
+    kind = request["direction"]
     packets = []
     for chunk in request["chunks"]:
         packets += innfos.decode_all(kind, unhex(chunk))
@@ -65,6 +65,7 @@ def _frame_of(request):
 if __name__ == "__main__":
     serve(
         {"name": "innfos-python", "version": "1"},
+        ["host", "device"],
         "innfos",
         {op.__name__: op for op in (crc, encode, decode, stream, message)},
     )

@@ -69,7 +69,8 @@ pub(crate) fn send(bus: &mut Buffered, id: u8, call: &Call) -> Option<Result<(),
         }
         Call::ControlTableBackup { .. }
         | Call::FastSyncRead { .. }
-        | Call::FastSyncWrite { .. } => return None,
+        | Call::FastSyncWrite { .. }
+        | Call::Instruction { .. } => return None,
     })
 }
 

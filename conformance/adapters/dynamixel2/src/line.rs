@@ -88,7 +88,9 @@ fn listen(mut device: SerialPort) -> io::Result<Vec<u8>> {
 
 /// Whether as many bytes have arrived as the length states.
 fn is_whole(packet: &[u8]) -> bool {
-    let [_, _, _, _, _, low, high, rest @ ..] = packet else { return false };
+    let [_, _, _, _, _, low, high, rest @ ..] = packet else {
+        return false;
+    };
     rest.len() >= usize::from(u16::from_le_bytes([*low, *high]))
 }
 

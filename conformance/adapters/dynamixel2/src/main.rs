@@ -20,8 +20,10 @@ impl Library for Dynamixel2 {
             name: "dynamixel2",
             version: locked_version(include_str!("../Cargo.lock"), "dynamixel2"),
             url: "https://github.com/robohouse-delft/dynamixel2-rs",
+            roles: &["host"],
             ops: &["crc", "encode", "decode", "stream"],
-            max_packet: Some(line::BUFFER),
+            max_send: Some(line::BUFFER),
+            max_receive: Some(line::BUFFER),
         }
     }
 
@@ -31,17 +33,13 @@ impl Library for Dynamixel2 {
 
     fn encode(packet: &Packet) -> Result<Vec<u8>, Refusal> {
         let Packet::Instruction { id, instruction, params, call } = packet else {
-            return Err(Refusal::skipped("a host's library: it sends no status packets"));
+            return Err(Refusal::skipped("the library sends no status packets"));
         };
         line::sent(|bus| {
-            if let Some(call) = call
-                && let Some(sent) = calls::send(bus, *id, call)
-            {
-                return sent;
-            }
             // The function is public and stuffs, so it serves for instructions that have no
             // function of their own.
-            calls::send_raw(bus, *id, *instruction, params)
+            calls::send(bus, *id, call)
+                .unwrap_or_else(|| calls::send_raw(bus, *id, *instruction, params))
         })
     }
 
@@ -90,12 +88,10 @@ fn refusal(error: ReadError) -> Refusal {
         ReadError::MotorError(_) => {
             return Refusal::skipped("an error number comes alone, without ID and parameters");
         }
-        ReadError::InvalidMessage(InvalidMessage::InvalidInstruction(_)) => {
-            return Refusal::skipped("a host's library: it reads no instruction packets");
-        }
         ReadError::BufferFull(_) => "oversize",
         ReadError::Io(_) => "truncated",
         ReadError::InvalidMessage(InvalidMessage::InvalidHeaderPrefix(_)) => "header",
+        ReadError::InvalidMessage(InvalidMessage::InvalidInstruction(_)) => "instruction",
         ReadError::InvalidMessage(InvalidMessage::InvalidChecksum(_)) => "crc",
         ReadError::InvalidMessage(InvalidMessage::InvalidPacketId(_)) => "id",
         ReadError::InvalidMessage(InvalidMessage::InvalidParameterCount(_)) => "parameter",

@@ -9,7 +9,10 @@ import sys
 
 
 class Rejected(Exception):
-    """The library says no: one of the adapter protocol's error classes, and its own words."""
+    """The library says no: one of the adapter protocol's error classes, and its own words.
+
+    `unspecified` is the class where the library does not say why.
+    """
 
     def __init__(self, error_class, detail=""):
         super().__init__(detail)
@@ -38,16 +41,22 @@ def unhex(text):
         raise BadRequest(f"{text!r} is not hex: {error}") from None
 
 
-def is_instruction(frame):
-    """Whether bytes begin as a DYNAMIXEL packet that carries another instruction than Status."""
-    return frame.startswith(b"\xff\xff\xfd\x00") and frame[7:8] not in (b"", b"\x55")
+def _role(request):
+    """The role that does this; None if both do."""
+    if request["op"] == "encode":
+        is_request = request["packet"]["kind"] in ("instruction", "request")
+        return "host" if is_request else "device"
+    if "direction" in request:
+        return "device" if request["direction"] == "request" else "host"
+    return None
 
 
-def serve(implementation, wire, ops, limits=None):
+def serve(implementation, roles, wire, ops, limits=None):
     """Answers requests until `bye` or the end of standard input."""
     hello = {
-        "protocol": 1,
+        "protocol": 2,
         "implementation": {"language": "Python", **implementation},
+        "roles": roles,
         "wires": [wire],
         "ops": list(ops),
         "limits": limits or {},
@@ -83,6 +92,9 @@ def _answer(request, hello, wire, ops):
             return {"skip": {"reason": f"no op {op!r}"}}
         if request["wire"] != wire:
             return {"skip": {"reason": f"the library does not speak {request['wire']!r}"}}
+        role = _role(request)
+        if role not in (None, *hello["roles"]):
+            return {"skip": {"reason": f"only a {role} does this"}}
         return {"ok": ops[op](request)}
     except Skipped as skipped:
         return {"skip": {"reason": str(skipped)}}

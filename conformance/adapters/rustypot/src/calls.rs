@@ -48,6 +48,9 @@ pub(crate) fn sent(id: u8, call: &Call) -> Result<Vec<u8>, Refusal> {
         | Call::BulkWrite { .. } => {
             return Err(Refusal::skipped("the library has no function for this instruction"));
         }
+        Call::Instruction { .. } => {
+            return Err(Refusal::skipped("the library sends no packet but by a function for it"));
+        }
     };
     match failed {
         Some(error) if port.written.is_empty() => Err(refusal(error.as_ref())),

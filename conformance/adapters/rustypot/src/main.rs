@@ -16,11 +16,8 @@ use actucheck_adapter::{
 use memory_port::MemoryPort;
 use rustypot::{CommunicationErrorKind, DynamixelProtocolHandler, SyncReadError};
 
-/// Offsets of a frame's ID and instruction, the instruction of a status packet, and the header.
+/// Offset of a frame's ID.
 const ID: usize = 4;
-const INSTRUCTION: usize = 7;
-const STATUS: u8 = 0x55;
-const HEADER: [u8; 4] = [0xFF, 0xFF, 0xFD, 0x00];
 
 struct Rustypot;
 
@@ -30,17 +27,16 @@ impl Library for Rustypot {
             name: "rustypot",
             version: locked_version(include_str!("../Cargo.lock"), "rustypot"),
             url: "https://github.com/pollen-robotics/rustypot",
+            roles: &["host"],
             ops: &["encode", "decode"],
-            max_packet: None,
+            max_send: None,
+            max_receive: None,
         }
     }
 
     fn encode(packet: &Packet) -> Result<Vec<u8>, Refusal> {
         let Packet::Instruction { id, call, .. } = packet else {
-            return Err(Refusal::skipped("a host's library: it sends no status packets"));
-        };
-        let Some(call) = call else {
-            return Err(Refusal::skipped("the library sends no packet but by a function for it"));
+            return Err(Refusal::skipped("the library sends no status packets"));
         };
         calls::sent(*id, call)
     }
@@ -55,15 +51,9 @@ impl Library for Rustypot {
 fn status(frame: &[u8]) -> Result<Packet, Refusal> {
     let id = frame.get(ID).copied().unwrap_or_default();
     let handler = DynamixelProtocolHandler::v2();
-    match handler.read_with_error(&mut MemoryPort::holding(frame), id, 0, 0) {
-        Ok((params, error)) => Ok(Packet::Status { id, error: error.byte(), params: Hex(params) }),
-        Err(error) => Err(match frame.get(INSTRUCTION) {
-            Some(&instruction) if frame.starts_with(&HEADER) && instruction != STATUS => {
-                Refusal::skipped("a host's library: it reads no instruction packets")
-            }
-            _ => refusal(error.as_ref()),
-        }),
-    }
+    let read = handler.read_with_error(&mut MemoryPort::holding(frame), id, 0, 0);
+    let (params, error) = read.map_err(|error| refusal(error.as_ref()))?;
+    Ok(Packet::Status { id, error: error.byte(), params: Hex(params) })
 }
 
 fn fast_status(frame: &[u8], fast: &Fast) -> Result<Packet, Refusal> {
@@ -93,7 +83,7 @@ fn refusal(error: &(dyn Error + 'static)) -> Refusal {
         Some(CommunicationErrorKind::IncorrectId(..)) => "id",
         Some(CommunicationErrorKind::TimeoutError) => "truncated",
         // The library has one error for a wrong header, length or instruction.
-        Some(CommunicationErrorKind::ParsingError) => "header",
+        Some(CommunicationErrorKind::ParsingError) => "unspecified",
         Some(CommunicationErrorKind::Unsupported) => "instruction",
         None if cause.is::<io::Error>() => "truncated",
         None => "internal",

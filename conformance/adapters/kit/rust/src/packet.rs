@@ -16,9 +16,8 @@ pub enum Packet {
         instruction: u8,
         /// Everything between the instruction and the CRC, before stuffing.
         params: Hex,
-        /// The same request as a call; `None` if no instruction has such parameters.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        call: Option<Call>,
+        /// The same request as a call.
+        call: Call,
     },
     /// A status packet, which a device answers.
     Status {
@@ -53,20 +52,60 @@ pub struct Block {
 #[allow(missing_docs)] // the variants are the instructions, the fields their parameters
 pub enum Call {
     Ping,
-    Read { address: u16, length: u16 },
-    Write { address: u16, data: Hex },
-    RegWrite { address: u16, data: Hex },
+    Read {
+        address: u16,
+        length: u16,
+    },
+    Write {
+        address: u16,
+        data: Hex,
+    },
+    RegWrite {
+        address: u16,
+        data: Hex,
+    },
     Action,
-    FactoryReset { option: Option<u8> },
+    FactoryReset {
+        option: Option<u8>,
+    },
     Reboot,
-    Clear { params: Hex },
-    ControlTableBackup { params: Hex },
-    SyncRead { address: u16, length: u16, ids: Vec<u8> },
-    FastSyncRead { address: u16, length: u16, ids: Vec<u8> },
-    SyncWrite { address: u16, length: u16, devices: Vec<Device> },
-    FastSyncWrite { address: u16, length: u16, devices: Vec<Device> },
-    BulkRead { devices: Vec<Device> },
-    BulkWrite { devices: Vec<Device> },
+    Clear {
+        params: Hex,
+    },
+    ControlTableBackup {
+        params: Hex,
+    },
+    SyncRead {
+        address: u16,
+        length: u16,
+        ids: Vec<u8>,
+    },
+    FastSyncRead {
+        address: u16,
+        length: u16,
+        ids: Vec<u8>,
+    },
+    SyncWrite {
+        address: u16,
+        length: u16,
+        devices: Vec<Device>,
+    },
+    FastSyncWrite {
+        address: u16,
+        length: u16,
+        devices: Vec<Device>,
+    },
+    BulkRead {
+        devices: Vec<Device>,
+    },
+    BulkWrite {
+        devices: Vec<Device>,
+    },
+    /// Any other instruction, or one with parameters that fit none of these.
+    Instruction {
+        instruction: u8,
+        params: Hex,
+    },
 }
 
 /// One device in a call for several devices. The instruction determines the fields in use; the

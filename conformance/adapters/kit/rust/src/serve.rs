@@ -74,8 +74,15 @@ fn answer<L: Library>(Request { op, fields, .. }: Request) -> Result<Value, Refu
     }
     match fields.get("wire").and_then(Value::as_str) {
         Some("dynamixel2") => {}
-        Some(other) => return Err(Refusal::skipped(format!("the library does not speak {other}"))),
+        Some(other) => {
+            return Err(Refusal::skipped(format!("the library does not speak {other}")));
+        }
         None => return Err(Refusal::rejected("parameter", "bad request: no wire")),
+    }
+    if let Some(role) = role(&op, &fields)
+        && !L::identity().roles.contains(&role)
+    {
+        return Err(Refusal::skipped(format!("only a {role} does this")));
     }
     match op.as_str() {
         "crc" => Ok(json!({ "crc": L::crc(&read::<Bytes>(fields)?.bytes)? })),
@@ -87,6 +94,17 @@ fn answer<L: Library>(Request { op, fields, .. }: Request) -> Result<Value, Refu
         "stream" => Ok(json!({ "packets": L::stream(&read::<Stream>(fields)?.chunks)? })),
         other => Err(Refusal::skipped(format!("the adapter offers no {other}"))),
     }
+}
+
+/// The role that does this; `None` if both do.
+fn role(op: &str, fields: &Map<String, Value>) -> Option<&'static str> {
+    let builds = op == "encode";
+    let is_request = if builds {
+        fields.get("packet")?.get("kind")? == "instruction"
+    } else {
+        fields.get("direction")? == "request"
+    };
+    Some(if is_request == builds { "host" } else { "device" })
 }
 
 /// The fields of an op.
