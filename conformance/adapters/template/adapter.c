@@ -270,10 +270,11 @@ static int plays(const char *request)
     const char *const *role = ROLES;
     const char *kind = field(field(request, "packet"), "kind");
     const char *direction = field(request, "direction");
-    int builds = is(field(request, "op"), "encode");
-    int is_request = builds ? is(kind, "instruction") || is(kind, "request")
-                            : is(direction, "request");
-    if (!builds && direction == NULL)
+    int encodes = is(field(request, "op"), "encode");
+    int builds = encodes || field(request, "value") != NULL;
+    int is_request = encodes ? is(kind, "instruction") || is(kind, "request")
+                             : is(direction, "request");
+    if (!encodes && direction == NULL)
         return 1;
     while (*role != NULL && strcmp(*role, is_request == builds ? "host" : "device") != 0)
         role++;

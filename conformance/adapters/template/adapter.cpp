@@ -110,9 +110,10 @@ std::string hello()
 // The role that does this; empty if both do.
 std::string role(const Json &request)
 {
-    const bool builds = request["op"].text() == "encode";
+    const bool encodes = request["op"].text() == "encode";
+    const bool builds = encodes || request.has("value");
     bool is_request = false;
-    if (builds) {
+    if (encodes) {
         const std::string &kind = request["packet"]["kind"].text();
         is_request = kind == "instruction" || kind == "request";
     } else if (request.has("direction")) {

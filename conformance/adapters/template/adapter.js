@@ -36,14 +36,16 @@ const HELLO = {
 
 /** The role that does this; null if both do. */
 function role(request) {
+    let direction = request.direction;
     if (request.op === "encode") {
         const isRequest = ["instruction", "request"].includes(request.packet.kind);
-        return isRequest ? "host" : "device";
+        direction = isRequest ? "request" : "reply";
     }
-    if ("direction" in request) {
-        return request.direction === "request" ? "device" : "host";
+    if (direction === undefined) {
+        return null;
     }
-    return null;
+    const builds = request.op === "encode" || "value" in request;
+    return builds === (direction === "request") ? "host" : "device";
 }
 
 async function answer(request) {

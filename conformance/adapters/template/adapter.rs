@@ -100,8 +100,9 @@ fn hello() -> String {
 
 /// The role that does this; `None` if both do.
 fn role(request: &Json) -> Result<Option<&'static str>, No> {
-    let builds = request.text("op")? == "encode";
-    let is_request = if builds {
+    let encodes = request.text("op")? == "encode";
+    let builds = encodes || request.get("value").is_some();
+    let is_request = if encodes {
         matches!(request.field("packet")?.text("kind")?, "instruction" | "request")
     } else {
         let Some(direction) = request.get("direction") else { return Ok(None) };

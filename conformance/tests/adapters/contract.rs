@@ -67,7 +67,7 @@ fn every_kind_of_question_and_answer_fits_the_schemas() {
             ops.insert(question.name());
         }
     }
-    assert_eq!(ops.len(), 6, "{ops:?}");
+    assert!(ops.len() >= 6, "{ops:?}");
     for line in [
         r#"{"id":1,"ok":{"crc":1},"skip":{"reason":"no"}}"#,
         r#"{"id":1,"ok":{"crc":"89ca"}}"#,
@@ -105,9 +105,7 @@ fn the_guides_examples_are_right() {
         let Ok(question) = serde_json::from_value::<Question>(line.clone()) else { continue };
         let said = replies.iter().find(|reply| reply["id"] == line["id"]).unwrap();
         match Builtin::default().ask(&question) {
-            Answer::Ok(output) if question.name() == "encode" => {
-                assert_eq!(json!(output), said["ok"]);
-            }
+            Answer::Ok(output) if said["skip"].is_null() => assert_eq!(json!(output), said["ok"]),
             Answer::Rejected(rejection) => {
                 assert_eq!(json!(rejection.class), said["err"]["class"]);
             }

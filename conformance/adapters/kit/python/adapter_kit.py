@@ -43,12 +43,14 @@ def unhex(text):
 
 def _role(request):
     """The role that does this; None if both do."""
+    direction = request.get("direction")
     if request["op"] == "encode":
         is_request = request["packet"]["kind"] in ("instruction", "request")
-        return "host" if is_request else "device"
-    if "direction" in request:
-        return "device" if request["direction"] == "request" else "host"
-    return None
+        direction = "request" if is_request else "reply"
+    if direction is None:
+        return None
+    builds = request["op"] == "encode" or "value" in request
+    return "host" if builds == (direction == "request") else "device"
 
 
 def serve(implementation, roles, wire, ops, limits=None):
