@@ -269,9 +269,10 @@ static int plays(const char *request)
 {
     const char *const *role = ROLES;
     const char *kind = field(field(request, "packet"), "kind");
-    const char *direction = field(request, "direction");
+    const char *message = field(request, "message");
+    const char *direction = field(message == NULL ? request : message, "direction");
     int encodes = is(field(request, "op"), "encode");
-    int builds = encodes || field(request, "value") != NULL;
+    int builds = encodes || message != NULL || field(request, "value") != NULL;
     int is_request = encodes ? is(kind, "instruction") || is(kind, "request")
                              : is(direction, "request");
     if (!encodes && direction == NULL)

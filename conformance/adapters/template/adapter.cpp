@@ -111,13 +111,14 @@ std::string hello()
 std::string role(const Json &request)
 {
     const bool encodes = request["op"].text() == "encode";
-    const bool builds = encodes || request.has("value");
+    const bool builds = encodes || request.has("value") || request.has("message");
+    const Json &of = request.has("message") ? request["message"] : request;
     bool is_request = false;
     if (encodes) {
         const std::string &kind = request["packet"]["kind"].text();
         is_request = kind == "instruction" || kind == "request";
-    } else if (request.has("direction")) {
-        is_request = request["direction"].text() == "request";
+    } else if (of.has("direction")) {
+        is_request = of["direction"].text() == "request";
     } else {
         return "";
     }

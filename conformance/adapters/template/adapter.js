@@ -36,7 +36,7 @@ const HELLO = {
 
 /** The role that does this; null if both do. */
 function role(request) {
-    let direction = request.direction;
+    let direction = (request.message ?? request).direction;
     if (request.op === "encode") {
         const isRequest = ["instruction", "request"].includes(request.packet.kind);
         direction = isRequest ? "request" : "reply";
@@ -44,7 +44,7 @@ function role(request) {
     if (direction === undefined) {
         return null;
     }
-    const builds = request.op === "encode" || "value" in request;
+    const builds = request.op === "encode" || "value" in request || "message" in request;
     return builds === (direction === "request") ? "host" : "device";
 }
 

@@ -101,11 +101,13 @@ fn hello() -> String {
 /// The role that does this; `None` if both do.
 fn role(request: &Json) -> Result<Option<&'static str>, No> {
     let encodes = request.text("op")? == "encode";
-    let builds = encodes || request.get("value").is_some();
+    let message = request.get("message");
+    let builds = encodes || message.is_some() || request.get("value").is_some();
     let is_request = if encodes {
         matches!(request.field("packet")?.text("kind")?, "instruction" | "request")
     } else {
-        let Some(direction) = request.get("direction") else { return Ok(None) };
+        let direction = message.unwrap_or(request).get("direction");
+        let Some(direction) = direction else { return Ok(None) };
         matches!(direction, Json::Text(text) if text == "request")
     };
     Ok(Some(if is_request == builds { "host" } else { "device" }))

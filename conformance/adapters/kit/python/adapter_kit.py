@@ -43,13 +43,13 @@ def unhex(text):
 
 def _role(request):
     """The role that does this; None if both do."""
-    direction = request.get("direction")
+    direction = request.get("message", request).get("direction")
     if request["op"] == "encode":
         is_request = request["packet"]["kind"] in ("instruction", "request")
         direction = "request" if is_request else "reply"
     if direction is None:
         return None
-    builds = request["op"] == "encode" or "value" in request
+    builds = request["op"] == "encode" or "value" in request or "message" in request
     return "host" if builds == (direction == "request") else "device"
 
 

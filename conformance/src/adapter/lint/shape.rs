@@ -28,7 +28,7 @@ pub(super) fn output(op: &Question, ok: &Value) -> Result<Output, Problem> {
     let output = Output::read(op, ok.clone()).map_err(|error| {
         Problem::new(
             format!("`ok` does not fit {}: {error}", op.name()),
-            "the guide has a table of what `ok` holds",
+            "`actucheck adapter guide` has a table of what `ok` holds",
         )
     })?;
     lowercase(ok)?;
