@@ -4,7 +4,7 @@
 
 use std::sync::OnceLock;
 
-use actucheck::adapter::{Hello, Output, Question, Rejection, Told, Wire};
+use actucheck::adapter::{Hello, Limits, Output, Question, Rejection, Told, Wire};
 use actucheck::run::outcomes;
 use actucheck::subject::{Answer, Builtin, Subject};
 use actucheck::suite;
@@ -16,13 +16,15 @@ use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, PATTERN, PREF
 use actucheck_spec::wire::dynamixel2::{Packet, WIRE};
 use actucheck_spec::wire::{self, innfos};
 
+/// Limits that the reference model has here.
+const LIMITS: Limits = Limits { max_packet: None, max_send: Some(5200), max_receive: Some(5100) };
+
 /// The checks of streams demand the packets that every receiver finds that follows the documents, and
 /// warn of those that one should find.
 #[test]
 fn no_check_demands_where_a_search_goes_on() {
     let spec = Spec::embedded().unwrap();
-    let max_packet = Some(2000);
-    let options = suite::Options { cases: 1000, max_packet, ..suite::Options::new() };
+    let options = suite::Options { cases: 1000, limits: LIMITS, ..suite::Options::new() };
     let (mut certain, mut waiting) = (0, 0);
     for check in suite::plan(&spec, &[WIRE], &options).checks() {
         let (Question::Stream { chunks, .. }, Demand::Yield(_)) = (&check.question, &check.demand)
@@ -80,13 +82,20 @@ impl Subject for Model {
                     ) if invalid(*id) => Fault::Id,
                     _ => Fault::Oversize,
                 };
-                wire.encode(&packet.packet).ok_or(fault).and_then(bytes)
+                let frame = wire.encode(&packet.packet).ok_or(fault);
+                frame.and_then(|frame| fitting(frame, LIMITS.send())).and_then(bytes)
             }
             Question::Decode { bytes, context, .. } => {
-                wire.decode(bytes, context).map(Output::Packet)
+                let frame = fitting(bytes.0.clone(), LIMITS.receive());
+                frame.and_then(|frame| wire.decode(&frame, context)).map(Output::Packet)
             }
             Question::Stream { chunks, direction, .. } => {
-                Ok(Output::Packets(wire.stream(chunks, *direction)))
+                let mut packets = wire.stream(chunks, *direction);
+                packets.retain(|packet| {
+                    let frame = wire.encode(packet);
+                    frame.is_some_and(|frame| fitting(frame, LIMITS.receive()).is_ok())
+                });
+                Ok(Output::Packets(packets))
             }
             // No check asks it yet.
             Question::Value { .. } => Err(Fault::Parameter),
@@ -116,12 +125,15 @@ fn message(actuator: Option<&str>, told: &Told) -> Result<Output, Fault> {
     }
 }
 
+fn fitting(frame: Vec<u8>, limit: Option<usize>) -> Result<Vec<u8>, Fault> {
+    if Some(frame.len()) > limit { Err(Fault::Oversize) } else { Ok(frame) }
+}
+
 #[test]
 fn the_reference_passes_every_check() {
     let spec = Spec::embedded().unwrap();
     for wire in Wire::ALL {
-        let max_packet = Some(2000);
-        let options = suite::Options { cases: 100, max_packet, ..suite::Options::new() };
+        let options = suite::Options { cases: 100, limits: LIMITS, ..suite::Options::new() };
         let plan = suite::plan(&spec, &[wire], &options);
         let model = Model(Builtin::default());
         let outcomes = outcomes(&mut [Box::new(model)], &plan);

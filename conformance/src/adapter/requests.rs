@@ -287,7 +287,7 @@ pub struct Implementation {
 }
 
 /// The limits of an implementation.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 pub struct Limits {
     /// Size in bytes of the longest frame that it builds or reads. Version 1 has no other limit;
     /// in version 2 the limit for one of them only comes before it.

@@ -163,6 +163,10 @@ impl Check {
     /// Size in bytes of the longest packet in the question, if that is more than `limit`.
     #[must_use]
     pub fn packet_over(&self, limit: usize) -> Option<usize> {
+        // A check of the limit itself.
+        if matches!(self.demand, Demand::Reject(Fault::Oversize)) {
+            return None;
+        }
         let size = match (&self.question, self.expected()) {
             (Question::Decode { bytes, .. }, _)
             | (Question::Encode { .. }, Some(Output::Bytes(bytes))) => bytes.len(),

@@ -18,7 +18,7 @@ use actucheck_spec::wire::{Context, Direction};
 
 use self::check::{Check, Demand};
 use self::plan::Plan;
-use crate::adapter::{Output, Question, Wire};
+use crate::adapter::{Limits, Output, Question, Wire};
 
 /// The options that determine the checks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,31 +27,29 @@ pub struct Options {
     pub seed: u64,
     /// The number of generated packets.
     pub cases: u32,
-    /// The most bytes in the bodies of the pattern's bytes that are all tried inside every kind of
-    /// packet, up to [`Options::LONGEST_BODY`]. Each further byte means four times as many checks.
+    /// The most bytes in the bodies of the pattern's bytes that are all tried, alone and inside every
+    /// kind of packet, up to [`Options::LONGEST_BODY`]. Each further byte means four times as many
+    /// checks.
     pub body_length: u32,
-    /// The same for bodies without a packet around them.
-    pub bare_length: u32,
-    /// Size in bytes of the longest frame that the subject states to take.
-    pub max_packet: Option<usize>,
+    /// The limits that the subject states.
+    pub limits: Limits,
 }
 
 impl Options {
     /// The longest body in bytes that is tried at all.
     pub const LONGEST_BODY: u32 = 7;
 
-    /// The default options. Bare bodies are long enough for two patterns in a row, at
-    /// which a published library fails.
+    /// The default options.
     #[must_use]
     pub const fn new() -> Self {
-        let (body_length, bare_length) = (4, Self::LONGEST_BODY);
-        Self { seed: 1, cases: 1000, body_length, bare_length, max_packet: None }
+        let limits = Limits { max_packet: None, max_send: None, max_receive: None };
+        Self { seed: 1, cases: 1000, body_length: 4, limits }
     }
 
     /// The same with all bodies up to this many bytes, inside packets and alone.
     #[must_use]
     pub const fn with_bodies(self, length: u32) -> Self {
-        Self { body_length: length, bare_length: length, ..self }
+        Self { body_length: length, ..self }
     }
 }
 

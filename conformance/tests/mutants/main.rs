@@ -9,7 +9,7 @@ mod innfos;
 mod killing;
 mod stubs;
 
-use actucheck::adapter::{Hello, Output, Question, Rejection, Wire};
+use actucheck::adapter::{Hello, Limits, Output, Question, Rejection, Wire};
 use actucheck::subject::{Answer, Builtin, Subject};
 use actucheck::suite;
 use actucheck::suite::check::Check;
@@ -79,8 +79,10 @@ impl Subject for Mutated {
     }
 }
 
+/// The limits that the checks are made for.
+const LIMITS: Limits = Limits { max_packet: None, max_send: Some(3000), max_receive: Some(2000) };
+
 fn checks(wire: Wire) -> Vec<Check> {
-    let max_packet = Some(2000);
-    let options = suite::Options { cases: 50, max_packet, ..suite::Options::new() };
+    let options = suite::Options { cases: 50, limits: LIMITS, ..suite::Options::new() };
     suite::plan(&Spec::embedded().unwrap(), &[wire], &options).checks().collect()
 }

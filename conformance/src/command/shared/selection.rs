@@ -45,8 +45,7 @@ pub(crate) struct Growth {
     #[arg(long, value_name = "N", default_value_t = 1000)]
     cases: u32,
     /// The most bytes in the bodies of FF, FD, 00 and 01 that are all tried, alone and inside every
-    /// kind of packet, up to 7; each further byte means four times as many checks. Without it, up
-    /// to 4 inside packets and 7 alone
+    /// kind of packet, up to 7; each further byte means four times as many checks [default: 4]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(..=i64::from(Options::LONGEST_BODY)))]
     body_length: Option<u32>,
 }
@@ -98,9 +97,9 @@ impl Growth {
 
     /// What decides which checks a wire has.
     pub(crate) fn options(&self, hello: Option<&Hello>) -> Options {
-        let max_packet = hello.and_then(|hello| hello.limits.max_packet);
+        let limits = hello.map(|hello| hello.limits).unwrap_or_default();
         let Self { seed, cases, body_length } = *self;
-        let options = Options { seed, cases, max_packet, ..Options::new() };
+        let options = Options { seed, cases, limits, ..Options::new() };
         body_length.map_or(options, |length| options.with_bodies(length))
     }
 

@@ -2,6 +2,7 @@
 
 mod fast;
 mod packets;
+mod sizes;
 mod streams;
 
 use actucheck::adapter::{Output, Question};
@@ -12,8 +13,8 @@ use actucheck_spec::wire::{self, Context};
 use super::{Mutant, Wrong, bytes};
 
 /// Every mutant.
-pub(super) static LISTS: [&[Mutant]; 4] =
-    [&MUTANTS, &fast::MUTANTS, &packets::MUTANTS, &streams::MUTANTS];
+pub(super) static LISTS: [&[Mutant]; 5] =
+    [&MUTANTS, &fast::MUTANTS, &packets::MUTANTS, &sizes::MUTANTS, &streams::MUTANTS];
 
 pub(super) static MUTANTS: [Mutant; 14] = [
     Mutant {

@@ -1,9 +1,10 @@
 //! Implementations that are wrong with some lengths, IDs, addresses or numbers of devices.
 
 use actucheck::adapter::{Output, Question};
+use actucheck_spec::wire::Context;
 use actucheck_spec::wire::dynamixel2::{Packet, reference};
-use actucheck_spec::wire::{self, Context};
 
+use super::sizes::encoded;
 use super::{body_of, read_leniently, with_crc};
 use crate::{Mutant, Wrong, bytes};
 
@@ -91,13 +92,6 @@ pub(super) static MUTANTS: [Mutant; 6] = [
 fn stream(op: &Question) -> Option<Vec<u8>> {
     let Question::Stream { chunks, .. } = op else { return None };
     Some(chunks.iter().flat_map(|chunk| chunk.0.clone()).collect())
-}
-
-/// The right bytes of a packet that is to be encoded.
-fn encoded(op: &Question) -> Option<Vec<u8>> {
-    let Question::Encode { packet, .. } = op else { return None };
-    let wire::Packet::Dynamixel2(packet) = &packet.packet else { return None };
-    reference::encode(packet)
 }
 
 fn crc_swapped(mut frame: Vec<u8>) -> Vec<u8> {

@@ -3,6 +3,11 @@
 //! - golden: the test vectors;
 //! - exhaustive: every case of small sets, such as short bodies and all instructions;
 //! - ids: every ID;
+//! - lengths: every length, and the pattern of byte stuffing at every place;
+//! - devices: 1 to 253 devices in the instructions for several;
+//! - addresses: every instruction that has an address, at the ends;
+//! - crc: bodies after which the CRC looks like stuffing;
+//! - limits: packets at the limits that an implementation states, and above them;
 //! - instructions: single instructions and their answers;
 //! - fast: fast status packets, which answer several devices' requests at once;
 //! - negative: packets that break one rule of the receive procedure;
@@ -10,13 +15,19 @@
 //! - unspecified: questions that the documents leave unspecified;
 //! - generated: packets and streams that are generated from a seed.
 
+mod addresses;
+mod crc;
+mod devices;
 mod exhaustive;
 mod fast;
 pub(crate) mod generated;
 pub(super) mod golden;
 mod ids;
 mod instructions;
+mod lengths;
+mod limits;
 mod negative;
+mod requests;
 mod streams;
 mod unspecified;
 
@@ -35,6 +46,11 @@ pub(super) fn families<'a>(author: Author<'a>, options: &Options) -> Vec<Family<
     let mut families = vec![golden::family(author)];
     families.extend(exhaustive::families(author, options));
     families.extend(ids::families(author));
+    families.push(lengths::family(author, options.limits));
+    families.push(devices::family(author));
+    families.extend(addresses::families(author));
+    families.extend(crc::families(author));
+    families.extend(limits::families(author, options.limits));
     families.push(Family::of("", move || instructions::checks(&author)));
     families.extend(fast::families(author));
     families.push(negative::family(author));

@@ -22,7 +22,7 @@ use crate::suite::plan::Family;
 use crate::suite::{Author, Options};
 
 pub(super) fn families<'a>(author: Author<'a>, options: &Options) -> Vec<Family<'a>> {
-    let max_packet = options.max_packet;
+    let max_packet = options.limits.max_packet;
     let mut families = vec![Family::of("", move || golden::checks(&author))];
     for direction in Direction::ALL {
         families.extend(packets::families(author, direction));

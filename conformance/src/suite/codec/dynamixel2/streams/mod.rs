@@ -31,7 +31,7 @@ const FOUND: &str = "dynamixel2.receive.stream";
 const REGISTER: [u8; 2] = [0x74, 0x00];
 
 pub(super) fn families<'a>(author: Author<'a>, options: &Options) -> Vec<Family<'a>> {
-    let longest = options.max_packet;
+    let longest = options.limits.receive();
     let of = |part: &str, scenarios: fn() -> Vec<Scenario>| {
         Family::new(format!("dynamixel2.stream.{part}."), move || {
             scenarios().into_iter().map(move |scenario| scenario.group(author))
