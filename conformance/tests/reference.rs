@@ -4,17 +4,17 @@
 
 use std::sync::OnceLock;
 
-use actucheck::adapter::{Hello, Limits, Output, Question, Rejection, Told, Wire};
+use actucheck::adapter::{Given, Hello, Limits, Output, Owner, Question, Rejection, Told, Wire};
 use actucheck::run::outcomes;
 use actucheck::subject::{Answer, Builtin, Subject};
 use actucheck::suite;
 use actucheck::suite::check::Demand;
 use actucheck::verdict::Verdict;
 use actucheck_spec::Spec;
-use actucheck_spec::model::{Fault, Level};
+use actucheck_spec::model::{Fault, Level, Register};
 use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, PATTERN, PREFIX};
 use actucheck_spec::wire::dynamixel2::{Packet, WIRE};
-use actucheck_spec::wire::{self, innfos};
+use actucheck_spec::wire::{self, Number, Value, innfos};
 
 /// Limits that the reference model has here.
 const LIMITS: Limits = Limits { max_packet: None, max_send: Some(5200), max_receive: Some(5100) };
@@ -60,7 +60,7 @@ fn fast_status_packets_hold_the_pattern() {
 }
 
 /// The reference model as an implementation.
-struct Model(Builtin);
+struct Model(Builtin, Spec);
 
 impl Subject for Model {
     fn hello(&self) -> &Hello {
@@ -97,7 +97,23 @@ impl Subject for Model {
                 });
                 Ok(Output::Packets(packets))
             }
-            // No check asks it yet.
+            Question::Value { owner: Owner::Register(of), form, given, .. } => {
+                let devices = self.1.devices.iter().map(|file| &file.content);
+                let mut devices = devices.filter(|device| device.device == of.device);
+                let register = devices.next().unwrap().register(&of.register).unwrap();
+                let value =
+                    |raw| reference::register_value(register, of.field.as_deref(), form, raw);
+                match given {
+                    Given::Bytes(bytes) => {
+                        let raw = reference::register_number(register, bytes);
+                        Ok(Output::Value(value(raw).unwrap()))
+                    }
+                    Given::Value(given) => bytes(reference::register_bytes(
+                        register,
+                        number(register, given, |raw| value(raw).as_ref() == Some(given)),
+                    )),
+                }
+            }
             Question::Value { .. } => Err(Fault::Parameter),
             Question::Message { actuator, told, .. } => message(actuator.as_deref(), told),
         };
@@ -129,13 +145,21 @@ fn fitting(frame: Vec<u8>, limit: Option<usize>) -> Result<Vec<u8>, Fault> {
     if Some(frame.len()) > limit { Err(Fault::Oversize) } else { Ok(frame) }
 }
 
+/// The number in a register that means this; a name or flags are looked for among all bytes.
+fn number(register: &Register, value: &Value, means: impl Fn(i64) -> bool) -> i64 {
+    let Value::Number(number) = value else { return (0..=255).find(|raw| means(*raw)).unwrap() };
+    let factor = register.unit.as_ref().map_or(1.0, |unit| unit.factor);
+    let raw = (f64::from(*number) / factor).round();
+    Number::try_from(raw).unwrap().to_whole().unwrap()
+}
+
 #[test]
 fn the_reference_passes_every_check() {
     let spec = Spec::embedded().unwrap();
     for wire in Wire::ALL {
         let options = suite::Options { cases: 100, limits: LIMITS, ..suite::Options::new() };
         let plan = suite::plan(&spec, &[wire], &options);
-        let model = Model(Builtin::default());
+        let model = Model(Builtin::default(), Spec::embedded().unwrap());
         let outcomes = outcomes(&mut [Box::new(model)], &plan);
         let bad = outcomes
             .iter()

@@ -7,7 +7,8 @@ use actucheck_spec::wire::{Direction, Packet, innfos};
 
 use super::{Mutant, Wrong, bytes};
 
-pub(super) static MUTANTS: [Mutant; 10] = [
+pub(super) static MUTANTS: [Mutant; 11] = [
+    stub("knows no values", Wrong::Rejects(|op| matches!(op, Question::Value { .. }))),
     stub(
         "answers CRC 1",
         Wrong::Answers(|op| matches!(op, Question::Crc { .. }).then_some(Output::Crc(1))),

@@ -10,7 +10,7 @@ use crate::suite::plan::Plan;
 
 /// The checks whose questions are asked, each with a description. Every op of every wire occurs at
 /// least once, and so does each kind of packet that only a host or only a device has to read.
-const CHECKS: [(&str, &str); 18] = [
+const CHECKS: [(&str, &str); 20] = [
     ("dynamixel2.write.instruction/crc", "crc on dynamixel2"),
     ("dynamixel2.stuffing.data/stuff", "stuff on dynamixel2"),
     ("dynamixel2.stuffing.data/unstuff", "unstuff on dynamixel2"),
@@ -21,6 +21,8 @@ const CHECKS: [(&str, &str); 18] = [
     ("dynamixel2.read.status/decode", "decode of a status packet"),
     ("ja40.fast-sync-read.status/decode", "decode of a fast status packet"),
     ("dynamixel2.read.status/stream", "stream on dynamixel2"),
+    ("ja40.value.velocity-limit.2000/read", "value of bytes"),
+    ("ja40.value.velocity-limit.2000/write", "value of a number"),
     ("innfos.iq.sixty-revolutions/crc", "crc on innfos"),
     ("innfos.iq.sixty-revolutions/encode", "encode of a request"),
     ("innfos.reply.command.06/encode", "encode of a reply"),

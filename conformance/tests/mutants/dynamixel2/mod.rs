@@ -4,6 +4,7 @@ mod fast;
 mod packets;
 mod sizes;
 mod streams;
+mod values;
 
 use actucheck::adapter::{Output, Question};
 use actucheck_spec::wire::dynamixel2::Packet;
@@ -13,8 +14,16 @@ use actucheck_spec::wire::{self, Context};
 use super::{Mutant, Wrong, bytes};
 
 /// Every mutant.
-pub(super) static LISTS: [&[Mutant]; 5] =
-    [&MUTANTS, &fast::MUTANTS, &packets::MUTANTS, &sizes::MUTANTS, &streams::MUTANTS];
+pub(super) static LISTS: [&[Mutant]; 8] = [
+    &MUTANTS,
+    &fast::MUTANTS,
+    &packets::MUTANTS,
+    &sizes::MUTANTS,
+    &streams::MUTANTS,
+    &values::NUMBERS,
+    &values::WRITING,
+    &values::NAMES,
+];
 
 pub(super) static MUTANTS: [Mutant; 14] = [
     Mutant {

@@ -13,6 +13,7 @@
 //! - negative: packets that break one rule of the receive procedure;
 //! - streams: packets in a stream, cut into chunks in several ways;
 //! - unspecified: questions that the documents leave unspecified;
+//! - values: what the bytes of registers mean;
 //! - generated: packets and streams that are generated from a seed.
 
 mod addresses;
@@ -30,6 +31,7 @@ mod negative;
 mod requests;
 mod streams;
 mod unspecified;
+mod values;
 
 use actucheck_spec::Spec;
 use actucheck_spec::wire::dynamixel2::Packet;
@@ -56,6 +58,7 @@ pub(super) fn families<'a>(author: Author<'a>, options: &Options) -> Vec<Family<
     families.push(negative::family(author));
     families.extend(streams::families(author, options));
     families.push(Family::of("dynamixel2.open.", move || unspecified::checks(&author)));
+    families.extend(values::families(author));
     families.push(generated::family(author, options.seed, options.cases));
     families
 }

@@ -7,12 +7,14 @@
 mod call;
 mod packet;
 mod stream;
+mod value;
 
 pub use call::call;
 pub use packet::{
     crc, decode, decode_fast, encode, frame, is_unspecified, part, repair, stuff, unstuff,
 };
 pub use stream::{Event, events, is_certain, lacks_bytes, packets, packets_behind_lengths};
+pub use value::{half_a_count, register_bytes, register_number, register_value};
 
 /// The first bytes of every packet.
 pub const HEADER: [u8; 4] = [0xFF, 0xFF, 0xFD, 0x00];
