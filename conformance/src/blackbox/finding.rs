@@ -17,10 +17,29 @@ pub struct Finding {
     pub kind: Kind,
     /// The smallest question with this failure.
     pub check: Check,
+    /// What has to be asked before it on a fresh process, in this order; empty if it fails alone.
+    pub before: Vec<Check>,
     /// The outcome of that question.
     pub outcome: Outcome,
     /// How many probes had this failure.
     pub times: u64,
+}
+
+impl Finding {
+    /// Every check of this finding, in the order in which they are asked.
+    pub fn checks(&self) -> impl Iterator<Item = &Check> {
+        self.before.iter().chain([&self.check])
+    }
+
+    /// The size of its question, to compare it with others.
+    pub(super) fn size(&self) -> usize {
+        size(&self.check)
+    }
+}
+
+/// The size of a question.
+pub(super) fn size(check: &Check) -> usize {
+    check.question.to_string().len()
 }
 
 /// The properties that failures with the same cause are likely to share.
@@ -81,7 +100,8 @@ pub(super) struct Failure {
 }
 
 impl Failure {
-    /// The failure, if the answer is one. A rejection for the wrong reason is not a failure.
+    /// The failure, if the answer is one or breaks a recommendation. A rejection for the wrong
+    /// reason is not a failure.
     pub(super) fn of(check: &Check, answer: Answer) -> Option<Self> {
         let class = match &answer {
             Answer::Rejected(rejection) => Some(rejection.class),
@@ -93,9 +113,12 @@ impl Failure {
             (Verdict::Crash, ..) => Symptom::Crashed,
             (Verdict::AdapterFault, ..) => Symptom::Faulty,
             (Verdict::Fail, Some(Fault::Internal), _) => Symptom::BrokeDown,
-            (Verdict::Fail, Some(class), _) => Symptom::Rejected(class.to_string()),
-            (Verdict::Fail, None, Demand::Reject(fault)) => Symptom::Accepted(fault.to_string()),
-            (Verdict::Fail, None, _) => {
+            (Verdict::Warn, Some(_), Demand::Reject(_)) => return None,
+            (Verdict::Fail | Verdict::Warn, Some(class), _) => Symptom::Rejected(class.to_string()),
+            (Verdict::Fail | Verdict::Warn, None, Demand::Reject(fault)) => {
+                Symptom::Accepted(fault.to_string())
+            }
+            (Verdict::Fail | Verdict::Warn, None, _) => {
                 Symptom::Differs(difference(outcome.expected.as_ref(), outcome.actual.as_ref()))
             }
             _ => return None,

@@ -2,36 +2,63 @@
 //! foresees.
 //!
 //! Probes are generated from a seed, and the reference model gives the right answers. Each failure
-//! is shrunk to the smallest question of its kind. The same seed finds the same failures.
+//! is asked again of a fresh process and shrunk to the smallest question of its kind, with the
+//! questions before it if it depends on them.
+//!
+//! Probes are drawn in batches, and a batch is dealt to the subject's processes in turn. So the same
+//! seed asks the same probes for any number of processes, and finds the same failures if the
+//! answers depend neither on earlier questions nor on time. A limit in time ends a run, and the
+//! shrinking of a slow subject, at another place each time.
 
+mod examine;
 mod finding;
+mod lane;
+mod payload;
 mod probe;
+mod shrink;
+mod topic;
 mod wire;
 
-use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, AtomicU64};
 
 use actucheck_spec::Spec;
 use proptest::strategy::{BoxedStrategy, Strategy, ValueTree};
 use proptest::test_runner::TestRunner;
 
-use self::finding::Failure;
+use self::examine::Examiner;
+use self::finding::{Failure, size};
+use self::lane::{Heard, Lane, Shared};
 use self::probe::Probe;
-use crate::adapter::{Question, Wire};
-use crate::subject::{Answer, Questions, Subject};
+use self::topic::Topics;
+use crate::adapter::{Hello, Wire};
+use crate::subject::Subject;
 use crate::suite::Author;
 use crate::suite::check::Check;
 use crate::suite::random::runner;
 
 pub use finding::{Finding, Kind, Symptom};
+pub use topic::{NotAsked, Topic};
 
 /// The number of probes that are generated before they are asked.
-const BATCH: usize = 256;
-/// The maximum number of shrinking steps for a failing probe.
-const SHRINK: usize = 2_000;
-/// The same for an adapter that hangs or ends, as each step takes long.
-const SHRINK_SLOWLY: usize = 40;
+const BATCH: u64 = 256;
+/// After so many drawn probes in a row that are not asked, there is nothing left to ask.
+const FRUITLESS: u32 = 5_000;
+/// How often failures of one kind are examined: some do not come again, and another one may be
+/// smaller than the smallest so far.
+const EXAMINED: u32 = 6;
+
+/// Which probes are asked.
+#[derive(Clone, Copy, Debug)]
+pub struct Options {
+    /// The wire of the probes.
+    pub wire: Wire,
+    /// Where the probes come from.
+    pub seed: u64,
+    /// How many are asked.
+    pub cases: u64,
+}
 
 /// The result of fuzzing.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -40,181 +67,279 @@ pub struct Fuzzed {
     pub asked: u64,
     /// The kinds of failure found, in the order in which they were found.
     pub findings: Vec<Finding>,
+    /// Kinds of failure that did not come again, neither alone nor after what was asked before.
+    pub passing: Vec<Finding>,
+    /// What was not asked, or not any more.
+    pub not_asked: NotAsked,
     /// Why fuzzing was given up, if it was.
     pub given_up: Option<String>,
 }
 
-/// Asks `subject` the probes generated from `seed`. Fuzzing ends after `cases` probes or when
-/// `watch` breaks; `watch` is called with the number of probes asked and of kinds of failure found.
+/// Asks the processes of a subject the probes of the options. `watch` is called with the number of
+/// probes asked and of kinds of failure found; fuzzing ends when it breaks.
 pub fn fuzz(
     spec: &Spec,
-    wire: Wire,
-    seed: u64,
-    cases: u64,
-    subject: &mut dyn Subject,
-    watch: impl Fn(u64, usize) -> ControlFlow<()>,
+    options: &Options,
+    subjects: &mut [Box<dyn Subject + Send>],
+    watch: &(dyn Fn(u64, usize) -> ControlFlow<()> + Sync),
 ) -> Fuzzed {
-    let mut result = Fuzzed::default();
-    let Some(strategy) = probe::strategy(wire, subject.hello()) else {
-        result.given_up = Some(format!("the adapter offers no op of {}", wire.id()));
-        return result;
+    let Some(hello) = subjects.first().map(|subject| subject.hello().clone()) else {
+        return Fuzzed::default();
     };
-    let author = Author { spec, wire };
-    let mut fuzzer =
-        Fuzzer { author, seed, strategy, runner: runner(seed), drawn: 0, found: BTreeMap::new() };
-    let over = Cell::new(false);
-    while fuzzer.drawn < cases && result.given_up.is_none() && !over.get() {
-        let mut batch = fuzzer.draw(cases);
-        let before = result.asked;
-        let mut go_on = |answered| {
-            result.asked = before + answered;
-            over.set(watch(result.asked, result.findings.len()).is_break());
+    let mut lanes: Vec<_> =
+        subjects.iter_mut().map(|subject| Lane::new(subject.as_mut())).collect();
+    let scope = Scope { author: Author { spec, wire: options.wire }, hello: &hello };
+    let Some(source) = Source::new(&scope, options.seed) else {
+        let given_up = Some(format!("the adapter offers no op of {}", options.wire));
+        return Fuzzed { given_up, ..Fuzzed::default() };
+    };
+    let (topics, known, result) = (Topics::default(), BTreeMap::new(), Fuzzed::default());
+    let mut fuzzer = Fuzzer { scope: &scope, source, topics, known, result };
+    while fuzzer.result.asked < options.cases && fuzzer.result.given_up.is_none() {
+        fuzzer.draw(options.cases, &mut lanes);
+        let found = fuzzer.result.findings.len();
+        let shared = Shared {
+            asked: AtomicU64::new(fuzzer.result.asked),
+            over: AtomicBool::new(false),
+            watch: &|asked| watch(asked, found),
         };
-        for (number, failure) in ask(subject, &batch, &over, &mut go_on) {
-            let failure = match failure {
-                Ok(failure) => failure,
-                Err(reason) => {
-                    result.given_up = Some(reason);
-                    break;
-                }
-            };
-            let Some(probe) = batch.get_mut(number) else { continue };
-            if fuzzer.is_new(&failure) {
-                result.findings.push(shrink(&fuzzer.author, subject, probe, failure, &|| {
-                    watch(result.asked, result.findings.len()).is_continue()
-                }));
-            }
+        ask(&mut lanes, &shared);
+        fuzzer.result.asked = shared.asked.into_inner();
+        fuzzer.judge(&mut lanes, watch);
+        if shared.over.into_inner() {
+            break;
         }
     }
-    for finding in &mut result.findings {
-        finding.times = fuzzer.found.get(&finding.kind).copied().unwrap_or(1);
+    fuzzer.end()
+}
+
+/// The checks of all probes of the options, before any of them is asked.
+#[must_use]
+pub fn checks(spec: &Spec, options: &Options, hello: &Hello) -> Vec<Check> {
+    let scope = Scope { author: Author { spec, wire: options.wire }, hello };
+    let Some(mut source) = Source::new(&scope, options.seed) else { return Vec::new() };
+    let cases = usize::try_from(options.cases).unwrap_or(usize::MAX);
+    let rows = std::iter::repeat_with(|| source.draw(|_| true)).take(cases);
+    rows.flatten().map(|drawn| drawn.check).take(cases).collect()
+}
+
+/// Asks every lane its part of the batch.
+fn ask(lanes: &mut [Lane<'_>], shared: &Shared<'_>) {
+    if let [lane] = lanes {
+        lane.ask(shared);
+        return;
     }
-    result
+    std::thread::scope(|scope| {
+        for lane in lanes {
+            scope.spawn(|| lane.ask(shared));
+        }
+    });
 }
 
-struct Fuzzer<'a> {
+/// What the probes are about, and who is asked.
+struct Scope<'a> {
     author: Author<'a>,
-    seed: u64,
-    strategy: BoxedStrategy<Probe>,
-    runner: TestRunner,
-    drawn: u64,
-    /// How often each kind of failure occurred.
-    found: BTreeMap<Kind, u64>,
+    hello: &'a Hello,
 }
 
-/// A probe that can be shrunk, and its current check.
+impl Scope<'_> {
+    /// The check of a probe; `None` if there is no right answer.
+    fn check(&self, probe: &Probe, id: String) -> Option<Check> {
+        probe.check(&self.author, self.hello, id)
+    }
+
+    /// What a probe is about.
+    fn topic(&self, probe: &Probe) -> Topic {
+        probe.topic(self.author.spec, self.author.wire)
+    }
+}
+
+/// Where probes come from.
+struct Source<'a> {
+    scope: &'a Scope<'a>,
+    strategy: BoxedStrategy<Vec<Probe>>,
+    runner: TestRunner,
+    seed: u64,
+    drawn: u64,
+}
+
+impl<'a> Source<'a> {
+    /// `None` if the subject offers nothing to ask.
+    fn new(scope: &'a Scope<'a>, seed: u64) -> Option<Self> {
+        let Author { spec, wire } = scope.author;
+        let strategy = probe::strategy(spec, wire, scope.hello)?;
+        Some(Self { scope, strategy, runner: runner(seed), seed, drawn: 0 })
+    }
+
+    /// Draws probes that are best asked in a row. Those that are not `wanted` are dropped, and those
+    /// whose right answer the documents leave unspecified.
+    fn draw(&mut self, wanted: impl Fn(&Probe) -> bool) -> Vec<Drawn> {
+        // A strategy without filters always yields a value.
+        let tree = self.strategy.new_tree(&mut self.runner);
+        let probes = tree.map(|tree| tree.current()).unwrap_or_default();
+        let mut row = Vec::new();
+        for probe in probes {
+            let number = self.drawn;
+            self.drawn += 1;
+            let id = format!("{}.fuzz-{}.{number}", self.scope.author.wire, self.seed);
+            if wanted(&probe)
+                && let Some(check) = self.scope.check(&probe, id)
+            {
+                row.push(Drawn { number, probe, check });
+            }
+        }
+        row
+    }
+}
+
+/// A probe and its check.
+#[derive(Clone, Debug)]
 struct Drawn {
-    tree: Box<dyn ValueTree<Value = Probe>>,
+    /// Its place among the probes drawn.
+    number: u64,
+    probe: Probe,
     check: Check,
 }
 
+struct Fuzzer<'a> {
+    scope: &'a Scope<'a>,
+    source: Source<'a>,
+    topics: Topics,
+    known: BTreeMap<Kind, Known>,
+    result: Fuzzed,
+}
+
+/// What is known of a kind of failure.
+struct Known {
+    /// How often it occurred.
+    times: u64,
+    /// How often one was examined.
+    examined: u32,
+    /// The place among the findings, if it came again.
+    found: Option<usize>,
+    /// The first one.
+    first: Finding,
+}
+
 impl Fuzzer<'_> {
-    /// Generates a batch of probes. Those whose right answer the documents leave unspecified are
-    /// dropped.
-    fn draw(&mut self, cases: u64) -> Vec<Drawn> {
-        let mut batch = Vec::new();
-        while batch.len() < BATCH && self.drawn < cases {
-            let number = self.drawn;
-            self.drawn += 1;
-            // A strategy without filters always yields a value.
-            let Ok(tree) = self.strategy.new_tree(&mut self.runner) else { continue };
-            let id = format!("{}.fuzz-{}.{number}", self.author.wire.id(), self.seed);
-            if let Some(check) = tree.current().check(&self.author, id) {
-                batch.push(Drawn { tree, check });
+    /// Draws a batch and deals it to the lanes. Probes that are best asked in a row go to one lane.
+    fn draw(&mut self, cases: u64, lanes: &mut [Lane<'_>]) {
+        let mut left = BATCH.min(cases.saturating_sub(self.result.asked));
+        let (mut turn, mut fruitless) = (0, 0);
+        while left > 0 {
+            let row = self.row(left);
+            left -= u64::try_from(row.len()).unwrap_or(left);
+            fruitless = if row.is_empty() { fruitless + 1 } else { 0 };
+            if fruitless >= FRUITLESS {
+                let reason = "there is nothing to ask: the adapter skips every kind of question";
+                self.result.given_up = Some(reason.to_owned());
+                return;
             }
-        }
-        batch
-    }
-
-    /// Counts a failure. Returns whether it is the first of its kind.
-    fn is_new(&mut self, failure: &Failure) -> bool {
-        let times = self.found.entry(failure.kind.clone()).or_default();
-        *times += 1;
-        *times == 1
-    }
-}
-
-/// Asks a batch. Returns its failures in order, or an error if the subject can't be asked any more.
-/// `watch` is called with the number of answers until the time is `over`.
-fn ask(
-    subject: &mut dyn Subject,
-    batch: &[Drawn],
-    over: &Cell<bool>,
-    watch: &mut dyn FnMut(u64),
-) -> Vec<(usize, Result<Failure, String>)> {
-    let mut asking = Asking { batch, next: 0, answered: 0, failures: Vec::new(), over, watch };
-    subject.ask_all(&mut asking);
-    let mut failures = asking.failures;
-    failures.sort_by_key(|(number, _)| *number);
-    failures
-}
-
-/// A batch that is being asked.
-struct Asking<'a> {
-    batch: &'a [Drawn],
-    next: usize,
-    answered: u64,
-    failures: Vec<(usize, Result<Failure, String>)>,
-    over: &'a Cell<bool>,
-    watch: &'a mut dyn FnMut(u64),
-}
-
-impl Questions for Asking<'_> {
-    fn next(&mut self) -> Option<usize> {
-        let number = self.next;
-        self.next += 1;
-        (number < self.batch.len() && !self.over.get()).then_some(number)
-    }
-
-    fn question(&self, number: usize) -> Option<&Question> {
-        self.batch.get(number).map(|drawn| &drawn.check.question)
-    }
-
-    fn answered(&mut self, number: usize, answer: Answer) {
-        self.answered += 1;
-        (self.watch)(self.answered);
-        let Some(drawn) = self.batch.get(number) else { return };
-        match answer {
-            Answer::NotAsked(reason) => self.failures.push((number, Err(reason))),
-            answer => {
-                let failure = Failure::of(&drawn.check, answer);
-                self.failures.extend(failure.map(|failure| (number, Ok(failure))));
+            if row.is_empty() {
+                continue;
             }
+            let lane = turn % lanes.len().max(1);
+            turn += 1;
+            lanes.iter_mut().skip(lane).take(1).for_each(|lane| lane.deal(row.clone()));
         }
     }
-}
 
-/// Shrinks a failing probe while it fails in the same way and there is time.
-fn shrink(
-    author: &Author<'_>,
-    subject: &mut dyn Subject,
-    drawn: &mut Drawn,
-    failure: Failure,
-    goes_on: &dyn Fn() -> bool,
-) -> Finding {
-    let patience = if failure.kind.is_slow() { SHRINK_SLOWLY } else { SHRINK };
-    let id = drawn.check.id.clone();
-    let mut smallest = Finding {
-        kind: failure.kind,
-        check: drawn.check.clone(),
-        outcome: failure.outcome,
-        times: 1,
-    };
-    let mut smaller = drawn.tree.simplify();
-    for _ in 0..patience {
-        if !smaller || !goes_on() {
-            break;
-        }
-        let check = drawn.tree.current().check(author, id.clone());
-        let failure =
-            check.as_ref().and_then(|check| Failure::of(check, subject.ask(&check.question)));
-        smaller = match (check, failure) {
-            (Some(check), Some(failure)) if failure.kind == smallest.kind => {
-                smallest = Finding { check, outcome: failure.outcome, ..smallest };
-                drawn.tree.simplify()
-            }
-            _ => drawn.tree.complicate(),
-        };
+    /// Draws probes that are asked in a row, `most` at most, without those that the adapter skips.
+    fn row(&mut self, most: u64) -> Vec<Drawn> {
+        let (scope, topics) = (self.scope, &mut self.topics);
+        let mut row = self.source.draw(|probe| topics.is_open(&scope.topic(probe)));
+        row.retain(|Drawn { probe, check, .. }| {
+            topics.is_for(&scope.topic(probe), &check.question, scope.hello)
+        });
+        row.truncate(usize::try_from(most).unwrap_or(usize::MAX));
+        row
     }
-    smallest
+
+    /// Looks at the answers to a batch in the order of the probes.
+    fn judge(
+        &mut self,
+        lanes: &mut [Lane<'_>],
+        watch: &(dyn Fn(u64, usize) -> ControlFlow<()> + Sync),
+    ) {
+        let mut answers = Vec::new();
+        for (number, lane) in lanes.iter_mut().enumerate() {
+            for (place, heard) in lane.take_answers() {
+                answers
+                    .extend(lane.probe(place).cloned().map(|drawn| (drawn, number, place, heard)));
+            }
+        }
+        answers.sort_by_key(|(drawn, ..)| drawn.number);
+        for (drawn, number, place, heard) in answers {
+            let Some(lane) = lanes.get_mut(number) else { continue };
+            let skipped = match &heard {
+                Heard::Skipped(reason) => Some(reason.as_str()),
+                _ => None,
+            };
+            self.topics.note(&self.scope.topic(&drawn.probe), skipped);
+            match heard {
+                Heard::Right | Heard::Skipped(_) => {}
+                Heard::Lost(reason) => {
+                    self.result.given_up.get_or_insert(reason);
+                }
+                Heard::Wrong(failure) => {
+                    let before = lane.before(place);
+                    self.fail(&drawn, *failure, lane, &before, watch);
+                }
+            }
+        }
+        lanes.iter_mut().for_each(Lane::end_batch);
+    }
+
+    /// Counts a failure, and examines it if it is new or smaller.
+    fn fail(
+        &mut self,
+        drawn: &Drawn,
+        failure: Failure,
+        lane: &mut Lane<'_>,
+        before: &[Drawn],
+        watch: &(dyn Fn(u64, usize) -> ControlFlow<()> + Sync),
+    ) {
+        let Failure { kind, outcome } = failure;
+        let known = self.known.entry(kind.clone()).or_insert_with(|| {
+            let (kind, check) = (kind.clone(), drawn.check.clone());
+            let first = Finding { kind, check, before: Vec::new(), outcome, times: 0 };
+            Known { times: 0, examined: 0, found: None, first }
+        });
+        known.times += 1;
+        let smallest = known.found.and_then(|place| self.result.findings.get_mut(place));
+        let worth = smallest.as_ref().is_none_or(|finding| size(&drawn.check) < finding.size());
+        if !worth || known.examined >= EXAMINED {
+            return;
+        }
+        known.examined += 1;
+        lane.is_fresh = true;
+        let asked = self.result.asked;
+        let found = self.known.values().filter(|known| known.found.is_some()).count();
+        let goes_on = || watch(asked, found).is_continue();
+        let examiner = Examiner { scope: self.scope, subject: lane.subject, goes_on: &goes_on };
+        let Some(finding) = examiner.examine(drawn, &kind, before) else { return };
+        match smallest {
+            Some(smallest) if finding.size() < smallest.size() => *smallest = finding,
+            Some(_) => {}
+            None => {
+                let place = self.result.findings.len();
+                self.result.findings.push(finding);
+                if let Some(known) = self.known.get_mut(&kind) {
+                    known.found = Some(place);
+                }
+            }
+        }
+    }
+
+    /// The result.
+    fn end(mut self) -> Fuzzed {
+        for Known { times, found, first, .. } in self.known.into_values() {
+            match found.and_then(|place| self.result.findings.get_mut(place)) {
+                Some(finding) => finding.times = times,
+                None => self.result.passing.push(Finding { times, ..first }),
+            }
+        }
+        self.result.not_asked = self.topics.not_asked();
+        self.result
+    }
 }

@@ -9,7 +9,7 @@ use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use actucheck::adapter::Wire;
-use actucheck::blackbox::{Finding, Fuzzed, fuzz};
+use actucheck::blackbox::{self, Finding, Fuzzed, fuzz};
 use actucheck::report::{Collector, End, Report, Run, text};
 use actucheck::suite::Options;
 use actucheck::suite::saved;
@@ -24,11 +24,21 @@ Examples:
       for a minute, from another seed each time
   actucheck fuzz --seed 7 --cases 100000 -- ./my-adapter
       the same again, whatever the machine
+  actucheck fuzz --time 10m --jobs 4 -- ./my-adapter
+      four processes of the adapter side by side
   actucheck replay findings.yaml -- ./my-adapter
       what was found, asked again
 
-Exit status: 0 nothing found, 1 something found, 2 wrong usage, 3 the adapter failed too often, \
-4 the adapter could not be started.";
+A seed and a number of probes ask the same each time, for any number of processes. What is found \
+is then the same too, unless answers depend on time or on earlier questions. A failure that does \
+not come again on a fresh process is told, with the questions before it that bring it about, if \
+they are found.
+
+What an adapter skips five times without another answer is not asked any more; the summary says \
+what that was.
+
+Exit status: 0 no failure found (a recommendation may be broken), 1 a failure found, 2 wrong usage, 3 the adapter failed too often or \
+skips everything, 4 the adapter could not be started.";
 
 /// Looks for failures that no check foresees, and shrinks them
 #[derive(Debug, Args)]
@@ -40,12 +50,15 @@ pub(crate) struct Fuzz {
     /// How long to fuzz, as in 90s, 10m or 1h; one minute if neither this nor --cases is given
     #[arg(long, value_name = "TIME", value_parser = duration, conflicts_with = "cases")]
     time: Option<Duration>,
-    /// How many probes are generated
+    /// How many probes are asked
     #[arg(long, value_name = "N")]
     cases: Option<u64>,
     /// The seed of the probes; another one each time if it is not given
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
+    /// How many processes of the adapter run side by side
+    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u8).range(1..))]
+    jobs: u8,
     /// Where to write what was found
     #[arg(long, value_name = "FILE", default_value = "findings.yaml")]
     out: PathBuf,
@@ -63,7 +76,7 @@ const RESTARTS: u32 = 1000;
 /// Fuzzes, prints the findings and saves them.
 pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
     let spec = shared::spec()?;
-    let mut subjects = Subjects::start_with(&options.adapter, 1, RESTARTS)?;
+    let mut subjects = Subjects::start_with(&options.adapter, options.jobs, RESTARTS)?;
     let hello = subjects.hello.clone();
     let seed = options.seed.unwrap_or_else(|| RandomState::new().hash_one(()));
     let cases = options.cases.unwrap_or(u64::MAX);
@@ -72,8 +85,8 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
     let started = Instant::now();
     let interrupted = shared::interrupted()?;
     let progress = progress(options.cases);
-    let Some(subject) = subjects.all.first_mut() else { return Ok(ExitCode::SUCCESS) };
-    let fuzzed = fuzz(&spec, options.wire, seed, cases, subject.as_mut(), |asked, found| {
+    let probes = blackbox::Options { wire: options.wire, seed, cases };
+    let fuzzed = fuzz(&spec, &probes, &mut subjects.all, &|asked, found| {
         progress.set_position(asked);
         progress.set_message(format!("{found} kinds of failure"));
         let over = time.is_some_and(|time| started.elapsed() >= time);
@@ -94,20 +107,26 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
         wires: &[options.wire],
         options: Options { seed, ..Options::new() },
         command: &options.adapter.command,
-        records: found.clone().map(|it| (it.check.id.clone(), options.out.clone())).collect(),
+        records: found
+            .clone()
+            .flat_map(Finding::checks)
+            .map(|check| (check.id.clone(), options.out.clone()))
+            .collect(),
     };
     let mut collector = Collector::new(&run);
     collector.extend(found.map(|finding| finding.outcome.clone()));
     let report = collector.finish(End { seconds: took.as_secs_f64(), ..End::default() });
     let mut out = anstream::stdout();
-    show(&report, &fuzzed.findings, &mut out)
+    show(&report, &fuzzed, &mut out)
         .and_then(|()| summary(options, seed, &fuzzed, took, &mut out))
         .map_err(Failure::incomplete)?;
     if let Some(reason) = &fuzzed.given_up {
         let last = log.lines().last().map(|line| format!("; it said `{line}`")).unwrap_or_default();
         return Err(Failure::incomplete(format!("{reason}{last}")));
     }
-    Ok(ExitCode::from(u8::from(!fuzzed.findings.is_empty())))
+    let failed = |finding: &Finding| finding.outcome.verdict.is_failure();
+    let found = fuzzed.findings.iter().chain(&fuzzed.passing).any(failed);
+    Ok(ExitCode::from(u8::from(found)))
 }
 
 /// Writes the smallest case of each kind of failure to a file that `replay` and `codec` take.
@@ -115,7 +134,7 @@ fn keep(options: &Fuzz, findings: &[Finding]) -> Result<(), Failure> {
     if findings.is_empty() {
         return Ok(());
     }
-    let checks: Vec<_> = findings.iter().map(|finding| finding.check.clone()).collect();
+    let checks: Vec<_> = findings.iter().flat_map(Finding::checks).cloned().collect();
     let cannot_write = |error: &dyn std::fmt::Display| {
         let path = options.out.display();
         Failure::incomplete(format!("cannot write {path}: {error}"))
@@ -124,16 +143,29 @@ fn keep(options: &Fuzz, findings: &[Finding]) -> Result<(), Failure> {
     std::fs::write(&options.out, text).map_err(|error| cannot_write(&error))
 }
 
-/// Prints the report on the smallest case of each kind of failure, then one line per kind.
-fn show(report: &Report, findings: &[Finding], out: &mut impl Write) -> io::Result<()> {
-    if findings.is_empty() {
-        return Ok(());
+/// Prints the report on the smallest case of each kind of failure, then what is known of each kind.
+fn show(report: &Report, fuzzed: &Fuzzed, out: &mut impl Write) -> io::Result<()> {
+    if !fuzzed.findings.is_empty() {
+        text::write(report, out)?;
+        writeln!(out)?;
     }
-    text::write(report, out)?;
-    writeln!(out)?;
-    for Finding { kind, check, times, .. } in findings {
+    for Finding { kind, check, before, times, .. } in &fuzzed.findings {
         writeln!(out, "{} {}: {}", kind.op, kind.requirement, kind.symptom)?;
         writeln!(out, "  {times} times; the smallest is {}", check.id)?;
+        if !before.is_empty() {
+            let before: Vec<_> = before.iter().map(|check| check.id.as_str()).collect();
+            let before = before.join(", ");
+            writeln!(out, "  it depends on what came before: it needs {before} first")?;
+        }
+    }
+    for Finding { kind, check, times, outcome, .. } in &fuzzed.passing {
+        writeln!(out, "{} {}: {}", kind.op, kind.requirement, kind.symptom)?;
+        writeln!(out, "  {times} times, the first at {}: {}", check.id, outcome.detail)?;
+        writeln!(
+            out,
+            "  it depends on what came before, or on chance: a fresh process passes, also after \
+             the questions just before it; it is not kept"
+        )?;
     }
     Ok(())
 }
@@ -145,10 +177,21 @@ fn summary(
     took: Duration,
     out: &mut impl Write,
 ) -> io::Result<()> {
-    let found = match fuzzed.findings.len() {
-        0 => "nothing found".to_owned(),
-        1 => format!("1 kind of failure, kept in {}", options.out.display()),
-        count => format!("{count} kinds of failure, kept in {}", options.out.display()),
+    for (reason, topics) in &fuzzed.not_asked {
+        let topics: Vec<_> = topics.iter().map(ToString::to_string).collect();
+        writeln!(out, "not asked, {reason}: {}", topics.join(", "))?;
+    }
+    let kinds = |count: usize, what: &str| match count {
+        1 => format!("1 kind of failure{what}"),
+        count => format!("{count} kinds of failure{what}"),
+    };
+    let kept = kinds(fuzzed.findings.len(), &format!(", kept in {}", options.out.display()));
+    let passing = kinds(fuzzed.passing.len(), " that did not come again");
+    let found = match (fuzzed.findings.is_empty(), fuzzed.passing.is_empty()) {
+        (true, true) => "nothing found".to_owned(),
+        (false, true) => kept,
+        (true, false) => passing,
+        (false, false) => format!("{kept}, and {passing}"),
     };
     let seconds = took.as_secs_f64();
     writeln!(out, "{} probes in {seconds:.1} s, seed {seed}: {found}", fuzzed.asked)

@@ -194,6 +194,12 @@ impl Subject for Process {
         }
     }
 
+    /// Counts as no failure of the adapter, unless it does not start.
+    fn restart(&mut self) {
+        self.end();
+        self.conversation = start(&self.command, &self.settings).ok().map(|(started, _)| started);
+    }
+
     fn log(&self) -> String {
         self.conversation.as_ref().map_or_else(|| self.last_log.clone(), Conversation::log)
     }

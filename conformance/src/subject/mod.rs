@@ -31,6 +31,9 @@ pub trait Subject {
         }
     }
 
+    /// Begins anew, so that nothing that was asked before affects later answers.
+    fn restart(&mut self) {}
+
     /// The last lines that it logged; may be empty.
     fn log(&self) -> String {
         String::new()

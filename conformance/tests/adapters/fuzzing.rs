@@ -38,6 +38,34 @@ fn a_finding_is_shown_kept_and_asked_again() {
 }
 
 #[test]
+fn several_processes_find_what_one_finds_with_as_many_probes() {
+    let folder = tempfile::tempdir().unwrap();
+    let found = |jobs: &str| {
+        let fuzz = ["fuzz", "--seed", "3", "--cases", "300", "--jobs", jobs];
+        let (output, text) = actucheck(folder.path(), &fuzz, WRONG);
+        assert_eq!(output.status.code(), Some(1), "{text}");
+        assert!(text.contains("300 probes in "), "{text}");
+        std::fs::read_to_string(folder.path().join("findings.yaml")).unwrap()
+    };
+    assert_eq!(found("1"), found("3"));
+}
+
+/// Wrong at the second request of every process, and right at the others.
+const WRONG_ONCE: &str = r#"count=$((count + 1))
+    if [ $count = 2 ]; then printf '{"id":%s,"ok":{"crc":1}}\n' "$id"
+    else printf '{"id":%s,"skip":{"reason":"it has no CRC"}}\n' "$id"; fi"#;
+
+#[test]
+fn what_depends_on_earlier_requests_is_told_with_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let fuzz = ["fuzz", "--seed", "3", "--cases", "100"];
+    let (output, text) = actucheck(folder.path(), &fuzz, WRONG_ONCE);
+    assert_eq!(output.status.code(), Some(1), "{text}");
+    assert!(text.contains("it depends on what came before: it needs dynamixel2.fuzz-3."), "{text}");
+    assert!(text.contains(".before-1 first"), "{text}");
+}
+
+#[test]
 fn an_adapter_that_hangs_does_not_outlast_the_time() {
     let folder = tempfile::tempdir().unwrap();
     let fuzz = ["fuzz", "--time", "2s", "--timeout", "0.2"];

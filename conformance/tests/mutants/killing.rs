@@ -13,7 +13,7 @@ use actucheck_spec::model::Level;
 use super::{Mutant, checks, dynamixel2, innfos, stubs};
 
 /// The mutants of a wire that a good check distinguishes from a right implementation.
-fn mutants(wire: Wire) -> impl Iterator<Item = &'static Mutant> {
+pub(super) fn mutants(wire: Wire) -> impl Iterator<Item = &'static Mutant> {
     let lists: &'static [&[Mutant]] = match wire.id() {
         "dynamixel2" => &dynamixel2::LISTS,
         "innfos" => &innfos::LISTS,
@@ -58,7 +58,7 @@ fn finders(mutant: &Mutant, checks: &[Check]) -> BTreeSet<usize> {
 }
 
 /// Whether a check reports an error or a warning.
-fn is_found(outcome: &Outcome) -> bool {
+pub(super) fn is_found(outcome: &Outcome) -> bool {
     let warned = outcome.verdict == Verdict::Warn && outcome.level == Level::Should;
     outcome.verdict.is_failure() || warned
 }

@@ -77,6 +77,10 @@ impl Subject for Mutated {
         let own = self.mutant.wrong.answer(op, last.as_ref());
         own.unwrap_or_else(|| self.codec.ask(op))
     }
+
+    fn restart(&mut self) {
+        self.last = None;
+    }
 }
 
 /// The limits that the checks are made for.

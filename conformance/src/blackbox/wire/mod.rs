@@ -3,11 +3,12 @@
 mod dynamixel2;
 mod innfos;
 
-use actucheck_spec::wire::{Packet, Wire};
+use actucheck_spec::Spec;
+use actucheck_spec::wire::{Direction, Packet, Wire};
 use proptest::prelude::BoxedStrategy;
 
-use super::probe::{Named, Probe};
-use crate::adapter::Question;
+use super::probe::Probe;
+use crate::adapter::{Limits, Question};
 use crate::suite::Author;
 use crate::suite::check::Demand;
 
@@ -17,10 +18,16 @@ const ALL: [Probes; 2] = [dynamixel2::PROBES, innfos::PROBES];
 #[derive(Clone, Copy)]
 pub(crate) struct Probes {
     pub(crate) wire: Wire,
-    /// Generates packets.
-    pub(crate) packet: fn() -> BoxedStrategy<Named>,
-    /// Generates packets for streams.
-    pub(crate) streamed: fn() -> BoxedStrategy<Packet>,
+    /// Generates packets for an adapter with these limits.
+    pub(crate) packet: fn(&Spec, &Limits) -> BoxedStrategy<Packet>,
+    /// Generates packets of one direction for streams.
+    pub(crate) streamed: fn(&Spec, &Limits, Direction) -> BoxedStrategy<Packet>,
+    /// Generates what may come between the packets of a stream.
+    pub(crate) noise: fn() -> BoxedStrategy<Vec<u8>>,
+    /// The kind of a packet, in words.
+    pub(crate) name: fn(&Spec, &Packet) -> String,
+    /// Smaller packets of the same kind.
+    pub(crate) smaller: fn(&Packet) -> Vec<Packet>,
     /// The question of a probe; `None` if the documents leave the right answer unspecified.
     pub(crate) question: fn(&Author<'_>, &Probe) -> Option<Asked>,
 }

@@ -1,0 +1,140 @@
+//! Examines failures on fresh processes: whether a failure depends on what was asked before, and
+//! what is the least that shows it.
+
+use std::time::{Duration, Instant};
+
+use super::finding::{Failure, Finding, Kind};
+use super::probe::Probe;
+use super::shrink::shrink;
+use super::{Drawn, Scope};
+use crate::subject::Subject;
+use crate::suite::check::Check;
+use crate::verdict::Outcome;
+
+/// The maximum number of questions to shrink a failure.
+const STEPS: usize = 2_000;
+/// The same if each question needs a fresh process.
+const FRESH_STEPS: usize = 60;
+/// The same for an adapter that hangs or ends, as each question takes long.
+const SLOW_STEPS: usize = 40;
+/// How long one failure is examined at most.
+const TIME: Duration = Duration::from_secs(10);
+
+/// Examines failures on one subject.
+pub(super) struct Examiner<'a> {
+    pub(super) scope: &'a Scope<'a>,
+    pub(super) subject: &'a mut dyn Subject,
+    /// Whether there is time.
+    pub(super) goes_on: &'a dyn Fn() -> bool,
+}
+
+impl Examiner<'_> {
+    /// The smallest question with such a failure, and what has to be asked before it; `None` if the
+    /// failure does not come again.
+    pub(super) fn examine(
+        mut self,
+        drawn: &Drawn,
+        kind: &Kind,
+        before: &[Drawn],
+    ) -> Option<Finding> {
+        let goes_on = self.goes_on;
+        let started = Instant::now();
+        let goes_on = move || goes_on() && started.elapsed() < TIME;
+        if self.fails_after(&[], &drawn.check, kind).is_some() {
+            self.alone(drawn, kind, &goes_on)
+        } else {
+            self.in_a_row(drawn, kind, before, &goes_on)
+        }
+    }
+
+    /// A failure that needs nothing before it.
+    fn alone(&mut self, drawn: &Drawn, kind: &Kind, goes_on: &dyn Fn() -> bool) -> Option<Finding> {
+        let steps = if kind.is_slow() { SLOW_STEPS } else { STEPS };
+        let (scope, id) = (self.scope, &drawn.check.id);
+        let smallest = shrink(drawn.probe.clone(), steps, goes_on, |probe| {
+            let check = scope.check(probe, id.clone())?;
+            Some(self.fails(&check, kind).is_some())
+        });
+        let finding = |this: &mut Self, probe: &Probe| {
+            let check = scope.check(probe, id.clone())?;
+            let outcome = this.fails_after(&[], &check, kind)?;
+            Some(Finding { kind: kind.clone(), check, before: Vec::new(), outcome, times: 1 })
+        };
+        if let Some(finding) = finding(self, &smallest) {
+            return Some(finding);
+        }
+        // What was asked while shrinking has played a part.
+        let steps = steps.min(FRESH_STEPS);
+        let smallest = shrink(drawn.probe.clone(), steps, goes_on, |probe| {
+            let check = scope.check(probe, id.clone())?;
+            Some(self.fails_after(&[], &check, kind).is_some())
+        });
+        finding(self, &smallest).or_else(|| finding(self, &drawn.probe))
+    }
+
+    /// A failure that depends on what was asked before it.
+    fn in_a_row(
+        &mut self,
+        drawn: &Drawn,
+        kind: &Kind,
+        before: &[Drawn],
+        goes_on: &dyn Fn() -> bool,
+    ) -> Option<Finding> {
+        let scope = self.scope;
+        let steps = if kind.is_slow() { SLOW_STEPS } else { FRESH_STEPS };
+        let sizes = std::iter::successors(Some(1), |size| Some(size * 2));
+        let sizes = sizes.take_while(|size| *size < 2 * before.len() && goes_on());
+        let mut before = sizes
+            .map(|size| before.get(before.len().saturating_sub(size)..).unwrap_or_default())
+            .find(|before| self.fails_after(before, &drawn.check, kind).is_some())?
+            .to_vec();
+        before = shrink(before, steps, goes_on, |before| {
+            Some(self.fails_after(before, &drawn.check, kind).is_some())
+        });
+        let last = &drawn.check.id;
+        let smallest = shrink(drawn.probe.clone(), steps, goes_on, |probe| {
+            let check = scope.check(probe, last.clone())?;
+            Some(self.fails_after(&before, &check, kind).is_some())
+        });
+        let check = scope.check(&smallest, last.clone())?;
+        for place in 0..before.len() {
+            let Some(drawn) = before.get(place).cloned() else { continue };
+            let with = |probe: &Probe| {
+                let check = scope.check(probe, drawn.check.id.clone())?;
+                let mut before = before.clone();
+                let drawn = Drawn { probe: probe.clone(), check, ..drawn.clone() };
+                before.iter_mut().skip(place).take(1).for_each(|slot| *slot = drawn.clone());
+                Some(before)
+            };
+            let smallest = shrink(drawn.probe.clone(), steps, goes_on, |probe| {
+                Some(self.fails_after(&with(probe)?, &check, kind).is_some())
+            });
+            before = with(&smallest)?;
+        }
+        let outcome = self.fails_after(&before, &check, kind)?;
+        Some(row(before, check, kind, outcome))
+    }
+
+    /// Whether a check fails in this way now.
+    fn fails(&mut self, check: &Check, kind: &Kind) -> Option<Outcome> {
+        let failure = Failure::of(check, self.subject.ask(&check.question))?;
+        (failure.kind == *kind).then_some(failure.outcome)
+    }
+
+    /// Whether it fails on a fresh process that is asked something before it.
+    fn fails_after(&mut self, before: &[Drawn], check: &Check, kind: &Kind) -> Option<Outcome> {
+        self.subject.restart();
+        for drawn in before {
+            self.subject.ask(&drawn.check.question);
+        }
+        self.fails(check, kind)
+    }
+}
+
+/// The finding with its checks in a row.
+fn row(before: Vec<Drawn>, check: Check, kind: &Kind, outcome: Outcome) -> Finding {
+    let id = |place: usize| format!("{}.before-{}", check.id, place + 1);
+    let before = before.into_iter().enumerate();
+    let before = before.map(|(place, drawn)| Check { id: id(place), ..drawn.check }).collect();
+    Finding { kind: kind.clone(), check, before, outcome, times: 1 }
+}
