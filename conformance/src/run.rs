@@ -1,5 +1,6 @@
 //! Asks subjects the checks of a plan, and passes each outcome on at once.
 
+mod blame;
 mod merge;
 mod worker;
 
@@ -21,8 +22,8 @@ use crate::verdict::{Outcome, Verdict};
 pub type Sink<'s> = dyn FnMut(Outcome) -> ControlFlow<()> + Send + 's;
 
 /// Asks `subjects`, all of the same implementation, the checks of `plan` in parallel. A subject
-/// takes a few groups at a time. A check that requires another check of its group is skipped if
-/// that one was skipped. `sink` receives the same outcomes in the same order for any number of
+/// takes a few groups at a time. A check that requires another check of its group is skipped if the
+/// subject skipped that one. A failure that follows from an earlier failure says so. `sink` receives the same outcomes in the same order for any number of
 /// subjects. When `interrupted` is set, the run waits for the outstanding questions and passes on
 /// what was answered. If an adapter answers an op that does not exist, the first outcome reports
 /// that fault. Returns of how many checks the outcome was handed on.
@@ -119,6 +120,7 @@ fn invented_op(subject: &mut dyn Subject) -> Option<Outcome> {
         level: Level::Must,
         verdict,
         detail,
+        because: None,
         request: None,
         expected: None,
         actual: None,

@@ -88,6 +88,17 @@ impl Verdict {
     pub const fn is_failure(self) -> bool {
         matches!(self, Self::Fail | Self::Timeout | Self::Crash | Self::AdapterFault)
     }
+
+    /// Whether a check with this verdict can be the cause of a later one's verdict. A crash has a
+    /// cause of its own, unless the earlier check crashed too.
+    #[must_use]
+    pub fn explains(self, later: Self) -> bool {
+        match later {
+            Self::Fail => self.is_failure(),
+            Self::Warn => self.is_failure() || self == Self::Warn,
+            later => self == later && self.is_failure(),
+        }
+    }
 }
 
 impl fmt::Display for Verdict {
@@ -121,6 +132,9 @@ pub struct Outcome {
     pub verdict: Verdict,
     /// The reason in a sentence; empty for a pass.
     pub detail: String,
+    /// The earlier check that this one failed because of; its own requirement is not accused then.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub because: Option<Because>,
     /// The request; only if the check did not pass.
     #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "question")]
     pub request: Option<Question>,
@@ -134,6 +148,15 @@ pub struct Outcome {
     /// [`Verdict::Recorded`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub behaviour: Option<Behaviour>,
+}
+
+/// The cause of a failure: an earlier, more basic check that failed.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Because {
+    /// The id of that check.
+    pub check: String,
+    /// The id of the requirement that it tests, which is the one that is accused.
+    pub requirement: String,
 }
 
 /// What a subject does where the documents leave it unspecified.
@@ -160,6 +183,23 @@ fn question<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Questio
 }
 
 impl Outcome {
+    /// Whether its own requirement is accused. A rejection for a wrong reason accuses none.
+    #[must_use]
+    pub fn accuses(&self) -> bool {
+        let wrong = match self.verdict {
+            Verdict::Warn => self.level == Level::Should,
+            verdict => verdict.is_failure() || verdict == Verdict::ExpectedFailure,
+        };
+        wrong && self.because.is_none()
+    }
+
+    /// The check and the requirement that are accused: its own, unless it follows from another.
+    #[must_use]
+    pub fn cause(&self) -> Because {
+        let own = || Because { check: self.id.clone(), requirement: self.requirement.clone() };
+        self.because.clone().unwrap_or_else(own)
+    }
+
     /// The expected and the actual bytes, if they differ. For packets: the parameters of the first
     /// packet that differs.
     #[must_use]

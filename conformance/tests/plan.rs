@@ -209,3 +209,32 @@ fn nobody_gets_far_ahead_and_the_order_stays() {
     assert!(ahead < MOST, "{ahead} questions answered beside one that is not");
     assert!(outcomes.into_iter().map(|outcome| outcome.id).eq(plan.ids()));
 }
+
+/// Parts of the ids of requirements that only a sender can break, or only a receiver.
+const SENDERS: [&str; 2] = [".stuffing.transmit", ".no-repeat"];
+const RECEIVERS: [&str; 3] = [".receive.", ".stuffing.receive", ".crc.verify"];
+
+#[test]
+fn a_check_is_charged_to_who_is_asked() {
+    for check in whole(&Spec::embedded().unwrap()).checks() {
+        let of_others = match check.question {
+            Question::Encode { .. } | Question::Stuff { .. } => &RECEIVERS[..],
+            Question::Crc { .. } => &[],
+            _ => &SENDERS[..],
+        };
+        let wrong = of_others.iter().any(|part| check.requirement.contains(part));
+        assert!(!wrong, "{} is charged to {}", check.id, check.requirement);
+    }
+}
+
+#[test]
+fn basic_checks_come_first_and_others_rest_on_them() {
+    let spec = Spec::embedded().unwrap();
+    for wire in Wire::ALL {
+        let plan = suite::plan(&spec, &[wire], &Options { cases: 30, ..Options::new() });
+        let basic = |id: &String| id.starts_with(&format!("{}.basic.", wire.id()));
+        let basics = plan.ids().take_while(basic).count();
+        assert!(basics > 40, "{basics} basic checks of {}", wire.id());
+        assert_eq!(plan.ids().filter(basic).count(), basics);
+    }
+}

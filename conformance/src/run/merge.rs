@@ -1,10 +1,13 @@
-//! Puts the outcomes of several workers into the order of the plan.
+//! Puts the outcomes of several workers into the order of the plan, in which causes come before
+//! what follows from them.
 
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Condvar, Mutex, PoisonError};
 use std::time::Duration;
 
+use super::blame::Blame;
 use super::{Sink, is_set, lock};
 use crate::verdict::Outcome;
 
@@ -26,6 +29,7 @@ pub(super) struct Merge<'s> {
 
 struct State<'s> {
     sink: &'s mut Sink<'s>,
+    blame: Blame,
     /// How many outcomes the sink was given.
     count: usize,
     /// The first unfinished batch. Its outcomes go directly to the sink.
@@ -36,7 +40,8 @@ struct State<'s> {
 
 impl<'s> Merge<'s> {
     pub(super) fn new(sink: &'s mut Sink<'s>, interrupted: &'s AtomicBool) -> Self {
-        let state = State { sink, count: 0, first: 0, held: BTreeMap::new() };
+        let blame = Blame::default();
+        let state = State { sink, blame, count: 0, first: 0, held: BTreeMap::new() };
         let (moved, over) = (Condvar::new(), AtomicBool::new(false));
         Self { state: Mutex::new(state), moved, over, interrupted }
     }
@@ -76,13 +81,13 @@ impl<'s> Merge<'s> {
         }
         self.hand_on(&mut state, outcomes);
         if done {
-            state.first += 1;
+            state.end_batch();
             while let Some((outcomes, done)) = state.next_held() {
                 self.hand_on(&mut state, outcomes);
                 if !done {
                     break;
                 }
-                state.first += 1;
+                state.end_batch();
             }
         }
         drop(state);
@@ -95,11 +100,7 @@ impl<'s> Merge<'s> {
         let mut state = self.state.into_inner().unwrap_or_else(PoisonError::into_inner);
         let held = std::mem::take(&mut state.held).into_values();
         for outcome in held.flat_map(|(outcomes, _)| outcomes) {
-            if is_set(&self.over) {
-                break;
-            }
-            state.count += 1;
-            if (state.sink)(outcome).is_break() {
+            if is_set(&self.over) || state.hand_on(outcome).is_break() {
                 break;
             }
         }
@@ -111,8 +112,7 @@ impl<'s> Merge<'s> {
             if is_set(&self.over) {
                 return;
             }
-            state.count += 1;
-            if (state.sink)(outcome).is_break() {
+            if state.hand_on(outcome).is_break() {
                 self.over.store(true, Ordering::Relaxed);
             }
         }
@@ -120,6 +120,17 @@ impl<'s> Merge<'s> {
 }
 
 impl State<'_> {
+    fn hand_on(&mut self, mut outcome: Outcome) -> ControlFlow<()> {
+        self.count += 1;
+        self.blame.charge(&mut outcome);
+        (self.sink)(outcome)
+    }
+
+    fn end_batch(&mut self) {
+        self.first += 1;
+        self.blame.end_batch();
+    }
+
     fn next_held(&mut self) -> Option<(Vec<Outcome>, bool)> {
         self.held.remove(&self.first)
     }

@@ -7,7 +7,7 @@ use super::{Work, lock};
 use crate::adapter::{Hello, Question};
 use crate::subject::{Answer, Questions, Subject};
 use crate::suite::check::Check;
-use crate::verdict::{Outcome, Verdict};
+use crate::verdict::{Because, Outcome, Verdict};
 
 /// How long outcomes may be held back while more arrive.
 const PATIENCE: Duration = Duration::from_millis(50);
@@ -22,8 +22,6 @@ pub(super) struct Worker<'r, 's, 'a> {
     next: usize,
     /// The number of the first question that is not loaded yet.
     end: usize,
-    /// Questions that wait for the answer to another question.
-    waiting: VecDeque<usize>,
     flushed: Instant,
 }
 
@@ -39,33 +37,55 @@ struct Batch {
 
 struct Slot {
     state: State,
-    /// The question that must be answered first.
+    /// The place in the batch of the check that it requires.
     requires: Option<usize>,
+    /// The adapter does not offer it, so it says nothing about the checks that require it.
+    not_offered: bool,
 }
 
 enum State {
     Open(Check),
     Answered(Outcome),
-    /// Returned; the value says whether it was skipped.
-    Given(bool),
+    Given(Past),
 }
 
-impl State {
-    /// Whether the question was skipped; `None` if it is not answered yet.
-    const fn is_skipped(&self) -> Option<bool> {
-        match self {
-            Self::Open(_) => None,
-            Self::Answered(outcome) => Some(matches!(outcome.verdict, Verdict::Skip)),
-            Self::Given(skipped) => Some(*skipped),
+/// What of an outcome matters to the checks that require it.
+enum Past {
+    /// The subject skipped it.
+    Skipped,
+    Failed(Verdict, Because),
+    Other,
+}
+
+const REQUIRED_SKIPPED: &str = "the check that it requires is skipped too";
+
+impl Slot {
+    /// Whether the subject skipped it, as far as is known.
+    const fn is_skipped(&self) -> bool {
+        match &self.state {
+            State::Open(_) => false,
+            State::Answered(outcome) => {
+                matches!(outcome.verdict, Verdict::Skip) && !self.not_offered
+            }
+            State::Given(past) => matches!(past, Past::Skipped),
+        }
+    }
+}
+
+impl Past {
+    fn of(outcome: &Outcome, not_offered: bool) -> Self {
+        match outcome.verdict {
+            Verdict::Skip if !not_offered => Self::Skipped,
+            verdict if verdict.is_fine() => Self::Other,
+            verdict => Self::Failed(verdict, outcome.cause()),
         }
     }
 }
 
 impl<'r, 's, 'a> Worker<'r, 's, 'a> {
     pub(super) fn new(work: &'r Work<'s, 'a>, hello: Hello) -> Self {
-        let (batches, waiting) = (VecDeque::new(), VecDeque::new());
-        let flushed = Instant::now();
-        Self { work, hello, batches, next: 0, end: 0, waiting, flushed }
+        let (batches, flushed) = (VecDeque::new(), Instant::now());
+        Self { work, hello, batches, next: 0, end: 0, flushed }
     }
 
     /// Asks until no check is left.
@@ -99,8 +119,12 @@ impl<'r, 's, 'a> Worker<'r, 's, 'a> {
         let mut slots = Vec::new();
         for group in groups {
             let checks = self.work.plan.build(group);
-            let required = required(&checks, self.end + slots.len());
-            let slot = |(check, requires)| Slot { state: State::Open(check), requires };
+            let required = required(&checks, slots.len());
+            let slot = |(check, requires)| Slot {
+                state: State::Open(check),
+                requires,
+                not_offered: false,
+            };
             slots.extend(checks.into_iter().zip(required).map(slot));
         }
         let first = self.end;
@@ -132,31 +156,28 @@ impl<'r, 's, 'a> Worker<'r, 's, 'a> {
         batch.slots.get_mut(number - batch.first)
     }
 
-    /// Whether the check that this one requires was skipped; `None` if it is not answered yet.
-    fn is_required_skipped(&self, number: usize) -> Option<bool> {
-        match self.slot(number)?.requires {
-            Some(required) => self.slot(required)?.state.is_skipped(),
-            None => Some(false),
+    /// Whether the question must be asked; if not, its answer is set.
+    fn is_asked(&mut self, number: usize) -> bool {
+        let Some(Slot { state: State::Open(check), .. }) = self.slot(number) else { return false };
+        let not_offered = not_offered(&self.hello, check);
+        let offered = not_offered.is_none();
+        let skipped = || self.is_required_skipped(number).then(|| REQUIRED_SKIPPED.to_owned());
+        let Some(reason) = not_offered.or_else(skipped) else { return true };
+        if let Some(slot) = self.slot_mut(number) {
+            slot.not_offered = !offered;
         }
+        self.answered(number, Answer::Skipped(reason));
+        false
     }
 
-    /// Whether the question must be asked; if not, its answer is set.
-    fn is_asked(&mut self, number: usize, required_skipped: bool) -> bool {
-        let reason = if required_skipped {
-            Some("the check that it requires is skipped too".to_owned())
-        } else {
-            self.slot(number).and_then(|slot| match &slot.state {
-                State::Open(check) => not_offered(&self.hello, check),
-                _ => None,
-            })
-        };
-        match reason {
-            Some(reason) => {
-                self.answered(number, Answer::Skipped(reason));
-                false
-            }
-            None => true,
-        }
+    /// Whether the subject skipped the check that this one requires, as far as is known.
+    fn is_required_skipped(&self, number: usize) -> bool {
+        let batch = self.batches.iter().rev().find(|batch| batch.first <= number);
+        let required = batch.and_then(|batch| {
+            let required = batch.slots.get(number - batch.first)?.requires?;
+            batch.slots.get(required)
+        });
+        required.is_some_and(Slot::is_skipped)
     }
 }
 
@@ -173,10 +194,16 @@ impl Batch {
     /// Removes the outcomes that have no unanswered question before them.
     fn take(&mut self) -> Vec<Outcome> {
         let mut outcomes = Vec::new();
-        for slot in self.slots.iter_mut().skip(self.given) {
-            let Some(skipped) = slot.state.is_skipped() else { break };
-            let state = std::mem::replace(&mut slot.state, State::Given(skipped));
-            if let State::Answered(outcome) = state {
+        while let Some((earlier, [slot, ..])) = self.slots.split_at_mut_checked(self.given)
+            && matches!(slot.state, State::Answered(_))
+        {
+            let other = State::Given(Past::Other);
+            if let State::Answered(mut outcome) = std::mem::replace(&mut slot.state, other) {
+                let required = slot.requires.and_then(|place| earlier.get(place));
+                if let Some(Slot { state: State::Given(past), .. }) = required {
+                    follow(&mut outcome, past);
+                }
+                slot.state = State::Given(Past::of(&outcome, slot.not_offered));
                 outcomes.push(outcome);
             }
             self.given += 1;
@@ -185,8 +212,34 @@ impl Batch {
     }
 }
 
-/// For each check, the number of the check that it requires, if that comes before it. `first` is
-/// the number of the first check.
+/// Lets an outcome follow from that of the check that it requires. While that one was outstanding,
+/// this one was asked although the subject does not do such things.
+fn follow(outcome: &mut Outcome, required: &Past) {
+    match required {
+        Past::Skipped if outcome.verdict != Verdict::Skip => {
+            let Outcome { id, requirement, level, .. } = outcome;
+            *outcome = Outcome {
+                id: std::mem::take(id),
+                requirement: std::mem::take(requirement),
+                level: *level,
+                verdict: Verdict::Skip,
+                detail: REQUIRED_SKIPPED.to_owned(),
+                because: None,
+                request: None,
+                expected: None,
+                actual: None,
+                behaviour: None,
+            };
+        }
+        Past::Failed(verdict, cause) if verdict.explains(outcome.verdict) => {
+            outcome.because = Some(cause.clone());
+        }
+        _ => {}
+    }
+}
+
+/// For each check of a group, the place in the batch of the check that it requires, if that comes
+/// before it. `first` is the place of the first check.
 fn required(checks: &[Check], first: usize) -> Vec<Option<usize>> {
     let mut places = HashMap::new();
     let requires = checks.iter().any(|check| check.requires.is_some());
@@ -203,20 +256,11 @@ fn required(checks: &[Check], first: usize) -> Vec<Option<usize>> {
 impl Questions for Worker<'_, '_, '_> {
     fn next(&mut self) -> Option<usize> {
         while !self.work.merge.is_over() {
-            if let Some(number) = self.waiting.front().copied()
-                && let Some(skipped) = self.is_required_skipped(number)
-            {
-                self.waiting.pop_front();
-                if self.is_asked(number, skipped) {
-                    return Some(number);
-                }
-            } else if self.next < self.end {
+            if self.next < self.end {
                 let number = self.next;
                 self.next += 1;
-                match self.is_required_skipped(number) {
-                    None => self.waiting.push_back(number),
-                    Some(skipped) if self.is_asked(number, skipped) => return Some(number),
-                    Some(_) => {}
+                if self.is_asked(number) {
+                    return Some(number);
                 }
             } else if !self.load() {
                 return None;
@@ -234,7 +278,8 @@ impl Questions for Worker<'_, '_, '_> {
 
     fn answered(&mut self, number: usize, answer: Answer) {
         let Some(slot) = self.slot_mut(number) else { return };
-        let State::Open(check) = std::mem::replace(&mut slot.state, State::Given(false)) else {
+        let State::Open(check) = std::mem::replace(&mut slot.state, State::Given(Past::Other))
+        else {
             return;
         };
         let outcome = check.judge(answer);

@@ -20,8 +20,9 @@ pub struct Check {
     pub level: Level,
     /// The source of the packet in the question.
     pub source: Citation,
-    /// The check that must be answered first. If that check is skipped, so is this one: a host's
-    /// library that reads no instruction packets finds none in a stream.
+    /// An earlier check of the same group. If the subject skips that check, this one is skipped too:
+    /// a host's library that reads no instruction packets finds none in a stream. If that check
+    /// fails, it is the cause of a failure of this one.
     #[serde(default, alias = "presumes", skip_serializing_if = "Option::is_none")]
     pub requires: Option<String>,
     /// What is asked.
@@ -142,6 +143,7 @@ impl Check {
             level: self.level,
             verdict,
             detail: if behaviour.is_some() { String::new() } else { detail },
+            because: None,
             request: unmet.then_some(self.question),
             actual: actual.filter(|_| unmet),
             behaviour,

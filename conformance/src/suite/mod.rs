@@ -4,6 +4,7 @@
 //! checks come from the wire's reference model. Ids are permanent: an id names the question, not
 //! its place in the list.
 
+pub(crate) mod basics;
 pub mod check;
 pub(crate) mod codec;
 pub mod expect;

@@ -288,9 +288,7 @@ pub(crate) fn by_stem<'a>(checks: Vec<Check>) -> impl Iterator<Item = Group<'a>>
         while let Some(check) = checks.next_if(|check| check.id.starts_with(&stem)) {
             group.push(check);
         }
-        let name = |check: &Check| check.id.strip_prefix(&stem).unwrap_or_default().to_owned();
-        let names = Names::Own(group.iter().map(name).collect());
-        Some(Group { stem, names, build: Box::new(move |_| group) })
+        Some(Group::of(stem, group))
     })
 }
 
@@ -311,6 +309,13 @@ impl<'a> Group<'a> {
         build: impl FnOnce(&str) -> Vec<Check> + Send + 'a,
     ) -> Self {
         Self { stem, names: Names::Own(names), build: Box::new(build) }
+    }
+
+    /// A group of checks that are already built, whose ids begin with the stem.
+    pub(crate) fn of(stem: String, checks: Vec<Check>) -> Self {
+        let name = |check: &Check| check.id.strip_prefix(&stem).unwrap_or_default().to_owned();
+        let names = Names::Own(checks.iter().map(name).collect());
+        Self { stem, names, build: Box::new(move |_| checks) }
     }
 
     fn ids(&self) -> impl Iterator<Item = String> {

@@ -23,13 +23,13 @@ pub(super) fn mutants(wire: Wire) -> impl Iterator<Item = &'static Mutant> {
 }
 
 /// The checks of a wire, and for each mutant those that find it.
-struct Matrix {
+pub(super) struct Matrix {
     wire: Wire,
-    checks: Vec<Check>,
-    found: Vec<(&'static Mutant, BTreeSet<usize>)>,
+    pub(super) checks: Vec<Check>,
+    pub(super) found: Vec<(&'static Mutant, BTreeSet<usize>)>,
 }
 
-static MATRICES: LazyLock<Vec<Matrix>> =
+pub(super) static MATRICES: LazyLock<Vec<Matrix>> =
     LazyLock::new(|| Wire::ALL.into_iter().map(Matrix::new).collect());
 
 impl Matrix {
@@ -70,17 +70,18 @@ fn is_judged(check: &Check) -> bool {
 
 /// The op of a check and the words of its id up to the third: `dynamixel2.id.ping`. What tells the
 /// checks of a family apart, such as numbers and bytes, is left out. The test vectors are one
-/// family.
+/// family, and the basic checks of a wire are.
 fn family(check: &Check, vectors: &BTreeSet<&str>) -> (String, &'static str) {
     let (stem, _) = check.id.split_once('/').unwrap_or((&check.id, ""));
     if vectors.contains(stem) {
         return ("test vectors".to_owned(), check.question.name());
     }
+    let words = if stem.contains(".basic.") { 2 } else { 3 };
     let is_word = |part: &&str| {
         let is_bytes = part.len() > 1 && part.bytes().all(|byte| byte.is_ascii_hexdigit());
         !is_bytes && !part.starts_with(|first: char| first.is_ascii_digit())
     };
-    let words: Vec<_> = stem.split('.').filter(is_word).take(3).collect();
+    let words: Vec<_> = stem.split('.').filter(is_word).take(words).collect();
     (words.join("."), check.question.name())
 }
 

@@ -3,6 +3,7 @@
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
+mod blame;
 mod dynamixel2;
 mod fuzzed;
 mod innfos;

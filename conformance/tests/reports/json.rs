@@ -121,6 +121,7 @@ fn failure(place: usize, size: usize, detail: &str) -> Outcome {
         level: Level::Must,
         verdict: Verdict::Fail,
         detail: detail.to_owned(),
+        because: None,
         request: Some(Question::Crc { wire: Wire::default(), bytes: vec![0; size].into() }),
         expected: Some(Output::Crc(0)),
         actual: Some(Output::Bytes(vec![1; size].into())),

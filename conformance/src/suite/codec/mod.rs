@@ -5,19 +5,50 @@ mod innfos;
 
 use actucheck_spec::wire;
 
+use super::basics::{self, About, Basic};
 use super::plan::Family;
 use super::{Author, Options};
-use crate::adapter::Wire;
+use crate::adapter::{Output, Question, Wire};
 
-/// The families of checks of a wire.
-type Families = for<'a> fn(Author<'a>, &Options) -> Vec<Family<'a>>;
+/// The checks of a wire.
+struct Checks {
+    wire: Wire,
+    /// The basic checks, the most basic first.
+    basics: fn() -> &'static [Basic],
+    /// The families of the other checks.
+    families: for<'a> fn(Author<'a>, &Options) -> Vec<Family<'a>>,
+}
 
 /// The wires that are checked.
-const WIRES: [(Wire, Families); 2] =
-    [(wire::dynamixel2::WIRE, dynamixel2::families), (wire::innfos::WIRE, innfos::families)];
+const WIRES: [Checks; 2] = [
+    Checks {
+        wire: wire::dynamixel2::WIRE,
+        basics: dynamixel2::basics::all,
+        families: dynamixel2::families,
+    },
+    Checks { wire: wire::innfos::WIRE, basics: innfos::basics::all, families: innfos::families },
+];
 
-/// Every check of a codec, in a fixed order.
+fn of_wire(wire: Wire) -> Option<&'static Checks> {
+    WIRES.iter().find(|checks| checks.wire == wire)
+}
+
+/// Every check of a codec, in a fixed order: the basic ones first.
 pub(super) fn families<'a>(author: Author<'a>, options: &Options) -> Vec<Family<'a>> {
-    let of_wire = WIRES.into_iter().find(|(wire, _)| *wire == author.wire);
-    of_wire.map(|(_, families)| families(author, options)).unwrap_or_default()
+    let Some(checks) = of_wire(author.wire) else { return Vec::new() };
+    let mut families = vec![basics::family(author, (checks.basics)())];
+    families.extend((checks.families)(author, options));
+    families
+}
+
+/// The ids of the basic checks that the answer to a question rests on, the most basic first.
+/// `expected` is the answer that is demanded, if it is not a rejection.
+pub(crate) fn rests_on<'a>(
+    question: &'a Question,
+    expected: Option<&'a Output>,
+) -> impl Iterator<Item = &'static str> + use<'a> {
+    let basics = of_wire(question.wire()).map_or(&[][..], |checks| (checks.basics)());
+    let about = About::new(question, expected);
+    let concerned = basics.iter().filter(move |basic| (basic.concerns)(&about));
+    concerned.map(|basic| basic.id.as_str())
 }

@@ -236,13 +236,13 @@ pub(super) static MUTANTS: [Mutant; 19] = [
     ),
     mutant(
         "reads 252 devices at most",
-        "ja40.fast-sync-read.length",
+        "ja40.fast-sync-write.length",
         |op| reread(op, |blocks| blocks.truncate(252)),
         "ja40.fast.size.4-bytes.253-devices/decode",
     ),
     mutant(
         "builds the length's low byte only",
-        "ja40.fast-sync-read.length",
+        "ja40.fast-sync-write.length",
         |op| {
             let blocks = built(op)?;
             let mut frame = reference::encode(&Packet::FastStatus { blocks: blocks.to_vec() })?;

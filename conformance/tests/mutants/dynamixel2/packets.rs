@@ -58,7 +58,7 @@ pub(super) static MUTANTS: [Mutant; 6] = [
         name: "finds a packet with ID 253 or 255 in a stream",
         blames: "dynamixel2.receive.id",
         wrong: Wrong::Answers(|op| {
-            let mut frame = stream(op)?;
+            let mut frame = stream(op).filter(|stream| stream.starts_with(&reference::HEADER))?;
             let id = frame.get_mut(4).filter(|id| matches!(id, 253 | 255))?;
             *id = 1;
             Some(Output::packets(reference::packets(&with_crc(frame))))

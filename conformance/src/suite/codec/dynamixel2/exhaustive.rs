@@ -187,11 +187,7 @@ fn inside(author: Author<'_>, place: Place, longest: u32) -> Family<'_> {
 
 /// A packet built, read alone, and found in a stream.
 fn found_in(author: &Author<'_>, id: &str, packet: &Packet) -> Vec<Check> {
-    let requirement = match packet {
-        Packet::Status { .. } => "dynamixel2.stuffing.receive",
-        _ => "dynamixel2.stuffing.transmit",
-    };
-    let mut checks = author.both_ways(id, requirement, packet);
+    let mut checks = author.both_ways(id, "dynamixel2.stuffing.transmit", packet);
     let frame = reference::encode(packet).unwrap_or_default();
     checks.push(Check {
         requires: Some(format!("{id}/decode")),

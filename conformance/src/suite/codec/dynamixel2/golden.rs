@@ -5,7 +5,7 @@ use actucheck_spec::Spec;
 use actucheck_spec::model::{Citation, Fault, HexBytes, Outcome, Vector, VectorsFile};
 use actucheck_spec::wire::{Packet, dynamixel2};
 
-use super::of_reading;
+use super::{of_building, of_reading};
 use crate::adapter::{Output, Question, Wire};
 use crate::suite::Author;
 use crate::suite::check::{Check, Demand, Unspecified, Way};
@@ -115,7 +115,7 @@ impl Golden<'_> {
     fn encode(&self, requirement: &str, packet: &Packet, frame: &[u8]) -> Check {
         let op = Question::Encode { wire: self.wire, packet: packet.clone().into() };
         let demand = self.demand(Output::Bytes(frame.to_vec().into()));
-        self.check("encode", requirement, op, demand)
+        self.check("encode", of_building(requirement), op, demand)
     }
 
     fn decode(&self, requirement: &str, packet: &Packet, frame: &[u8]) -> Check {

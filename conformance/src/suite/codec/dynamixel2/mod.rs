@@ -1,5 +1,6 @@
 //! Checks of DYNAMIXEL Protocol 2.0 and its JA dialect.
 //!
+//! - basics: single sentences, on which every other check rests;
 //! - golden: the test vectors;
 //! - exhaustive: every case of small sets, such as short bodies and all instructions;
 //! - ids: every ID;
@@ -17,6 +18,7 @@
 //! - generated: packets and streams that are generated from a seed.
 
 mod addresses;
+pub(super) mod basics;
 mod crc;
 mod devices;
 mod exhaustive;
@@ -106,6 +108,14 @@ fn recorded(check: Check, what: &str) -> Check {
 fn of_reading(requirement: &str) -> &str {
     match requirement {
         "dynamixel2.stuffing.transmit" => "dynamixel2.stuffing.receive",
+        other => other,
+    }
+}
+
+/// The requirement on a sender that corresponds to one on a receiver.
+fn of_building(requirement: &str) -> &str {
+    match requirement {
+        "dynamixel2.stuffing.receive" => "dynamixel2.stuffing.transmit",
         other => other,
     }
 }

@@ -3,30 +3,40 @@
 //!
 //! Behaviour that the documents leave unspecified is in `unspecified.rs`.
 
+use actucheck_spec::wire::Direction;
 use actucheck_spec::wire::dynamixel2::{Packet, reference};
 
 use crate::suite::Author;
 use crate::suite::check::Check;
-use crate::suite::plan::Family;
+use crate::suite::plan::{Family, Group};
 
 pub(super) fn family(author: Author<'_>) -> Family<'_> {
-    Family::of("dynamixel2.negative.", move || broken(&author))
+    Family::new("dynamixel2.negative.", move || broken(author))
 }
 
-fn broken(author: &Author<'_>) -> Vec<Check> {
-    let mut checks = Vec::new();
-    for (name, packet) in packets() {
+/// Each packet as it is, then damaged. The remains of a damaged packet must not affect the next one,
+/// so one subject is asked them all in order.
+fn broken(author: Author<'_>) -> impl Iterator<Item = Group<'_>> {
+    packets().into_iter().map(move |(name, packet)| {
+        let stem = format!("dynamixel2.negative.{name}.");
         let frame = reference::encode(&packet).unwrap_or_default();
-        let direction = author.wire.direction(&packet.clone().into());
+        let direction = author.wire.direction(&packet.into());
+        let requirement = match direction {
+            Direction::Request => "dynamixel2.packet.layout",
+            Direction::Reply => "dynamixel2.status-packet.layout",
+        };
+        let good = format!("{stem}good/decode");
+        let mut checks = vec![author.decoded(good.clone(), requirement, direction, frame.clone())];
         for (fault, requirement, bytes) in damaged(&frame) {
-            let id = format!("dynamixel2.negative.{name}.{fault}");
+            let id = format!("{stem}{fault}");
             checks.push(author.decoded(format!("{id}/decode"), requirement, direction, bytes));
-            // The remains of a damaged packet must not affect the next one.
-            let after = format!("{id}/decode-good-after");
-            checks.push(author.decoded(after, "dynamixel2.receive.crc", direction, frame.clone()));
+            let id = format!("{id}/decode-good-after");
+            let requirement = "dynamixel2.receive.stream";
+            let after = author.decoded(id, requirement, direction, frame.clone());
+            checks.push(Check { requires: Some(good.clone()), ..after });
         }
-    }
-    checks
+        Group::of(stem, checks)
+    })
 }
 
 /// A packet of each kind, one of them stuffed.

@@ -1,5 +1,6 @@
 //! Checks of the INNFOS Ethernet protocol.
 //!
+//! - basics: single sentences, on which every other check rests;
 //! - golden: the test vectors;
 //! - packets: packets of the document's tables, with every address, every command and the bytes that
 //!   could be mistaken for the ends of a frame;
@@ -7,6 +8,7 @@
 //! - damaged: frames that break one rule each;
 //! - open: questions that the document leaves unspecified, such as packets that no table has.
 
+pub(super) mod basics;
 mod damaged;
 mod golden;
 mod messages;
