@@ -251,7 +251,7 @@ fn help_lists_the_subcommands_and_the_exit_status() {
       list         Lists the checks
       show         Shows one check: what it asks, what it demands, and which sentence demands it
       replay       Asks one check again and shows the exchange
-      adapter      Prints a template of an adapter, or checks an adapter
+      adapter      Helps to write an adapter, and checks it
       report       Compares the reports of several runs, or writes one in another format
       spec         Shows, compares and exports what the documents say
       completions  Prints a shell's completion script
@@ -290,7 +290,7 @@ fn the_help_of_each_subcommand_has_an_example_of_it() {
             seen += 1;
         }
     }
-    assert_eq!(seen, 16);
+    assert_eq!(seen, 18);
 }
 
 #[test]

@@ -5,8 +5,13 @@ use std::process::ExitCode;
 
 use clap::Args;
 
+const EXAMPLES: &str = "\
+Example:
+  actucheck adapter guide | less";
+
 /// Prints the guide for authors of adapters
 #[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
 pub(crate) struct Guide;
 
 const GUIDE: &str = include_str!("../../../adapters/GUIDE.md");

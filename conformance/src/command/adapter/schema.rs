@@ -8,8 +8,13 @@ use clap::Args;
 
 use crate::command::shared::one_of;
 
+const EXAMPLES: &str = "\
+Example:
+  actucheck adapter schema request > request.schema.json";
+
 /// Prints the JSON Schema of a line of the adapter protocol
 #[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
 pub(crate) struct Schema {
     /// Of which lines
     #[arg(value_parser = one_of(LINES))]
