@@ -92,7 +92,8 @@ type Scenario = (&'static str, &'static str, Vec<Vec<u8>>, fn(&About<'_>) -> boo
 fn streams(basics: &mut Basics, row: &Row, direction: Direction) {
     let frame = reference::encode(&row.packet).unwrap_or_default();
     let (head, tail) = frame.split_at(frame.len() / 2);
-    let mut bad = frame.clone();
+    // One byte longer: a receiver may read a whole status packet before it looks at the length.
+    let mut bad = reference::frame(1, &[body(&row.packet).as_slice(), &[0x00]].concat());
     bad.iter_mut().last().into_iter().for_each(|byte| *byte ^= 1);
     let finds = "dynamixel2.receive.stream";
     let scenarios: [Scenario; 6] = [
