@@ -193,6 +193,12 @@ impl Outcome {
         wrong && self.because.is_none()
     }
 
+    /// Whether it follows from the failure of another requirement.
+    #[must_use]
+    pub fn follows(&self) -> bool {
+        self.because.as_ref().is_some_and(|cause| cause.requirement != self.requirement)
+    }
+
     /// The check and the requirement that are accused: its own, unless it follows from another.
     #[must_use]
     pub fn cause(&self) -> Because {

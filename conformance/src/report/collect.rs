@@ -8,12 +8,13 @@ use actucheck_spec::model::Level;
 use indexmap::{IndexMap, IndexSet};
 
 use super::model::{
-    NotPassed, ProfileEntry, Report, RequirementResult, Statement, Stopped, Summary, Tally, VERSION,
+    Cause, NotPassed, ProfileEntry, Report, RequirementResult, Statement, Stopped, Summary, Tally,
+    VERSION,
 };
 use super::result::{LONGEST_TEXT, Run, legible};
 use super::smallest::Smallest;
 use crate::suite::expect::Unexpected;
-use crate::verdict::{Outcome, Totals, Verdict};
+use crate::verdict::{Because, Outcome, Totals, Verdict};
 
 /// How many different texts are counted separately; the suite itself has far fewer.
 const MOST_TEXTS: usize = 200;
@@ -36,6 +37,8 @@ pub struct End {
 #[derive(Debug)]
 pub struct Collector<'a> {
     run: &'a Run<'a>,
+    /// By requirement, in the order in which they were first accused.
+    causes: IndexMap<String, Cause>,
     requirements: IndexMap<String, Collected>,
     questions: IndexMap<(String, String), Counts>,
     skips: Counts,
@@ -53,14 +56,17 @@ impl<'a> Collector<'a> {
     /// A collector without outcomes.
     #[must_use]
     pub fn new(run: &'a Run<'a>) -> Self {
-        let (requirements, questions) = (IndexMap::new(), IndexMap::new());
-        Self { run, requirements, questions, skips: Counts::default() }
+        let (causes, requirements, questions) = Default::default();
+        Self { run, causes, requirements, questions, skips: Counts::default() }
     }
 
     /// Adds an outcome. Outcomes arrive in the order of the plan.
     pub fn add(&mut self, outcome: Outcome) {
         if outcome.verdict == Verdict::Skip {
             self.skips.add(&outcome.detail, &outcome.id);
+        }
+        if outcome.verdict.is_failure() {
+            self.accuse(&outcome);
         }
         if let Some(behaviour) = &outcome.behaviour {
             let question = (outcome.requirement.clone(), behaviour.question.clone());
@@ -78,6 +84,21 @@ impl<'a> Collector<'a> {
         collected.totals.add(outcome.verdict, 1);
         if !outcome.verdict.is_fine() {
             collected.keep(self.run, outcome);
+        }
+    }
+
+    fn accuse(&mut self, outcome: &Outcome) {
+        let Because { check, requirement } = outcome.cause();
+        let cause = self.causes.entry(requirement.clone()).or_insert(Cause {
+            requirement,
+            check,
+            failed: 0,
+            follow: 0,
+        });
+        if outcome.follows() {
+            cause.follow += 1;
+        } else {
+            cause.failed += 1;
         }
     }
 
@@ -114,6 +135,7 @@ impl<'a> Collector<'a> {
             version: VERSION,
             header: self.run.header(),
             summary: Summary { seconds, stopped, left, totals },
+            causes: std::mem::take(&mut self.causes).into_values().collect(),
             requirements,
             profile: self.profile(),
             skips: self.skips.tallies(),

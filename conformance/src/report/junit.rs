@@ -6,7 +6,7 @@ use std::time::Duration;
 use quick_junit::{NonSuccessKind, TestCase, TestCaseStatus, TestSuite};
 
 use super::model::{CheckResult, Report, RequirementResult};
-use super::view::Section;
+use super::view::{Group, Section};
 use super::words;
 use crate::verdict::Verdict;
 
@@ -42,6 +42,12 @@ fn requirement(report: &Report, requirement: &RequirementResult) -> TestCase {
     let RequirementResult { id, level, verdict, totals, .. } = requirement;
     let share = words::count(requirement.checks(), "check");
     let share = format!("{} of {share}", words::thousands(totals.count(*verdict)));
+    let groups = report.groups(*verdict);
+    let own = groups.iter().find(|group| group.requirement.id == *id);
+    let share = match own.and_then(Group::origin) {
+        Some(origin) => format!("{share}, all because of {origin}"),
+        None => share,
+    };
     let mut case = case(id, id, *verdict, &share, "");
     let mut lines = Vec::new();
     lines.extend(requirement.statement.as_ref().map(|statement| {

@@ -13,6 +13,7 @@ use crate::verdict::Verdict;
 /// If it can't be written.
 pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     summary(report, out)?;
+    causes(report, out)?;
     for verdict in Report::URGENT {
         findings(verdict, &report.groups(verdict), out)?;
     }
@@ -41,6 +42,17 @@ fn summary(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
+fn causes(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+    if report.causes.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "\n### At fault, the most basic first\n")?;
+    for cause in &report.causes {
+        writeln!(out, "1. `{}`: {}", cause.requirement, cause.effect())?;
+    }
+    Ok(())
+}
+
 fn findings(verdict: Verdict, groups: &[Group<'_>], out: &mut dyn Write) -> io::Result<()> {
     if groups.is_empty() {
         return Ok(());
@@ -56,6 +68,10 @@ fn findings(verdict: Verdict, groups: &[Group<'_>], out: &mut dyn Write) -> io::
         let share = group.share();
         if brief {
             writeln!(out, "- `{}`: {share}", requirement.id)?;
+            continue;
+        }
+        if let Some(origin) = group.origin() {
+            writeln!(out, "\n`{}`: {share}, all because of `{origin}`", requirement.id)?;
             continue;
         }
         writeln!(out, "\n#### `{}`: {share}", requirement.id)?;

@@ -23,6 +23,9 @@ pub struct Report {
     /// The result of the whole run.
     #[serde(flatten)]
     pub summary: Summary,
+    /// The requirements that failures accuse, the most basic first.
+    #[serde(default)]
+    pub causes: Vec<Cause>,
     /// Each requirement that checks were about, in the order of the documents.
     pub requirements: Vec<RequirementResult>,
     /// What the implementation does where the documents leave it unspecified.
@@ -92,6 +95,19 @@ pub enum Stopped {
     MaxFail,
 }
 
+/// A requirement that failures accuse.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Cause {
+    /// The requirement's id.
+    pub requirement: String,
+    /// The id of the first check that accuses it.
+    pub check: String,
+    /// How many of its own checks failed.
+    pub failed: usize,
+    /// How many checks of other requirements failed because of it.
+    pub follow: usize,
+}
+
 /// The result for a requirement.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct RequirementResult {
@@ -153,7 +169,10 @@ pub struct NotPassed {
     pub verdict: Verdict,
     /// The number of checks with this verdict.
     pub count: usize,
-    /// The checks with the shortest requests, at most 5.
+    /// How many of them follow from the failure of another requirement, and do not accuse this one.
+    #[serde(default)]
+    pub following: usize,
+    /// The checks with the shortest requests, at most 5; those that follow from others come last.
     pub smallest: Vec<CheckResult>,
 }
 

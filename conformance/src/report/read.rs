@@ -123,7 +123,17 @@ impl From<Version3> for Report {
             smallest.finish(requirement, verdict)
         };
         let not_passed = not_passed.into_iter().map(row).collect();
-        Self { version: VERSION, header, summary, requirements, profile, skips, not_passed, log }
+        Self {
+            version: VERSION,
+            header,
+            summary,
+            causes: Vec::new(),
+            requirements,
+            profile,
+            skips,
+            not_passed,
+            log,
+        }
     }
 }
 
@@ -139,9 +149,10 @@ fn contradiction(report: &Report) -> Option<String> {
     if totals != report.summary.totals {
         return Some("its totals are not those of its requirements".to_owned());
     }
-    let wrong = |NotPassed { requirement, verdict, count, smallest }: &&NotPassed| {
+    let wrong = |NotPassed { requirement, verdict, count, following, smallest }: &&NotPassed| {
         let row = report.requirements.iter().find(|row| row.id == *requirement);
         row.is_none_or(|row| row.totals.count(*verdict) != *count || smallest.len() > *count)
+            || following > count
             || smallest.iter().any(|kept| {
                 kept.outcome.requirement != *requirement || kept.outcome.verdict != *verdict
             })

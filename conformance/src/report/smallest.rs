@@ -13,17 +13,21 @@ const KEPT: usize = 5;
 #[derive(Debug, Default)]
 pub(super) struct Smallest {
     count: usize,
-    kept: Vec<(usize, CheckResult)>,
+    following: usize,
+    kept: Vec<((bool, usize), CheckResult)>,
 }
 
 impl Smallest {
     /// Counts an outcome, and keeps its `result` if it is one of the smallest.
     pub(super) fn add(&mut self, outcome: Outcome, result: impl FnOnce(Outcome) -> CheckResult) {
+        let follows = outcome.follows();
         self.count += 1;
+        self.following += usize::from(follows);
         let size = outcome.request.as_ref().map_or(0, |request| request.to_string().len());
-        let at = self.kept.partition_point(|(other, _)| *other <= size);
+        let rank = (follows, size);
+        let at = self.kept.partition_point(|(other, _)| *other <= rank);
         if at < KEPT {
-            self.kept.insert(at, (size, result(outcome)));
+            self.kept.insert(at, (rank, result(outcome)));
             self.kept.truncate(KEPT);
         }
     }
@@ -35,7 +39,8 @@ impl Smallest {
 
     /// The part of a report about them.
     pub(super) fn finish(self, requirement: String, verdict: Verdict) -> NotPassed {
-        let smallest = self.kept.into_iter().map(|(_, result)| result).collect();
-        NotPassed { requirement, verdict, count: self.count, smallest }
+        let Self { count, following, kept } = self;
+        let smallest = kept.into_iter().map(|(_, result)| result).collect();
+        NotPassed { requirement, verdict, count, following, smallest }
     }
 }

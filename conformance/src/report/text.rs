@@ -30,6 +30,7 @@ pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         words::wires(&report.header.wires),
         report.summary.totals.sum()
     )?;
+    causes(report, out)?;
     requirements(report, out)?;
     // The most urgent part is last, at the end of the terminal.
     for verdict in Report::URGENT.into_iter().rev() {
@@ -84,6 +85,20 @@ fn statement(level: Level, statement: &Statement, out: &mut dyn Write) -> io::Re
     writeln!(out, "  {:9} {DIM}{}{DIM:#}", "source", statement.place())
 }
 
+/// What is at fault, before everything that follows from it.
+fn causes(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+    if report.causes.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "\n{BOLD}At fault{BOLD:#}, the most basic first:")?;
+    let width = report.causes.iter().map(|cause| cause.requirement.len()).max().unwrap_or(0);
+    for cause in &report.causes {
+        writeln!(out, "  {:width$}  {}", cause.requirement, cause.effect())?;
+        writeln!(out, "  {:width$}  {DIM}first {}{DIM:#}", "", cause.check)?;
+    }
+    writeln!(out)
+}
+
 /// One line per requirement, with the counts of its verdicts.
 fn requirements(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let width = report.requirements.iter().map(|row| row.id.len()).max().unwrap_or(0);
@@ -98,6 +113,9 @@ fn group(group: &Group<'_>, out: &mut dyn Write) -> io::Result<()> {
     let style = style(checks.verdict);
     let word = checks.verdict.to_string().to_uppercase().replace('-', " ");
     write!(out, "\n{style}{word}{style:#} {BOLD}{}{BOLD:#}", requirement.id)?;
+    if let Some(origin) = group.origin() {
+        return writeln!(out, "  {}, all because of {origin}", group.share());
+    }
     match checks.count {
         1 => writeln!(out)?,
         _ => writeln!(out, "  {}, the smallest first", group.share())?,

@@ -4,7 +4,7 @@ use std::fmt;
 
 use indexmap::IndexMap;
 
-use super::model::{CheckResult, NotPassed, Report, RequirementResult, Stopped};
+use super::model::{Cause, CheckResult, NotPassed, Report, RequirementResult, Stopped};
 use super::words;
 use crate::adapter::Output;
 use crate::explain::diff::Row;
@@ -34,7 +34,8 @@ impl Report {
         Some(format!("{why}: {left} not asked"))
     }
 
-    /// The checks with this verdict by requirement, in the order of the documents.
+    /// The checks with this verdict by requirement: those that are accused, the most basic first,
+    /// then the others in the order of the documents.
     #[must_use]
     pub fn groups(&self, verdict: Verdict) -> Vec<Group<'_>> {
         let mut groups = Vec::new();
@@ -43,6 +44,12 @@ impl Report {
             let own = all.find(|requirement| requirement.id == checks.requirement);
             groups.extend(own.map(|requirement| Group { requirement, checks }));
         }
+        let place = |group: &Group<'_>| {
+            let accused = |cause: &Cause| cause.requirement == group.requirement.id;
+            let place = self.causes.iter().position(accused);
+            (group.origin().is_some(), place.unwrap_or(self.causes.len()))
+        };
+        groups.sort_by_key(place);
         groups
     }
 
@@ -58,6 +65,21 @@ impl Report {
         let section =
             |((document, section), requirements)| Section { document, section, requirements };
         sections.into_iter().map(section).collect()
+    }
+}
+
+impl Cause {
+    /// `12 checks fail, and 300 of other requirements follow`.
+    #[must_use]
+    pub fn effect(&self) -> String {
+        let failed = words::count(self.failed, "check");
+        match self.follow {
+            0 => format!("{failed} failed"),
+            more => format!(
+                "{failed} failed, and {} of other requirements follow",
+                words::thousands(more)
+            ),
+        }
     }
 }
 
@@ -100,6 +122,15 @@ impl Group<'_> {
         format!("{} of {all}", words::thousands(self.checks.count))
     }
 
+    /// The requirement that is accused instead, if all of these checks follow from another's
+    /// failure.
+    #[must_use]
+    pub fn origin(&self) -> Option<&str> {
+        let NotPassed { count, following, smallest, .. } = self.checks;
+        let first = smallest.first().filter(|_| following == count)?;
+        first.outcome.because.as_ref().map(|cause| cause.requirement.as_str())
+    }
+
     /// The number of checks without kept evidence.
     #[must_use]
     pub fn more(&self) -> usize {
@@ -132,6 +163,7 @@ impl CheckResult {
             ("instead", instead),
             ("differs", self.differs().map(Evidence::Words)),
             ("because", Some(Evidence::Words(detail.clone()))),
+            ("follows", self.follows().map(Evidence::Words)),
             ("left out", self.left_out().map(Evidence::Words)),
             ("replay", self.replay.clone().map(Evidence::Code)),
         ];
@@ -142,6 +174,12 @@ impl CheckResult {
     fn differs(&self) -> Option<String> {
         let (at, part) = (self.diff.as_ref()?.first?, self.differs_in.as_ref()?);
         Some(format!("byte {at}, in the {part}"))
+    }
+
+    /// `from CHECK (REQUIREMENT)`; `None` if it accuses its own requirement.
+    fn follows(&self) -> Option<String> {
+        let cause = self.outcome.because.as_ref()?;
+        Some(format!("from {} ({})", cause.check, cause.requirement))
     }
 
     /// A note about cut texts, and where to see them in full.

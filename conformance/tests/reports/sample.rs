@@ -142,6 +142,11 @@ pub(crate) fn small() -> Report {
     report("unstuffed", "*stuffing.goal-position/{encode,stuff,unstuff}", unstuffed, "[]")
 }
 
+/// A whole report of an implementation that does not stuff.
+pub(crate) fn unstuffed_whole() -> Report {
+    report("unstuffed", "*", unstuffed, "[]")
+}
+
 /// A report without failures.
 pub(crate) fn right() -> Report {
     report("right", "*", |_, answer| answer, "[]")

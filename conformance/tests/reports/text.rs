@@ -1,5 +1,6 @@
 use actucheck::report::compare::Comparison;
 use actucheck::report::{Format, Report};
+use actucheck::verdict::Verdict;
 
 use super::sample;
 
@@ -13,6 +14,11 @@ fn written(format: Format, report: &Report) -> String {
 fn a_terminal_shows_the_worst_last() {
     insta::assert_snapshot!(written(Format::Text, &sample::interrupted()), @r#"
     unstuffed 1.0 (C)  wire dynamixel2  3 checks
+
+    At fault, the most basic first:
+      dynamixel2.stuffing.transmit  1 check failed
+                                    first dynamixel2.stuffing.goal-position/encode
+
       dynamixel2.stuffing.transmit  1 pass  1 fail
       dynamixel2.stuffing.receive   1 pass
 
@@ -34,6 +40,27 @@ fn a_terminal_shows_the_worst_last() {
 }
 
 #[test]
+fn what_follows_from_another_failure_is_told_in_a_line() {
+    let report = sample::unstuffed_whole();
+    let first = &report.causes[0];
+    assert_eq!(first.requirement, "dynamixel2.stuffing.transmit");
+    assert!(first.failed > 100 && first.follow > 10, "{first:?}");
+    let groups = report.groups(Verdict::Fail);
+    assert_eq!(
+        (groups[0].requirement.id.as_str(), groups[0].origin()),
+        (&*first.requirement, None)
+    );
+    let told = written(Format::Text, &report);
+    let followers = groups.iter().filter(|group| group.origin().is_some());
+    assert!(followers.clone().count() > 1);
+    for group in followers {
+        let beginning = format!("FAIL {} ", group.requirement.id);
+        let line = told.lines().find(|line| line.starts_with(&beginning)).unwrap();
+        assert!(line.ends_with(", all because of dynamixel2.stuffing.transmit"), "{line}");
+    }
+}
+
+#[test]
 fn a_summary_in_markdown_is_short() {
     insta::assert_snapshot!(written(Format::Markdown, &sample::interrupted()), @r#"
     ## FAILED: unstuffed 1.0 (C)
@@ -46,6 +73,10 @@ fn a_summary_in_markdown_is_short() {
     |---|---:|
     | ✓ pass | 2 |
     | ✗ fail | 1 |
+
+    ### At fault, the most basic first
+
+    1. `dynamixel2.stuffing.transmit`: 1 check failed
 
     ### ✗ fail
 
