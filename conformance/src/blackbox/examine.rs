@@ -12,7 +12,7 @@ use crate::suite::check::Check;
 use crate::verdict::Outcome;
 
 /// The maximum number of questions to shrink a failure.
-const STEPS: usize = 2_000;
+const STEPS: usize = 500;
 /// The same if each question needs a fresh process.
 const FRESH_STEPS: usize = 60;
 /// The same for an adapter that hangs or ends, as each question takes long.

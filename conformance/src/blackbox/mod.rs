@@ -47,7 +47,7 @@ const BATCH: u64 = 256;
 const FRUITLESS: u32 = 5_000;
 /// How often failures of one kind are examined: some do not come again, and another one may be
 /// smaller than the smallest so far.
-const EXAMINED: u32 = 6;
+const EXAMINED: u32 = 4;
 
 /// Which probes are asked.
 #[derive(Clone, Copy, Debug)]

@@ -22,7 +22,7 @@ pub(super) fn payload(around: usize, limits: &Limits) -> BoxedStrategy<Vec<u8>> 
         6 => filled((SHORT..300).boxed()),
         6 => filled(near(powers(6..12), around)),
         1 => filled(near(powers(12..17), around)),
-        3 => filled(near(stated(limits), around)),
+        6 => filled(near(stated(limits), around)),
     ]
     .boxed()
 }

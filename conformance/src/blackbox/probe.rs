@@ -265,8 +265,14 @@ impl Damage {
 impl Probe {
     /// The check of this probe; `None` if the documents leave the right answer unspecified.
     pub(super) fn check(&self, author: &Author<'_>, hello: &Hello, id: String) -> Option<Check> {
-        let (requirement, op, demand) = (wire::of(author.wire)?.question)(author, self)?;
-        within(hello, author.check(id, &requirement, op, demand))
+        let probes = wire::of(author.wire)?;
+        let (requirement, question, demand) = (probes.question)(author, self)?;
+        let (requirement, demand) = match within(hello, &question, &demand) {
+            Within::Limit => (requirement, demand),
+            Within::Refused(demand) => (probes.limit.to_owned(), demand),
+            Within::Unspecified => return None,
+        };
+        Some(author.check(id, &requirement, question, demand))
     }
 
     /// What the probe is about.
@@ -292,30 +298,43 @@ impl Probe {
     }
 }
 
-/// What the adapter's limits make of a check: a longer packet must be refused. Version 1 does not
-/// say so, and nothing is said of a stream with a longer packet.
-fn within(hello: &Hello, check: Check) -> Option<Check> {
-    let longer_than = |limit: Option<usize>, size: usize| limit.is_some_and(|limit| size > limit);
+/// What the limits of an adapter make of a question.
+enum Within {
+    /// The packets are no longer than the limit.
+    Limit,
+    /// A longer packet is refused.
+    Refused(Demand),
+    /// Nothing is said of it.
+    Unspecified,
+}
+
+/// A packet that is longer than the adapter's limit must be refused, and not be found in a stream
+/// that has nothing else. Version 1 of the adapter protocol does not say so.
+fn within(hello: &Hello, question: &Question, demand: &Demand) -> Within {
     let (receive, send) = (hello.limits.receive(), hello.limits.send());
-    let too_long = match (&check.question, &check.demand) {
-        (Question::Decode { bytes, .. }, _) => longer_than(receive, bytes.len()),
+    let longer = |size: usize, limit: Option<usize>| limit.is_some_and(|limit| size > limit);
+    let (is_longer, refused) = match (question, demand) {
+        (Question::Decode { bytes, .. }, Demand::Yield(_)) => {
+            (longer(bytes.len(), receive), Some(Demand::Reject(Fault::Oversize)))
+        }
         (Question::Encode { .. }, Demand::Yield(Output::Bytes(bytes))) => {
-            longer_than(send, bytes.len())
+            (longer(bytes.len(), send), Some(Demand::Reject(Fault::Oversize)))
         }
-        (Question::Stream { .. }, Demand::Yield(Output::Packets(packets))) => {
-            let frames = packets.iter().filter_map(|packet| packet.wire().encode(packet));
-            let longest = frames.map(|frame| frame.len()).max().unwrap_or_default();
-            return (!longer_than(receive, longest)).then_some(check);
+        (Question::Stream { wire, chunks, direction }, Demand::Yield(Output::Packets(packets))) => {
+            let sizes = packets.iter().filter_map(|packet| Some(wire.encode(packet)?.len()));
+            let longest = sizes.max().unwrap_or_default();
+            let stream: Vec<u8> = chunks.iter().flat_map(|chunk| chunk.0.clone()).collect();
+            let behind = stream.get(1..).unwrap_or_default().to_vec().into();
+            let is_alone = stream.len() == longest && wire.stream(&[behind], *direction).is_empty();
+            let nothing = Demand::Yield(Output::Packets(Vec::new()));
+            (longer(longest, receive), is_alone.then_some(nothing))
         }
-        _ => false,
+        _ => (false, None),
     };
-    match &check.demand {
-        _ if !too_long => Some(check),
-        Demand::Yield(_) if hello.protocol > 1 => {
-            Some(Check { demand: Demand::Reject(Fault::Oversize), ..check })
-        }
-        Demand::Reject(_) => Some(check),
-        _ => None,
+    match refused {
+        _ if !is_longer => Within::Limit,
+        Some(demand) if hello.protocol > 1 => Within::Refused(demand),
+        _ => Within::Unspecified,
     }
 }
 

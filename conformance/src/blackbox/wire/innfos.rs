@@ -24,6 +24,7 @@ pub(super) const PROBES: Probes = Probes {
     noise: || Just(Vec::new()).boxed(),
     name,
     smaller,
+    limit: "innfos.frame.length",
     question,
 };
 

@@ -28,6 +28,8 @@ pub(crate) struct Probes {
     pub(crate) name: fn(&Spec, &Packet) -> String,
     /// Smaller packets of the same kind.
     pub(crate) smaller: fn(&Packet) -> Vec<Packet>,
+    /// The requirement on packets that are too long.
+    pub(crate) limit: &'static str,
     /// The question of a probe; `None` if the documents leave the right answer unspecified.
     pub(crate) question: fn(&Author<'_>, &Probe) -> Option<Asked>,
 }

@@ -29,8 +29,12 @@ pub(super) const PROBES: Probes = Probes {
         let smaller = own(packet).map(smaller::packets).unwrap_or_default();
         smaller.into_iter().map(Into::into).collect()
     },
+    limit: LIMIT,
     question,
 };
+
+/// The requirement on packets that are too long.
+const LIMIT: &str = "dynamixel2.packet.length.limit";
 
 fn own(packet: &wire::Packet) -> Option<&Packet> {
     let wire::Packet::Dynamixel2(packet) = packet else { return None };
@@ -92,7 +96,9 @@ fn encode(author: &Author<'_>, packet: &wire::Packet) -> Option<Asked> {
     if !exists(author.spec, sent) && !patterned(sent) {
         return None;
     }
-    let frame = packet.wire().encode(packet)?;
+    let Some(frame) = WIRE.encode(packet) else {
+        return Some((LIMIT.to_owned(), op, Demand::Reject(Fault::Oversize)));
+    };
     let requirement = match sent {
         _ if is_stuffed(sent, &frame) => "dynamixel2.stuffing.transmit".to_owned(),
         Packet::Instruction { instruction, .. } => {

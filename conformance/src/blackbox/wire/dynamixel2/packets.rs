@@ -1,7 +1,9 @@
 //! Packets of every kind, at the ends of what their fields allow.
 
 use actucheck_spec::wire::Direction;
-use actucheck_spec::wire::dynamixel2::reference::{BROADCAST, HEADER, PATTERN};
+use actucheck_spec::wire::dynamixel2::reference::{
+    BROADCAST, HEADER, PATTERN, STATUS, frame, stuff,
+};
 use actucheck_spec::wire::dynamixel2::{Block, Packet};
 use proptest::collection::vec;
 use proptest::prelude::{BoxedStrategy, Just, Strategy, any};
@@ -18,6 +20,8 @@ use crate::suite::random::data;
 const ENDS: [u16; 10] = [0, 1, 255, 256, 0x00FD, 0xFDFF, 0xFFFD, 0xFFFE, 0xFFFF, 0xFF00];
 /// How many devices there are: around powers of two, and most often every one.
 const MANY: [usize; 14] = [16, 31, 32, 63, 64, 65, 127, 128, 129, 252, 253, 253, 253, 253];
+/// The IDs that no packet may have.
+const NO_DEVICES: [u8; 2] = [253, 255];
 /// The number of IDs that devices may have.
 const DEVICES: usize = 253;
 /// Bytes of a frame around the parameters of an instruction, and of a status packet.
@@ -49,6 +53,10 @@ pub(super) fn noise() -> BoxedStrategy<Vec<u8>> {
         // A header that byte stuffing has made harmless, with a length behind it.
         claim().prop_map(|claim| claiming(&[&PATTERN[..], &[0xFD]].concat(), claim)),
         claim().prop_map(|claim| claiming(&HEADER, claim)),
+        // A whole packet, but for its ID.
+        (select(&NO_DEVICES[..]), data(0..8)).prop_map(|(id, params)| {
+            frame(id, &stuff(&[&[STATUS, 0], params.as_slice()].concat()))
+        }),
     ]
     .boxed()
 }
@@ -94,7 +102,7 @@ fn to_no_device(limits: &Limits) -> BoxedStrategy<Packet> {
         Packet::Instruction { instruction, params, .. } => packet_of(id, instruction, params.0),
         fast @ Packet::FastStatus { .. } => fast,
     };
-    (packet, select(vec![253, 255_u8])).prop_map(named).boxed()
+    (packet, select(&NO_DEVICES[..])).prop_map(named).boxed()
 }
 
 fn id() -> BoxedStrategy<u8> {
