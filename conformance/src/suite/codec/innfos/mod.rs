@@ -24,13 +24,13 @@ use crate::suite::plan::Family;
 use crate::suite::{Author, Options};
 
 pub(super) fn families<'a>(author: Author<'a>, options: &Options) -> Vec<Family<'a>> {
-    let max_packet = options.limits.max_packet;
+    let limit = options.limits.receive();
     let mut families = vec![Family::of("", move || golden::checks(&author))];
     for direction in Direction::ALL {
         families.extend(packets::families(author, direction));
         families.push(messages::family(author, direction));
         families.extend(damaged::families(author, direction));
-        families.push(open::family(author, direction, max_packet));
+        families.push(open::family(author, direction, limit));
     }
     families.push(damaged::replies_as_requests(author));
     families

@@ -15,13 +15,9 @@ use crate::suite::plan::Family;
 const LARGEST: usize = 65_535;
 const AROUND: usize = 8;
 
-/// Questions about packets in this direction. `max_packet` is the size of the longest frame that
+/// Questions about packets in this direction. `limit` is the size of the longest frame that
 /// the subject states to take.
-pub(super) fn family(
-    author: Author<'_>,
-    direction: Direction,
-    max_packet: Option<usize>,
-) -> Family<'_> {
+pub(super) fn family(author: Author<'_>, direction: Direction, limit: Option<usize>) -> Family<'_> {
     Family::of(format!("innfos.open.{direction}."), move || {
         let mut checks = behind_damage(&author, direction);
         checks.extend(two_frames(&author, direction));
@@ -29,7 +25,7 @@ pub(super) fn family(
             Direction::Request => strange_requests(),
             Direction::Reply => strange_replies(),
         };
-        let strangers = strangers.into_iter().chain(long(direction, max_packet));
+        let strangers = strangers.into_iter().chain(long(direction, limit));
         checks.extend(strangers.flat_map(|stranger| strange(&author, direction, &stranger)));
         if direction == Direction::Reply {
             checks.push(short_reply_with_crc(&author));
@@ -211,8 +207,8 @@ fn strange_replies() -> Vec<Stranger> {
 }
 
 /// As much data as the subject takes; no row has so much.
-fn long(direction: Direction, max_packet: Option<usize>) -> Option<Stranger> {
-    let size = max_packet?.checked_sub(AROUND)?.min(LARGEST);
+fn long(direction: Direction, limit: Option<usize>) -> Option<Stranger> {
+    let size = limit?.checked_sub(AROUND)?.min(LARGEST);
     let Packet { command, .. } = example(direction);
     let name = format!("size-{size}-of-{command:02x}");
     (size > 256).then(|| Stranger::new(&name, SIZE, command, &vec![0x5A; size]))
