@@ -1,6 +1,6 @@
 //! Checks an adapter itself: whether it follows the adapter protocol, whatever its library does.
 //!
-//! Its questions come from the plans of all wires ([`Example`](example::Example)); a new op needs a
+//! Its questions come from the plans of all wires (`lint/example.rs`); a new op needs a
 //! question there.
 //!
 //! Each point relies on the points before it. A problem after which no reply can be trusted ends
