@@ -144,7 +144,14 @@ fn decode(author: &Author<'_>, packet: &wire::Packet, damage: &[Damage]) -> Opti
             return None;
         }
         Err(_) if context.fast.is_none() && inside(&frame) => return None,
-        Err(fault) => (broken(fault), Demand::Reject(fault)),
+        Err(fault) => {
+            let requirement = match (fault, &context.fast) {
+                (Fault::Id, Some(fast)) if fast.length == 0 => "ja40.fast-sync-write.order",
+                (Fault::Id, Some(_)) => "ja40.fast-sync-read.order",
+                _ => broken(fault),
+            };
+            (requirement, Demand::Reject(fault))
+        }
     };
     let op = Question::Decode { wire: WIRE, bytes: frame.into(), context };
     Some((requirement.to_owned(), op, demand))
