@@ -54,7 +54,7 @@ impl Blame {
         let basic = || {
             let request = outcome.request.as_ref().filter(|_| !self.basic.is_empty())?;
             let mut failures = rests_on(request, outcome.expected.as_ref())
-                .filter_map(|id| self.basic.get(id))
+                .filter_map(|id| self.basic.get(id.as_ref()))
                 .filter(|failure| failure.verdict.explains(outcome.verdict));
             failures.next().map(|failure| failure.cause.clone())
         };

@@ -1,4 +1,6 @@
-//! One fault accuses one requirement: the right one comes first, and few others beside it.
+//! Each fault accuses first the requirement that it breaks, and few others beside it.
+
+use std::collections::BTreeSet;
 
 use actucheck::run;
 use actucheck::suite::check::Check;
@@ -33,9 +35,16 @@ fn accused(outcomes: &[Outcome]) -> Vec<(&str, &str)> {
     accused
 }
 
+/// How many sentences are accused. The documents of several devices have the same one:
+/// `ja40.table.units` and `ja-variant.table.units` are one sentence.
+fn sentences(accused: &[(&str, &str)]) -> usize {
+    let sentences = accused.iter().filter_map(|(requirement, _)| requirement.split_once('.'));
+    sentences.map(|(_, sentence)| sentence).collect::<BTreeSet<_>>().len()
+}
+
 #[test]
-fn most_faults_accuse_first_the_requirement_that_they_break() {
-    let (mut right, mut wrong) = (0, Vec::new());
+fn each_fault_accuses_first_the_requirement_that_it_breaks() {
+    let mut wrong = Vec::new();
     for matrix in MATRICES.iter() {
         let named = matrix.found.iter().filter(|(mutant, _)| !mutant.blames.is_empty());
         for (mutant, finders) in named {
@@ -43,14 +52,11 @@ fn most_faults_accuse_first_the_requirement_that_they_break() {
             let outcomes = outcomes(mutant, &matrix.checks, &finders);
             let accused = accused(&outcomes);
             let first = accused.first().map(|(requirement, _)| *requirement);
-            if first == Some(mutant.blames) && accused.len() <= MOST {
-                right += 1;
-            } else {
+            if first != Some(mutant.blames) || sentences(&accused) > MOST {
                 let (name, blames) = (mutant.name, mutant.blames);
                 wrong.push(format!("{name}: should accuse {blames}, accuses {accused:#?}"));
             }
         }
     }
-    let few = wrong.len() < right;
-    assert!(few, "{right} are right, these are not:\n{}", wrong.join("\n"));
+    assert!(wrong.is_empty(), "{wrong:#?}");
 }

@@ -3,6 +3,8 @@
 pub(crate) mod dynamixel2;
 mod innfos;
 
+use std::borrow::Cow;
+
 use actucheck_spec::wire;
 
 use super::basics::{self, About, Basic};
@@ -15,6 +17,8 @@ struct Checks {
     wire: Wire,
     /// The basic checks, the most basic first.
     basics: fn() -> &'static [Basic],
+    /// The ids of the basic checks of values that an answer rests on, the most basic first.
+    values: fn(&Question, Option<&Output>) -> Vec<String>,
     /// The families of the other checks.
     families: for<'a> fn(Author<'a>, &Options) -> Vec<Family<'a>>,
 }
@@ -24,9 +28,15 @@ const WIRES: [Checks; 2] = [
     Checks {
         wire: wire::dynamixel2::WIRE,
         basics: dynamixel2::basics::all,
+        values: dynamixel2::values::rests_on,
         families: dynamixel2::families,
     },
-    Checks { wire: wire::innfos::WIRE, basics: innfos::basics::all, families: innfos::families },
+    Checks {
+        wire: wire::innfos::WIRE,
+        basics: innfos::basics::all,
+        values: innfos::messages::rests_on,
+        families: innfos::families,
+    },
 ];
 
 fn of_wire(wire: Wire) -> Option<&'static Checks> {
@@ -46,9 +56,11 @@ pub(super) fn families<'a>(author: Author<'a>, options: &Options) -> Vec<Family<
 pub(crate) fn rests_on<'a>(
     question: &'a Question,
     expected: Option<&'a Output>,
-) -> impl Iterator<Item = &'static str> + use<'a> {
-    let basics = of_wire(question.wire()).map_or(&[][..], |checks| (checks.basics)());
+) -> impl Iterator<Item = Cow<'static, str>> + use<'a> {
+    let checks = of_wire(question.wire());
+    let basics = checks.map_or(&[][..], |checks| (checks.basics)());
+    let values = checks.map_or_else(Vec::new, |checks| (checks.values)(question, expected));
     let about = About::new(question, expected);
     let concerned = basics.iter().filter(move |basic| (basic.concerns)(&about));
-    concerned.map(|basic| basic.id.as_str())
+    concerned.map(|basic| basic.id.as_str().into()).chain(values.into_iter().map(Cow::from))
 }

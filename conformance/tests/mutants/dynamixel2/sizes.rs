@@ -108,7 +108,9 @@ pub(super) static MUTANTS: [Mutant; 23] = [
         name: "loses the last byte of 64",
         blames: "dynamixel2.packet.length.instruction",
         wrong: Wrong::Answers(|op| {
-            stuffed(op, |body| body[..body.len() - usize::from(body.len() == 64)].to_vec())
+            stuffed(op, |body| {
+                reference::stuff(&body[..body.len() - usize::from(body.len() == 64)])
+            })
         }),
         found_by: "dynamixel2.body.64.write.plain/encode",
         found_by_documents: false,

@@ -5,7 +5,7 @@ use actucheck_spec::model::Fault;
 use actucheck_spec::wire::dynamixel2::Packet;
 use actucheck_spec::wire::dynamixel2::reference::{self, Event, HEADER, PATTERN};
 
-use crate::{Mutant, Wrong};
+use crate::{LIMITS, Mutant, Wrong};
 
 /// A stream that arrives in chunks.
 struct Stream {
@@ -38,8 +38,9 @@ impl Stream {
     }
 
     fn packets(&self) -> Vec<Found> {
+        let longest = LIMITS.receive().unwrap_or(usize::MAX);
         let (mut all, mut start, mut bad) = (Vec::new(), 0, 0);
-        for event in reference::events(&self.bytes, true, usize::MAX) {
+        for event in reference::events(&self.bytes, true, longest) {
             let end = start + event.size();
             match event {
                 Event::Packet(_, packet) => {

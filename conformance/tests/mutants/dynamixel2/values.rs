@@ -18,14 +18,14 @@ static SPEC: LazyLock<Spec> = LazyLock::new(|| Spec::embedded().unwrap());
 pub(super) static NUMBERS: [Mutant; 10] = [
     Mutant {
         name: "reads a unit that is 1 % too large",
-        blames: "ja40.table.units",
+        blames: "ja-variant.table.units",
         wrong: Wrong::Answers(|op| quantity(op, |_, number| number * 1.01)),
         found_by: "ja40.value.current-limit.15000/read",
         found_by_documents: false,
     },
     Mutant {
         name: "reads degrees for counts",
-        blames: "ja40.table.units",
+        blames: "ja-variant.table.units",
         wrong: Wrong::Answers(|op| {
             quantity(
                 op,
@@ -37,7 +37,7 @@ pub(super) static NUMBERS: [Mutant; 10] = [
     },
     Mutant {
         name: "reads half the counts",
-        blames: "ja40.present-values.units",
+        blames: "ja-variant.table.units",
         wrong: Wrong::Answers(|op| {
             quantity(op, |unit, number| if unit == "count" { number / 2. } else { number })
         }),
@@ -46,7 +46,7 @@ pub(super) static NUMBERS: [Mutant; 10] = [
     },
     Mutant {
         name: "reads fractions for per cent",
-        blames: "ja40.table.units",
+        blames: "ja-variant.table.units",
         wrong: Wrong::Answers(|op| {
             quantity(op, |unit, number| if unit == "%" { number / 100. } else { number })
         }),
@@ -55,7 +55,7 @@ pub(super) static NUMBERS: [Mutant; 10] = [
     },
     Mutant {
         name: "reads velocities in the unit of other actuators",
-        blames: "ja-variant.velocity-trajectory.moving",
+        blames: "ja-variant.table.units",
         wrong: Wrong::Answers(|op| {
             quantity(op, |unit, number| if unit == "rev/min" { number * 22.9 } else { number })
         }),
@@ -64,14 +64,14 @@ pub(super) static NUMBERS: [Mutant; 10] = [
     },
     Mutant {
         name: "reads whole units only",
-        blames: "ja40.table.units",
+        blames: "ja-variant.table.units",
         wrong: Wrong::Answers(|op| quantity(op, |_, number| number.trunc())),
         found_by: "ja40.value.goal-velocity.-1/read",
         found_by_documents: false,
     },
     Mutant {
         name: "reads the high byte first",
-        blames: "ja40.table.registers",
+        blames: "ja-variant.table.registers",
         wrong: Wrong::Answers(|op| {
             read(op, |register, bytes| {
                 let other: Vec<_> = bytes.iter().rev().copied().collect();
@@ -83,7 +83,7 @@ pub(super) static NUMBERS: [Mutant; 10] = [
     },
     Mutant {
         name: "reads every number without a sign",
-        blames: "ja40.present-values.units",
+        blames: "ja-variant.table.units",
         wrong: Wrong::Answers(|op| {
             read(op, |_, bytes| {
                 bytes.iter().rev().fold(0, |number, byte| number << 8 | i64::from(*byte))
@@ -94,14 +94,14 @@ pub(super) static NUMBERS: [Mutant; 10] = [
     },
     Mutant {
         name: "reads the lowest byte only",
-        blames: "ja40.table.ram-registers",
+        blames: "ja-variant.table.registers",
         wrong: Wrong::Answers(|op| read(op, |_, bytes| bytes[0].into())),
         found_by: "ja40.value.position-p-gain.2000/read",
         found_by_documents: false,
     },
     Mutant {
         name: "reads a byte as a signed number",
-        blames: "dynamixel2.read.status",
+        blames: "ja-variant.table.registers",
         wrong: Wrong::Answers(|op| {
             read(op, |register, bytes| match bytes {
                 [byte] => i8::from_le_bytes([*byte]).into(),
@@ -117,7 +117,7 @@ pub(super) static NUMBERS: [Mutant; 10] = [
 pub(super) static WRITING: [Mutant; 5] = [
     Mutant {
         name: "writes the high byte first",
-        blames: "ja40.table.units",
+        blames: "ja-variant.table.registers",
         wrong: Wrong::Answers(|op| {
             written(op, |register, raw| register_bytes(register, raw).into_iter().rev().collect())
         }),
@@ -126,7 +126,7 @@ pub(super) static WRITING: [Mutant; 5] = [
     },
     Mutant {
         name: "writes negative numbers with a sign bit",
-        blames: "ja40.table.units",
+        blames: "ja-variant.table.units",
         wrong: Wrong::Answers(|op| {
             written(op, |register, raw| {
                 let sign = 1 << (8 * register.kind.size() - 1);
@@ -138,7 +138,7 @@ pub(super) static WRITING: [Mutant; 5] = [
     },
     Mutant {
         name: "writes four bytes into every register",
-        blames: "ja40.table.ram-registers",
+        blames: "ja-variant.table.registers",
         wrong: Wrong::Answers(|op| {
             written(op, |register, raw| {
                 let mut bytes = register_bytes(register, raw);
@@ -151,7 +151,7 @@ pub(super) static WRITING: [Mutant; 5] = [
     },
     Mutant {
         name: "writes the quantity without its unit",
-        blames: "ja40.table.units",
+        blames: "ja-variant.table.units",
         wrong: Wrong::Answers(|op| {
             let Question::Value { given: Given::Value(Value::Number(number)), .. } = op else {
                 return None;
@@ -175,7 +175,7 @@ pub(super) static WRITING: [Mutant; 5] = [
 pub(super) static NAMES: [Mutant; 7] = [
     Mutant {
         name: "calls a mode by the next one's name",
-        blames: "ja40.operating-mode.extended-position",
+        blames: "ja-variant.baud-rate.values",
         wrong: Wrong::Answers(|op| match asked(op)? {
             (Form::Names(names), Value::Name(name)) => {
                 let place = names.iter().position(|other| *other == name)?;
@@ -188,7 +188,7 @@ pub(super) static NAMES: [Mutant; 7] = [
     },
     Mutant {
         name: "numbers the modes from 0",
-        blames: "ja40.operating-mode.calibration",
+        blames: "ja-variant.operating-mode.extended-position",
         wrong: Wrong::Answers(|op| {
             let Question::Value { form: Form::Names(names), given: Given::Value(value), .. } = op
             else {
@@ -202,7 +202,7 @@ pub(super) static NAMES: [Mutant; 7] = [
     },
     Mutant {
         name: "takes a bit field without shifting it",
-        blames: "ja40.moving-status.profile",
+        blames: "ja-variant.moving-status.profile",
         wrong: Wrong::Answers(|op| {
             let (register, field) = register(op)?;
             let field = register.bit_field(field?)?;
@@ -216,21 +216,21 @@ pub(super) static NAMES: [Mutant; 7] = [
     },
     Mutant {
         name: "counts bits from 1",
-        blames: "ja40.hardware-error.overheating",
+        blames: "ja-variant.drive-mode.direction",
         wrong: Wrong::Answers(|op| flags(op, |raw| raw >> 1)),
         found_by: "ja40.value.hardware-error-status.4/read",
         found_by_documents: false,
     },
     Mutant {
         name: "reports the lowest alarm only",
-        blames: "ja40.hardware-error.unused-bits",
+        blames: "ja-variant.drive-mode.profile",
         wrong: Wrong::Answers(|op| flags(op, |raw| raw & -raw)),
         found_by: "ja40.value.hardware-error-status.238/read",
         found_by_documents: false,
     },
     Mutant {
         name: "sets the opposite of every flag",
-        blames: "ja-variant.drive-mode.profile",
+        blames: "ja-variant.drive-mode.direction",
         wrong: Wrong::Answers(|op| match op {
             Question::Value { form: Form::Flags(_), given: Given::Bytes(_), .. } => {
                 flags(op, |raw| !raw)
@@ -248,7 +248,7 @@ pub(super) static NAMES: [Mutant; 7] = [
     },
     Mutant {
         name: "reads no names",
-        blames: "ja40.baud-rate.values",
+        blames: "ja-variant.baud-rate.values",
         wrong: Wrong::Rejects(|op| {
             matches!(op, Question::Value { form: Form::Names(_), given: Given::Bytes(_), .. })
         }),

@@ -52,7 +52,7 @@ pub(super) static VALUES: [Mutant; 13] = [
     },
     Mutant {
         name: "cuts numbers off to four digits",
-        blames: "innfos.value.position",
+        blames: "innfos.value.iq24",
         wrong: Wrong::Answers(|op| {
             read(op, Format::Iq24, |number| (number * 10_000.0).trunc() / 10_000.0)
         }),

@@ -14,7 +14,7 @@ use actucheck_spec::wire::dynamixel2::{Packet, WIRE};
 use actucheck_spec::wire::{self, Direction};
 
 use self::frames::{May, body, frames, with_crc};
-use self::rows::{Has, Row, fast, fields, instructions, long, of_word, plain};
+use self::rows::{Has, Row, blocks, fast, fields, instructions, long, of_word, plain};
 use crate::adapter::{Output, Question};
 use crate::suite::basics::{About, Basic, Basics};
 use crate::suite::check::Demand;
@@ -38,7 +38,7 @@ fn write() -> Vec<Basic> {
         both_ways(&mut basics, &row);
     }
     stuffing(&mut basics);
-    for row in long().into_iter().chain(instructions()).chain(fast()) {
+    for row in blocks().into_iter().chain(long()).chain(instructions()).chain(fast()) {
         both_ways(&mut basics, &row);
     }
     basics.finish()

@@ -1,10 +1,14 @@
 //! What packets say: commands with their values by name or in the document's unit.
 
+mod basics;
+
 use actucheck_spec::model::Status;
 use actucheck_spec::wire::innfos::reference::{self, Meaning};
 use actucheck_spec::wire::innfos::{Actuator, Command, Format, FullScale, Operation, Packet};
 use actucheck_spec::wire::{Direction, Message, Number, Value};
 
+pub(super) use self::basics::family as basics;
+pub(in crate::suite::codec) use self::basics::rests_on;
 use super::{open, tables};
 use crate::adapter::{Output, Question, Told};
 use crate::suite::check::{Check, Demand};

@@ -11,7 +11,7 @@
 pub(super) mod basics;
 mod damaged;
 mod golden;
-mod messages;
+pub(super) mod messages;
 mod open;
 mod packets;
 mod tables;
@@ -25,7 +25,8 @@ use crate::suite::{Author, Options};
 
 pub(super) fn families<'a>(author: Author<'a>, options: &Options) -> Vec<Family<'a>> {
     let limit = options.limits.receive();
-    let mut families = vec![Family::of("", move || golden::checks(&author))];
+    let mut families = vec![messages::basics(author)];
+    families.push(Family::of("", move || golden::checks(&author)));
     for direction in Direction::ALL {
         families.extend(packets::families(author, direction));
         families.push(messages::family(author, direction));

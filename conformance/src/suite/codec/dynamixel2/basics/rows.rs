@@ -129,6 +129,27 @@ pub(super) fn of_word(what: &str, word: &[u8], has: fn(&[u8]) -> bool) -> [Row; 
     })
 }
 
+/// Bodies of 64 and of 128 bytes: some libraries work in blocks.
+pub(super) fn blocks() -> [Row; 4] {
+    let write = |size: usize| instruction(1, 0x03, &[&[0x74, 0x00], &*vec![0x11; size]].concat());
+    let block = |what: &str, both, packet: Packet, has| Row {
+        name: format!("{what}.{}", kind(&packet)),
+        packet,
+        has: Has::Body(has),
+        sent: both,
+        read: both,
+        found: "dynamixel2.receive.stream",
+    };
+    let of_instruction = "dynamixel2.packet.length.instruction";
+    let of_status = "dynamixel2.packet.length.status";
+    [
+        block("body-64", of_instruction, write(61), |body| body.len() == 64),
+        block("body-64", of_status, status(1, 0, &[0x11; 62]), |body| body.len() == 64),
+        block("body-128", of_instruction, write(125), |body| body.len() == 128),
+        block("body-128", of_status, status(1, 0, &[0x11; 126]), |body| body.len() == 128),
+    ]
+}
+
 /// The smallest lengths of 257, which has two equal bytes.
 pub(super) fn long() -> [Row; 2] {
     let is_long = |body: &[u8]| reference::stuff(body).len() + 2 > 255;

@@ -228,6 +228,8 @@ fn decoded(author: &Author<'_>, id: String, packet: &Packet, frame: &[u8]) -> Ch
     let body = frame.get(reference::PREFIX..frame.len().saturating_sub(2)).unwrap_or_default();
     let is_stuffed = reference::unstuff(body).is_ok_and(|plain| plain.len() < body.len());
     let requirement = match packet {
+        // The high byte of its length is not 0.
+        _ if frame.len() > reference::PREFIX + 0xFF => "dynamixel2.packet.length",
         _ if is_stuffed => "dynamixel2.stuffing.receive",
         Packet::Instruction { .. } => "dynamixel2.packet.layout",
         _ => "dynamixel2.status-packet.layout",

@@ -3,6 +3,7 @@
 //! A register whose values have names is asked for the names, one of bits for the flags that are
 //! set, and any other one for a number in its unit.
 
+mod basics;
 mod cases;
 mod requirement;
 
@@ -10,6 +11,8 @@ use actucheck_spec::model::{Access, Device, Register};
 use actucheck_spec::wire::Value;
 use actucheck_spec::wire::dynamixel2::reference;
 
+pub(super) use self::basics::family as basics;
+pub(in crate::suite::codec) use self::basics::rests_on;
 use self::cases::Case;
 use crate::adapter::{Given, Output, Owner, Question, RegisterOf};
 use crate::suite::Author;
@@ -17,11 +20,15 @@ use crate::suite::check::{Check, Demand};
 use crate::suite::plan::{Family, Group};
 
 pub(super) fn families(author: Author<'_>) -> impl Iterator<Item = Family<'_>> {
-    let devices = author.spec.devices.iter().map(|file| &file.content);
-    devices.filter(move |device| device.wire == author.wire).map(move |device| {
+    devices(author).map(move |device| {
         let groups = move || device.registers.iter().flat_map(move |it| groups(author, device, it));
         Family::new(format!("{}.value.", device.device), groups)
     })
+}
+
+fn devices(author: Author<'_>) -> impl Iterator<Item = &Device> {
+    let devices = author.spec.devices.iter().map(|file| &file.content);
+    devices.filter(move |device| device.wire == author.wire)
 }
 
 /// A group per value of a register. A host can't write a read-only one.
