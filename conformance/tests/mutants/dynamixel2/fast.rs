@@ -105,7 +105,7 @@ const fn mutant(
     Mutant { name, blames, wrong: Wrong::Answers(wrong), found_by, found_by_documents: false }
 }
 
-pub(super) static MUTANTS: [Mutant; 19] = [
+pub(super) static MUTANTS: [Mutant; 18] = [
     mutant(
         "reports the first block's error for all",
         STATUS,
@@ -262,15 +262,5 @@ pub(super) static MUTANTS: [Mutant; 19] = [
             accepted(frame, &Fast { ids, ..*fast })
         },
         "ja40.fast.length.read.device-missing/decode",
-    ),
-    mutant(
-        "takes what follows the packet for a part of it",
-        "dynamixel2.receive.length",
-        |op| {
-            let (frame, fast) = read(op)?;
-            let size = PREFIX + 1 + fast.ids.len() * (usize::from(fast.length) + 4);
-            accepted(frame.get(..size)?, fast)
-        },
-        "ja40.fast.length.write.trailing-00/decode",
     ),
 ];

@@ -1,15 +1,18 @@
 //! Fast status packets that break one rule each.
 
 use actucheck_spec::wire::Fast;
-use actucheck_spec::wire::dynamixel2::Block;
 use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, HEADER, PREFIX, STATUS};
+use actucheck_spec::wire::dynamixel2::{Block, Packet};
 
+use super::super::unspecified::open;
 use super::{Kind, asked, blocks, ids};
+use crate::adapter::{Output, Question};
 use crate::suite::Author;
-use crate::suite::check::Check;
+use crate::suite::check::{Check, Demand};
 use crate::suite::plan::Family;
 
 const LAST_CRC: &str = "dynamixel2.receive.crc";
+const LENGTH: &str = "dynamixel2.receive.length";
 
 pub(super) fn families(author: Author<'_>) -> [Family<'_>; 3] {
     [
@@ -98,17 +101,10 @@ fn lengths(author: &Author<'_>) -> Vec<Check> {
         let mut add = |name: String, requirement, fast: &Fast, bytes| {
             checks.push(author.decoded(id(name), requirement, fast.clone(), bytes));
         };
-        let receive = "dynamixel2.receive.length";
         for end in 0..whole.len() {
             let bytes = whole.get(..end).unwrap_or_default().to_vec();
-            add(format!("cut-at-{end}"), receive, &fast, bytes);
+            add(format!("cut-at-{end}"), LENGTH, &fast, bytes);
         }
-        for byte in [0x00, 0x55, 0xFF] {
-            let bytes = [whole.as_slice(), &[byte]].concat();
-            add(format!("trailing-{byte:02x}"), receive, &fast, bytes);
-        }
-        let twice = [whole.as_slice(), &whole].concat();
-        add("twice".to_owned(), receive, &fast, twice);
         add("device-missing".to_owned(), kind.length(), &asked(&three), whole.clone());
         add("device-more".to_owned(), kind.length(), &fast, right(&three));
         add("no-device".to_owned(), kind.length(), &fast, right(&[]));
@@ -116,8 +112,27 @@ fn lengths(author: &Author<'_>) -> Vec<Check> {
             let other = right(&blocks(&ids(2), size));
             add(format!("{size}-bytes"), kind.length(), &fast, other);
         }
+        let followed = |name: &str, behind: &[u8]| {
+            followed(author, id(name.to_owned()), &two, [whole.as_slice(), behind].concat())
+        };
+        checks.push(followed("trailing-00", &[0x00]));
+        checks.push(followed("trailing-55", &[0x55]));
+        checks.push(followed("trailing-ff", &[0xFF]));
+        checks.push(followed("twice", &whole));
     }
     checks
+}
+
+/// A good packet with bytes behind it. It is complete, and no sentence says that it is refused for them.
+fn followed(author: &Author<'_>, id: String, blocks: &[Block], bytes: Vec<u8>) -> Check {
+    let packet = Packet::FastStatus { blocks: blocks.to_vec() };
+    let ways = open(
+        "Is a fast status packet read that has bytes behind it?",
+        [("without them", Output::Packet(packet.into()))],
+    );
+    let context = asked(blocks).into();
+    let question = Question::Decode { wire: author.wire, bytes: bytes.into(), context };
+    author.check(id, LENGTH, question, Demand::Record(ways))
 }
 
 /// Packets with a wrong byte whose CRCs behind it are right, or with a wrong byte that only the last
