@@ -4,7 +4,7 @@
 
 use std::sync::OnceLock;
 
-use actucheck::adapter::{Given, Hello, Limits, Output, Owner, Question, Rejection, Told, Wire};
+use actucheck::adapter::{Given, Hello, Limits, Output, Question, Rejection, Told, Wire};
 use actucheck::run::outcomes;
 use actucheck::subject::{Answer, Builtin, Subject};
 use actucheck::suite;
@@ -97,7 +97,7 @@ impl Subject for Model {
                 });
                 Ok(Output::Packets(packets))
             }
-            Question::Value { owner: Owner::Register(of), form, given, .. } => {
+            Question::Value { of, form, given, .. } => {
                 let devices = self.1.devices.iter().map(|file| &file.content);
                 let mut devices = devices.filter(|device| device.device == of.device);
                 let register = devices.next().unwrap().register(&of.register).unwrap();
@@ -114,7 +114,6 @@ impl Subject for Model {
                     )),
                 }
             }
-            Question::Value { .. } => Err(Fault::Parameter),
             Question::Message { actuator, told, .. } => message(actuator.as_deref(), told),
         };
         answer.map_or_else(

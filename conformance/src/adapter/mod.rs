@@ -20,7 +20,7 @@ pub use requests::{
     Wire,
 };
 pub use trace::Trace;
-pub use value::{CommandOf, Given, Owner, RegisterOf};
+pub use value::{Given, RegisterOf};
 
 /// Time limits of an adapter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

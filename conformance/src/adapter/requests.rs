@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::message::Told;
-use super::value::{Given, Owner};
+use super::value::{Given, RegisterOf};
 
 /// The newest version of the adapter protocol.
 pub const VERSION: u32 = 2;
@@ -103,13 +103,13 @@ pub enum Question {
         #[serde(alias = "kind", skip_serializing_if = "Option::is_none")]
         direction: Option<Direction>,
     },
-    /// The meaning of the bytes of a register or of a command, or the bytes of a meaning.
+    /// The meaning of the bytes of a register, or the bytes of a meaning.
     Value {
         /// The wire.
         wire: Wire,
-        /// What has the value.
+        /// The register.
         #[serde(flatten)]
-        owner: Owner,
+        of: RegisterOf,
         /// The form of the value.
         #[serde(flatten)]
         form: Form,
@@ -178,7 +178,6 @@ impl Question {
             Self::Decode { context, .. } => context.direction,
             Self::Stream { direction, .. } => *direction,
             Self::Message { told, .. } => Some(told.direction()),
-            Self::Value { owner: Owner::Command(of), .. } => Some(of.direction),
             Self::Value { .. } | Self::Crc { .. } | Self::Stuff { .. } | Self::Unstuff { .. } => {
                 None
             }

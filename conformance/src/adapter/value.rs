@@ -1,19 +1,9 @@
-//! The fields of the op `value`: whose value is asked, and which side of it is given.
+//! The fields of the op `value`: which register is asked, and which side of it is given.
 
 use actucheck_spec::model::HexBytes;
-use actucheck_spec::wire::{Direction, Value};
+use actucheck_spec::wire::Value;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-/// What has the value.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged)]
-pub enum Owner {
-    /// A register of a device.
-    Register(RegisterOf),
-    /// A command.
-    Command(CommandOf),
-}
 
 /// A register of a device, by name and by address.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -29,18 +19,6 @@ pub struct RegisterOf {
     /// The name of the bits that are asked; absent if all of them are.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub field: Option<String>,
-}
-
-/// A command, by its code.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct CommandOf {
-    /// Its code.
-    pub command: u8,
-    /// The direction of the packet that carries the value.
-    pub direction: Direction,
-    /// The actuator's model, if the full scale of the value is the model's.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub actuator: Option<String>,
 }
 
 /// The side of a value that is given; the other one is asked.

@@ -13,7 +13,7 @@ use actucheck_spec::wire::dynamixel2::{self, Packet};
 use actucheck_spec::wire::{self, Fast};
 
 use super::{Answer, Result, answer, not_offered, output, rejection, unbuilt};
-use crate::adapter::{Output, Owner, Question, Rejection};
+use crate::adapter::{Output, Question, Rejection};
 
 /// The codec's answer to a question.
 pub(super) fn ask(question: &Question, buffer: &mut Vec<u8>) -> Answer {
@@ -27,10 +27,8 @@ pub(super) fn ask(question: &Question, buffer: &mut Vec<u8>) -> Answer {
             Some(fast) => decode_fast(bytes, fast),
         },
         Question::Stream { chunks, .. } => Ok(stream(chunks)),
-        Question::Value { owner: Owner::Register(of), form, given, .. } => {
-            value::ask(of, form, given)
-        }
-        Question::Value { .. } | Question::Message { .. } => Err(not_offered()),
+        Question::Value { of, form, given, .. } => value::ask(of, form, given),
+        Question::Message { .. } => Err(not_offered()),
     })
 }
 

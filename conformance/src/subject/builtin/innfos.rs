@@ -10,7 +10,7 @@ use actucheck_spec::wire::innfos::Packet;
 use actucheck_spec::wire::{self, Context, Direction};
 
 use super::{Answer, Result, answer, not_offered, output, rejection, unbuilt};
-use crate::adapter::{Output, Owner, Question, Rejection, Told};
+use crate::adapter::{Output, Question, Rejection, Told};
 
 /// The codec's answer to a question.
 pub(super) fn ask(question: &Question, buffer: &mut [u8]) -> Answer {
@@ -23,7 +23,6 @@ pub(super) fn ask(question: &Question, buffer: &mut [u8]) -> Answer {
         Question::Stream { chunks, direction: Some(direction), .. } => {
             Ok(stream(*direction, chunks))
         }
-        Question::Value { owner: Owner::Command(of), given, .. } => value::ask(of, given),
         Question::Message { actuator, told, .. } => {
             let actuator = value::actuator(actuator.as_deref());
             match told {

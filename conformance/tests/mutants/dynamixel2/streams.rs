@@ -2,6 +2,7 @@
 
 use actucheck::adapter::{Output, Question};
 use actucheck_spec::model::Fault;
+use actucheck_spec::wire::Direction;
 use actucheck_spec::wire::dynamixel2::Packet;
 use actucheck_spec::wire::dynamixel2::reference::{self, Event, HEADER, PATTERN};
 
@@ -97,6 +98,21 @@ fn with_stuffed_headers(stream: &[u8]) -> Vec<Packet> {
     packets
 }
 
+/// The packets that a host finds that does not look at the instruction.
+fn with_echoes(op: &Question) -> Option<Output> {
+    let packets = Stream::of(op)?.packets().into_iter().map(|found| found.packet);
+    let taken = |packet| match packet {
+        Packet::Instruction { id, params, .. } => {
+            let (error, params) =
+                params.split_first().map_or((0, &[][..]), |(error, rest)| (*error, rest));
+            Packet::Status { id, error, params: params.to_vec().into() }
+        }
+        packet => packet,
+    };
+    let is_host = op.direction() == Some(Direction::Reply);
+    is_host.then(|| Output::packets(packets.map(taken)))
+}
+
 const fn mutant(
     name: &'static str,
     wrong: fn(&Question) -> Option<Output>,
@@ -111,7 +127,14 @@ const fn mutant(
     }
 }
 
-pub(super) static MUTANTS: [Mutant; 18] = [
+pub(super) static MUTANTS: [Mutant; 19] = [
+    Mutant {
+        name: "takes an echo for a status packet",
+        blames: "dynamixel2.status-packet.layout",
+        wrong: Wrong::Answers(with_echoes),
+        found_by: "dynamixel2.stream.echo.write/whole",
+        found_by_documents: false,
+    },
     mutant(
         "drops the third packet",
         |op| keep(op, |_, found| found.place != 2),

@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use actucheck::adapter::{Given, Output, Owner, Question};
+use actucheck::adapter::{Given, Output, Question};
 use actucheck_spec::Spec;
 use actucheck_spec::model::Register;
 use actucheck_spec::wire::dynamixel2::reference::{
@@ -259,7 +259,7 @@ pub(super) static NAMES: [Mutant; 7] = [
 
 /// The register that is asked, and the name of the field.
 fn register(op: &Question) -> Option<(&'static Register, Option<&str>)> {
-    let Question::Value { owner: Owner::Register(of), .. } = op else { return None };
+    let Question::Value { of, .. } = op else { return None };
     let mut devices = SPEC.devices.iter().map(|file| &file.content);
     let device = devices.find(|device| device.device == of.device)?;
     Some((device.register(&of.register)?, of.field.as_deref()))

@@ -171,15 +171,20 @@ fn stream(author: &Author<'_>, parts: &[Part], cuts: &[u16]) -> Option<Asked> {
     let direction = parts.first()?.packet.direction();
     let stream = joined(parts)?;
     let packets = reference::packets(&stream);
-    // A host need not read instruction packets, nor a device status packets.
+    if !packets.iter().all(|packet| exists(author.spec, packet)) || holds_unspecified(&stream) {
+        return None;
+    }
+    // A host need not read instruction packets, such as its own echo, nor a device status packets.
     let is_own = |packet: &Packet| match packet {
         Packet::Instruction { .. } => direction == Direction::Request,
         _ => direction == Direction::Reply,
     };
-    let judged = packets.iter().all(|packet| is_own(packet) && exists(author.spec, packet));
-    if !judged || holds_unspecified(&stream) {
-        return None;
-    }
+    let own: Vec<_> = packets.iter().filter(|packet| is_own(packet)).cloned().collect();
+    let found = if own.len() == packets.len() {
+        Demand::Yield(Output::packets(packets))
+    } else {
+        Demand::YieldOneOf(vec![Output::packets(own), Output::packets(packets)])
+    };
     let requirement = if reference::is_certain(&stream) {
         "dynamixel2.receive.stream"
     } else if reference::lacks_bytes(&stream) {
@@ -190,7 +195,6 @@ fn stream(author: &Author<'_>, parts: &[Part], cuts: &[u16]) -> Option<Asked> {
     };
     let op =
         Question::Stream { wire: WIRE, chunks: cut(&stream, cuts), direction: Some(direction) };
-    let found = Demand::Yield(Output::packets(packets));
     Some((requirement.to_owned(), op, found))
 }
 

@@ -14,6 +14,7 @@ use proptest::strategy::Union;
 use super::exists::{BACKUP, CLEAR, FACTORY_RESET};
 use crate::adapter::Limits;
 use crate::blackbox::payload::payload;
+use crate::suite::codec::dynamixel2::crc;
 use crate::suite::random::data;
 
 /// Numbers at the ends of a byte and of two bytes, and those whose bytes are of the pattern.
@@ -34,6 +35,8 @@ pub(super) fn packet(limits: &Limits) -> BoxedStrategy<Packet> {
         4 => fast_status(),
         1 => pattern_from_the_instruction(),
         1 => to_no_device(limits),
+        // One packet of many thousands has such a CRC by chance.
+        1 => select(crc::packets()),
     ]
     .boxed()
 }
@@ -45,7 +48,7 @@ pub(super) fn streamed(limits: &Limits, direction: Direction) -> BoxedStrategy<P
     }
 }
 
-/// What looks like the beginning of a packet and is none.
+/// What looks like the beginning of a packet and is none, or is a packet that others send.
 pub(super) fn noise() -> BoxedStrategy<Vec<u8>> {
     let claim = || (id(), prop_oneof![3..40_u16, any::<u16>()], data(0..24));
     prop_oneof![
@@ -53,6 +56,11 @@ pub(super) fn noise() -> BoxedStrategy<Vec<u8>> {
         // A header that byte stuffing has made harmless, with a length behind it.
         claim().prop_map(|claim| claiming(&[&PATTERN[..], &[0xFD]].concat(), claim)),
         claim().prop_map(|claim| claiming(&HEADER, claim)),
+        // A packet of the other direction, such as a host's own Write.
+        (id(), data(1..8)).prop_map(|(id, data)| frame(
+            id,
+            &stuff(&[&[0x03, 0x74, 0x00], data.as_slice()].concat())
+        )),
         // A whole packet, but for its ID.
         (select(&NO_DEVICES[..]), data(0..8)).prop_map(|(id, params)| {
             frame(id, &stuff(&[&[STATUS, 0], params.as_slice()].concat()))

@@ -5,29 +5,8 @@ use actucheck_codec::innfos::{
 };
 use actucheck_spec::wire::Value;
 
-use super::super::{not_fitting, output};
-use super::Result;
-use crate::adapter::{CommandOf, Given, Output};
-
 /// What the two flags are called.
 const FLAGS: [(&str, Flag); 2] = [("no", Flag::NO), ("yes", Flag::YES)];
-
-/// The codec's answer to the op `value`.
-pub(super) fn ask(of: &CommandOf, given: &Given) -> Result {
-    let command = Command::from_code(of.command);
-    let actuator = actuator(of.actuator.as_deref());
-    let answer = command.row().and_then(|row| row.format).and_then(|format| match given {
-        Given::Bytes(bytes) => {
-            let value = Own::decode(format, bytes)?;
-            meaning(command, &actuator, value).map(Output::Value)
-        }
-        Given::Value(value) => {
-            let value = own(command, &actuator, format, value)?;
-            Some(output(value.encode().as_bytes()))
-        }
-    });
-    answer.ok_or_else(not_fitting)
-}
 
 /// The model of this name. Without a model in the question, no full scale matters.
 pub(super) fn actuator(name: Option<&str>) -> Actuator {

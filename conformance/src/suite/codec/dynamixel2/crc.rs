@@ -57,6 +57,12 @@ pub(super) fn families(author: Author<'_>) -> [Family<'_>; 2] {
     ]
 }
 
+/// Every such packet.
+pub(crate) fn packets() -> Vec<Packet> {
+    let kinds = Kind::ALL.into_iter();
+    kinds.flat_map(|kind| ENDS.map(|(end, crc)| ending(kind, end, crc))).collect()
+}
+
 /// A packet with this end and this CRC, for which two bytes before the end are chosen.
 fn ending(kind: Kind, end: &[u8], crc: [u8; 2]) -> Packet {
     let length = kind.before_data() + 2 + end.len();

@@ -19,7 +19,7 @@
 
 mod addresses;
 pub(super) mod basics;
-mod crc;
+pub(crate) mod crc;
 mod devices;
 mod exhaustive;
 mod fast;

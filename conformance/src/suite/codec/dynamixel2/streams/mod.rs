@@ -4,9 +4,11 @@
 //! - known: the first scenarios, each cut at every place;
 //! - many: many packets, packets of many sizes, and long packets;
 //! - patterns: packets with byte stuffing, whole and cut at their front;
+//! - echo: what a host has sent, before the answer;
 //! - noise: bytes of headers and damaged packets between good ones;
 //! - resume: bytes that claim a length, where the search has to go on inside that length.
 
+mod echo;
 mod known;
 mod many;
 mod noise;
@@ -47,6 +49,7 @@ pub(super) fn families<'a>(author: Author<'a>, options: &Options) -> Vec<Family<
         of("pattern", patterns::whole),
         of("stuffed-header", patterns::stuffed_headers),
         of("stuffed-cut", patterns::cut_at_front),
+        echo::family(author),
         of("noise", noise::between),
         of("damaged", noise::damaged),
         of("resume", resume::claims),

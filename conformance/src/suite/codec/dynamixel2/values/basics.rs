@@ -6,7 +6,7 @@ use actucheck_spec::wire::{Form, Value};
 
 use super::cases::{self, Case};
 use super::{checks, devices, is_written};
-use crate::adapter::{Given, Output, Owner, Question};
+use crate::adapter::{Given, Output, Question};
 use crate::suite::Author;
 use crate::suite::check::Check;
 use crate::suite::plan::Family;
@@ -34,7 +34,7 @@ pub(in crate::suite::codec) fn rests_on(
     question: &Question,
     expected: Option<&Output>,
 ) -> Vec<String> {
-    let Question::Value { owner: Owner::Register(of), form, given, .. } = question else {
+    let Question::Value { of, form, given, .. } = question else {
         return Vec::new();
     };
     let (op, value) = match (given, expected) {

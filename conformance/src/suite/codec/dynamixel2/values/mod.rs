@@ -14,7 +14,7 @@ use actucheck_spec::wire::dynamixel2::reference;
 pub(super) use self::basics::family as basics;
 pub(in crate::suite::codec) use self::basics::rests_on;
 use self::cases::Case;
-use crate::adapter::{Given, Output, Owner, Question, RegisterOf};
+use crate::adapter::{Given, Output, Question, RegisterOf};
 use crate::suite::Author;
 use crate::suite::check::{Check, Demand};
 use crate::suite::plan::{Family, Group};
@@ -67,13 +67,13 @@ fn checks(
     let bytes = reference::register_bytes(register, *raw);
     let question = |given| Question::Value {
         wire: author.wire,
-        owner: Owner::Register(RegisterOf {
+        of: RegisterOf {
             device: device.device.clone(),
             register: register.name.clone(),
             address: register.address,
             size: register.kind.size(),
             field: field.map(str::to_owned),
-        }),
+        },
         form: form.clone(),
         given,
     };
