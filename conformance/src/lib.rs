@@ -10,6 +10,7 @@
 pub mod adapter;
 pub mod blackbox;
 pub mod explain;
+pub mod legible;
 pub mod report;
 pub mod run;
 pub mod subject;

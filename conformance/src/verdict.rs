@@ -183,16 +183,6 @@ fn question<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Questio
 }
 
 impl Outcome {
-    /// Whether its own requirement is accused. A rejection for a wrong reason accuses none.
-    #[must_use]
-    pub fn accuses(&self) -> bool {
-        let wrong = match self.verdict {
-            Verdict::Warn => self.level == Level::Should,
-            verdict => verdict.is_failure() || verdict == Verdict::ExpectedFailure,
-        };
-        wrong && self.because.is_none()
-    }
-
     /// Whether it follows from the failure of another requirement.
     #[must_use]
     pub fn follows(&self) -> bool {

@@ -11,8 +11,9 @@ use super::model::{
     Cause, NotPassed, ProfileEntry, Report, RequirementResult, Statement, Stopped, Summary, Tally,
     VERSION,
 };
-use super::result::{LONGEST_TEXT, Run, legible};
+use super::result::Run;
 use super::smallest::Smallest;
+use crate::legible::{LONGEST_TEXT, legible};
 use crate::suite::expect::Unexpected;
 use crate::verdict::{Because, Outcome, Totals, Verdict};
 

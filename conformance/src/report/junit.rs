@@ -5,8 +5,8 @@ use std::time::Duration;
 
 use quick_junit::{NonSuccessKind, TestCase, TestCaseStatus, TestSuite};
 
-use super::model::{CheckResult, Report, RequirementResult};
-use super::view::{Group, Section};
+use super::model::{CheckResult, NotPassed, Report, RequirementResult};
+use super::view::Section;
 use super::words;
 use crate::verdict::Verdict;
 
@@ -42,9 +42,9 @@ fn requirement(report: &Report, requirement: &RequirementResult) -> TestCase {
     let RequirementResult { id, level, verdict, totals, .. } = requirement;
     let share = words::count(requirement.checks(), "check");
     let share = format!("{} of {share}", words::thousands(totals.count(*verdict)));
-    let groups = report.groups(*verdict);
-    let own = groups.iter().find(|group| group.requirement.id == *id);
-    let share = match own.and_then(Group::origin) {
+    let mut rows = report.not_passed.iter();
+    let own = rows.find(|row| row.requirement == *id && row.verdict == *verdict);
+    let share = match own.and_then(NotPassed::origin) {
         Some(origin) => format!("{share}, all because of {origin}"),
         None => share,
     };

@@ -1,5 +1,7 @@
 //! The content of a report, for every format.
 
+use std::collections::BTreeMap;
+
 use actucheck_spec::Spec;
 use actucheck_spec::model::Level;
 use schemars::JsonSchema;
@@ -169,9 +171,10 @@ pub struct NotPassed {
     pub verdict: Verdict,
     /// The number of checks with this verdict.
     pub count: usize,
-    /// How many of them follow from the failure of another requirement, and do not accuse this one.
+    /// How many of them follow from the failure of another requirement, and do not accuse this one,
+    /// by that requirement.
     #[serde(default)]
-    pub following: usize,
+    pub following: BTreeMap<String, usize>,
     /// The checks with the shortest requests, at most 5; those that follow from others come last.
     pub smallest: Vec<CheckResult>,
 }

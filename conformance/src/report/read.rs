@@ -152,7 +152,7 @@ fn contradiction(report: &Report) -> Option<String> {
     let wrong = |NotPassed { requirement, verdict, count, following, smallest }: &&NotPassed| {
         let row = report.requirements.iter().find(|row| row.id == *requirement);
         row.is_none_or(|row| row.totals.count(*verdict) != *count || smallest.len() > *count)
-            || following > count
+            || following.values().sum::<usize>() > *count
             || smallest.iter().any(|kept| {
                 kept.outcome.requirement != *requirement || kept.outcome.verdict != *verdict
             })

@@ -2,7 +2,7 @@
 //! Its texts are cut to a limit, as an implementation may send texts of any length.
 
 use std::collections::BTreeMap;
-use std::fmt::{self, Write as _};
+use std::fmt;
 use std::path::PathBuf;
 
 use actucheck_spec::Spec;
@@ -10,11 +10,11 @@ use actucheck_spec::Spec;
 use super::model::{CheckResult, Header};
 use crate::adapter::{Implementation, Question, Wire};
 use crate::explain::diff;
+use crate::legible::{LONGEST_TEXT, legible};
 use crate::suite::Options;
 use crate::verdict::Outcome;
 
-/// The limit of a sentence, and of a name, in characters.
-pub(super) const LONGEST_TEXT: usize = 1000;
+/// The limit of a name, in characters.
 const LONGEST_NAME: usize = 100;
 
 /// The limit of a request or output as JSON, in bytes.
@@ -109,40 +109,4 @@ fn leave_out<T: fmt::Display>(part: &mut Option<T>) -> usize {
     }
     *part = None;
     bytes
-}
-
-/// A text from outside on one line. Characters that would control a terminal or change the
-/// direction of the script are escaped, and a long text is cut.
-pub(super) fn legible(text: &str, longest: usize) -> String {
-    let mut clean = String::with_capacity(text.len().min(longest));
-    for (count, (at, character)) in text.char_indices().enumerate() {
-        if count == longest {
-            // Writing to a string can't fail.
-            let _ = write!(clean, "… ({} bytes more)", text.len() - at);
-            break;
-        }
-        let turns = matches!(
-            character,
-            '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}'
-        );
-        if character.is_control() || turns {
-            clean.extend(character.escape_default());
-        } else {
-            clean.push(character);
-        }
-    }
-    clean
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_text_from_outside_is_one_short_line() {
-        assert_eq!(legible("모두 \u{1b}[31mred\r\n\0", 99), "모두 \\u{1b}[31mred\\r\\n\\u{0}");
-        assert_eq!(legible("a\u{202e}b", 99), "a\\u{202e}b");
-        assert_eq!(legible("abcdé", 4), "abcd… (2 bytes more)");
-        assert_eq!(legible("abcd", 4), "abcd");
-    }
 }

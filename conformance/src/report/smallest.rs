@@ -1,5 +1,7 @@
 //! Keeps the smallest few of the checks that did not pass.
 
+use std::collections::BTreeMap;
+
 use super::model::{CheckResult, NotPassed};
 use crate::verdict::{Outcome, Verdict};
 
@@ -13,7 +15,7 @@ const KEPT: usize = 5;
 #[derive(Debug, Default)]
 pub(super) struct Smallest {
     count: usize,
-    following: usize,
+    following: BTreeMap<String, usize>,
     kept: Vec<((bool, usize), CheckResult)>,
 }
 
@@ -22,7 +24,9 @@ impl Smallest {
     pub(super) fn add(&mut self, outcome: Outcome, result: impl FnOnce(Outcome) -> CheckResult) {
         let follows = outcome.follows();
         self.count += 1;
-        self.following += usize::from(follows);
+        if let Some(cause) = outcome.because.as_ref().filter(|_| follows) {
+            *self.following.entry(cause.requirement.clone()).or_default() += 1;
+        }
         let size = outcome.request.as_ref().map_or(0, |request| request.to_string().len());
         let rank = (follows, size);
         let at = self.kept.partition_point(|(other, _)| *other <= rank);

@@ -69,12 +69,16 @@ impl Report {
 }
 
 impl Cause {
-    /// `12 checks fail, and 300 of other requirements follow`.
+    /// `12 checks failed, and 300 of other requirements follow`.
     #[must_use]
     pub fn effect(&self) -> String {
         let failed = words::count(self.failed, "check");
         match self.follow {
             0 => format!("{failed} failed"),
+            more if self.failed == 0 => {
+                let more = words::thousands(more);
+                format!("its failures are expected, but {more} of other requirements follow")
+            }
             more => format!(
                 "{failed} failed, and {} of other requirements follow",
                 words::thousands(more)
@@ -122,19 +126,35 @@ impl Group<'_> {
         format!("{} of {all}", words::thousands(self.checks.count))
     }
 
-    /// The requirement that is accused instead, if all of these checks follow from another's
-    /// failure.
+    /// As [`NotPassed::origin`].
     #[must_use]
-    pub fn origin(&self) -> Option<&str> {
-        let NotPassed { count, following, smallest, .. } = self.checks;
-        let first = smallest.first().filter(|_| following == count)?;
-        first.outcome.because.as_ref().map(|cause| cause.requirement.as_str())
+    pub fn origin(&self) -> Option<String> {
+        self.checks.origin()
     }
 
     /// The number of checks without kept evidence.
     #[must_use]
     pub fn more(&self) -> usize {
         self.checks.count.saturating_sub(self.checks.smallest.len())
+    }
+}
+
+impl NotPassed {
+    /// The requirements that are accused instead, if all of these checks follow from the failures of
+    /// others: `a`, or `a (12), b (3)`.
+    #[must_use]
+    pub fn origin(&self) -> Option<String> {
+        let Self { count, following, .. } = self;
+        if following.values().sum::<usize>() < *count {
+            return None;
+        }
+        let counted = |(requirement, count): (&String, &usize)| {
+            format!("{requirement} ({})", words::thousands(*count))
+        };
+        match following.first_key_value() {
+            Some((only, _)) if following.len() == 1 => Some(only.clone()),
+            _ => Some(following.iter().map(counted).collect::<Vec<_>>().join(", ")),
+        }
     }
 }
 

@@ -14,6 +14,7 @@ use crate::adapter::conversation::{Conversation, Lost, Malformed, Reply};
 use crate::adapter::{
     Contradiction, Greeting, Hello, Output, Question, Request, Settings, VERSIONS,
 };
+use crate::legible::{LONGEST_TEXT, legible};
 
 /// The maximum number of outstanding questions, even if the adapter offers more.
 const MAX_IN_FLIGHT: usize = 256;
@@ -223,7 +224,7 @@ fn start(command: &[String], settings: &Settings) -> Result<(Conversation, Greet
             let mut log = String::new();
             for line in conversation.log().lines() {
                 // Writing to a string can't fail.
-                let _ = write!(log, "\n  {line}");
+                let _ = write!(log, "\n  {}", legible(line, LONGEST_TEXT));
             }
             Err(StartError::Hello { command: name, problem, log })
         }

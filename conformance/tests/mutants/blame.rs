@@ -7,7 +7,7 @@ use actucheck::suite::check::Check;
 use actucheck::suite::plan::Plan;
 use actucheck::verdict::Outcome;
 
-use super::killing::MATRICES;
+use super::killing::{MATRICES, is_found};
 use super::{Mutant, Mutated, Wrong};
 
 /// How many requirements a fault may accuse.
@@ -27,7 +27,8 @@ fn outcomes(mutant: &'static Mutant, checks: &[Check], finders: &[usize]) -> Vec
 /// accuses it.
 fn accused(outcomes: &[Outcome]) -> Vec<(&str, &str)> {
     let mut accused: Vec<(&str, &str)> = Vec::new();
-    for outcome in outcomes.iter().filter(|outcome| outcome.accuses()) {
+    let wrong = |outcome: &&Outcome| is_found(outcome) && outcome.because.is_none();
+    for outcome in outcomes.iter().filter(wrong) {
         if !accused.iter().any(|(requirement, _)| *requirement == outcome.requirement) {
             accused.push((&outcome.requirement, &outcome.id));
         }

@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use actucheck::adapter::Wire;
 use actucheck::adapter::lint::{self, Point, Report, Said};
+use actucheck::legible::{LONGEST_TEXT, legible};
 use actucheck::suite::{self, Options};
 use anstyle::AnsiColor;
 
@@ -75,7 +76,7 @@ fn write(report: &Report, command: &str, verbose: bool, out: &mut impl Write) ->
     }
     if !report.log.is_empty() {
         writeln!(out, "\nIts standard error ends with:")?;
-        report.log.lines().try_for_each(|line| writeln!(out, "  {line}"))?;
+        report.log.lines().try_for_each(|line| writeln!(out, "  {}", legible(line, WIDTH)))?;
     }
     let style = AnsiColor::Red.on_default().bold();
     let rest = if report.ended_early() { "; the remaining points were not checked" } else { "" };
@@ -88,12 +89,17 @@ fn line(point: &Point, verbose: bool, out: &mut impl Write) -> io::Result<()> {
     match &point.result {
         Ok(remark) => {
             let style = AnsiColor::Green.on_default();
-            let remark = if remark.is_empty() { String::new() } else { format!(" ({remark})") };
+            let remark = legible(remark, LONGEST_TEXT);
+            let remark = if remark.is_empty() { remark } else { format!(" ({remark})") };
             writeln!(out, "  {style}ok{style:#}     {name}{remark}")?;
         }
         Err(problem) => {
             let style = AnsiColor::Red.on_default().bold();
-            writeln!(out, "  {style}WRONG{style:#}  {name}: {}", problem.what)?;
+            writeln!(
+                out,
+                "  {style}WRONG{style:#}  {name}: {}",
+                legible(&problem.what, LONGEST_TEXT)
+            )?;
         }
     }
     let left_out = match (verbose, &point.result) {
@@ -105,11 +111,8 @@ fn line(point: &Point, verbose: bool, out: &mut impl Write) -> io::Result<()> {
         writeln!(out, "         {left_out} lines before these; --verbose prints them")?;
     }
     for Said { by_adapter, line } in point.said.iter().skip(left_out) {
-        let dots = if line.chars().count() > WIDTH { "…" } else { "" };
-        // What an adapter writes must not move the terminal's cursor.
-        let visible = |c: char| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c };
-        let line: String = line.chars().take(WIDTH).map(visible).collect();
-        writeln!(out, "         {}  {line}{dots}", if *by_adapter { "got " } else { "sent" })?;
+        let who = if *by_adapter { "got " } else { "sent" };
+        writeln!(out, "         {who}  {}", legible(line, WIDTH))?;
     }
     match &point.result {
         Ok(_) => Ok(()),
