@@ -160,7 +160,7 @@ std::string answer(const Json &request)
 } // namespace
 
 int main()
-{
+try {
     std::ios::sync_with_stdio(false);
     std::string line;
     while (std::getline(std::cin, line)) {
@@ -171,6 +171,9 @@ int main()
         std::cout << R"({"id":)" << id << ',' << answer(request) << '}' << std::endl;
     }
     return 0;
+} catch (const std::exception &error) {
+    std::cerr << "no request: " << error.what() << '\n';
+    return 1;
 }
 
 std::string hex(const Bytes &bytes)

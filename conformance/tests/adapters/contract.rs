@@ -67,7 +67,8 @@ fn every_kind_of_question_and_answer_fits_the_schemas() {
             ops.insert(question.name());
         }
     }
-    assert!(ops.len() >= 6, "{ops:?}");
+    let all = builtin.hello().ops.iter().map(String::as_str).collect();
+    assert_eq!(ops, all);
     for line in [
         r#"{"id":1,"ok":{"crc":1},"skip":{"reason":"no"}}"#,
         r#"{"id":1,"ok":{"crc":"89ca"}}"#,
@@ -102,7 +103,10 @@ fn the_guides_examples_are_right() {
     let replies: Vec<_> = with("ok").chain(with("err")).chain(with("skip")).collect();
     for line in with("op") {
         assert_fits(&request, &line.to_string());
-        let Ok(question) = serde_json::from_value::<Question>(line.clone()) else { continue };
+        if matches!(line["op"].as_str(), Some("hello" | "bye")) {
+            continue;
+        }
+        let question: Question = serde_json::from_value(line.clone()).unwrap();
         let said = replies.iter().find(|reply| reply["id"] == line["id"]).unwrap();
         match Builtin::default().ask(&question) {
             Answer::Ok(output) if said["skip"].is_null() => assert_eq!(json!(output), said["ok"]),

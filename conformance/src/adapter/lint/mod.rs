@@ -83,6 +83,9 @@ impl Report {
 /// it, a sentence says so.
 pub fn other_role(subject: &mut dyn Subject, plan: &Plan<'_>) -> Option<String> {
     let hello = subject.hello().clone();
+    if hello.roles.len() > 1 {
+        return None;
+    }
     let examples = example::Example::all(std::slice::from_ref(plan));
     let offered = examples.iter().filter(|example| example.is_offered(&hello));
     let mut others = offered.filter(|example| !example.fits_role(&hello));

@@ -176,20 +176,22 @@ fn must_skip(talk: &mut Talk, request: &str, mend: &'static str) -> Found {
     }
 }
 
-/// Whether some valid packet or bytes were taken with each op, and some packet was built right.
+/// Whether some valid packet or bytes were taken with each op of each wire, and some packet was built
+/// right.
 fn valid(talk: &mut Talk, answered: &[Answered<'_>]) -> Found {
-    let mut ops: Vec<_> = answered.iter().map(|(example, _)| example.op()).collect();
-    ops.dedup();
-    for op in ops {
-        let of_op = answered.iter().filter(|(example, _)| example.op() == op);
+    let kind = |example: &Example| (example.op(), example.question().wire());
+    let mut kinds: Vec<_> = answered.iter().map(|(example, _)| kind(example)).collect();
+    kinds.dedup();
+    for (op, wire) in kinds {
+        let of_op = answered.iter().filter(|(example, _)| kind(example) == (op, wire));
         let done: Vec<_> = of_op.filter(|(_, answer)| !matches!(answer, Answer::Skip(_))).collect();
         let Some((example, _)) = done.first() else { continue };
         let rejected = |(_, answer): &&Answered<'_>| matches!(answer, Answer::Err(_));
         let wrong = |(example, answer): &&Answered<'_>| !example.is_right(answer);
         let what = if done.iter().all(rejected) {
-            format!("each {op} is rejected, though it is valid")
+            format!("each {op} on {wire} is rejected, though it is valid")
         } else if op == "encode" && done.iter().all(wrong) {
-            "no packet is built right".to_owned()
+            format!("no packet is built right on {wire}")
         } else {
             continue;
         };

@@ -22,6 +22,9 @@ pub(super) fn ask(of: &RegisterOf, form: &Form, given: &Given) -> Result {
             let raw = row.decode(bytes).ok_or_else(not_fitting)?;
             meaning(row, of.field.as_deref(), form, raw).map(Output::Value).ok_or_else(not_fitting)
         }
+        Given::Value(_) if of.field.is_some() => {
+            Err(rejection(Fault::Parameter, &"a field does not determine the rest of its register"))
+        }
         Given::Value(value) => {
             let raw = raw(row, value).ok_or_else(not_fitting)?;
             let data = row.encode_unchecked(raw).map_err(|error| refused(&error))?;
