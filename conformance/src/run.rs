@@ -23,9 +23,9 @@ pub type Sink<'s> = dyn FnMut(Outcome) -> ControlFlow<()> + Send + 's;
 
 /// Asks `subjects`, all of the same implementation, the checks of `plan` in parallel. A subject
 /// takes a few groups at a time. A check that requires another check of its group is skipped if the
-/// subject skipped that one. A failure that follows from an earlier failure says so. `sink` receives the same outcomes in the same order for any number of
-/// subjects. When `interrupted` is set, the run waits for the outstanding questions and passes on
-/// what was answered. If an adapter answers an op that does not exist, the first outcome reports
+/// subject skipped that one. A failure that follows from an earlier failure says so. `sink` receives
+/// the same outcomes in the same order for any number of subjects. When `interrupted` is set, the
+/// run waits for the outstanding questions and passes on what was answered. If an adapter answers an op that does not exist, the first outcome reports
 /// that fault. Returns of how many checks the outcome was handed on.
 pub fn run<'s>(
     subjects: &mut [Box<dyn Subject + Send>],

@@ -228,7 +228,7 @@ fn a_check_is_charged_to_who_is_asked() {
 }
 
 #[test]
-fn basic_checks_come_first_and_others_rest_on_them() {
+fn basic_checks_come_first() {
     let spec = Spec::embedded().unwrap();
     for wire in Wire::ALL {
         let plan = suite::plan(&spec, &[wire], &Options { cases: 30, ..Options::new() });

@@ -57,7 +57,7 @@ fn every_mutant_is_found() {
     hello.limits = LIMITS;
     let mut missed = Vec::new();
     for wire in Wire::ALL {
-        let options = Options { wire, seed: 1, cases: 16_000 };
+        let options = Options { wire, seed: 1, cases: 24_000 };
         let checks = blackbox::checks(&spec, &options, &hello);
         let ops: BTreeSet<_> = checks.iter().map(|check| check.question.name()).collect();
         // Those whose fault is in an op that is fuzzed.

@@ -73,7 +73,8 @@ pub trait Rules: Sync + RefUnwindSafe {
     /// Size in bytes of the shortest frame.
     fn shortest_frame(&self) -> usize;
 
-    /// The bytes of a packet; `None` if it is too long for its length field.
+    /// The bytes of a packet; `None` if no frame can have it: it is too long for its length field, or
+    /// has an ID that no packet may have.
     fn encode(&self, packet: &Packet) -> Option<Vec<u8>>;
 
     /// The packet in `bytes`, which must be one whole frame.

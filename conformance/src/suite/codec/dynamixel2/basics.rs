@@ -13,7 +13,7 @@ use actucheck_spec::wire::dynamixel2::reference::{self, HEADER, PATTERN};
 use actucheck_spec::wire::dynamixel2::{Packet, WIRE};
 use actucheck_spec::wire::{self, Direction};
 
-use self::frames::{May, body, frames, with_crc};
+use self::frames::{May, body, frames};
 use self::rows::{Has, Row, blocks, fast, fields, instructions, long, of_word, plain};
 use crate::adapter::{Output, Question};
 use crate::suite::basics::{About, Basic, Basics};
@@ -140,7 +140,8 @@ fn wrong(basics: &mut Basics, row: &Row, direction: Direction) {
     let replaced = |at: usize, value: u8| {
         let mut bytes = frame.clone();
         bytes.get_mut(at).into_iter().for_each(|byte| *byte = value);
-        with_crc(bytes)
+        reference::repair(&mut bytes);
+        bytes
     };
     let mut bad = frame.clone();
     bad.iter_mut().last().into_iter().for_each(|byte| *byte ^= 1);

@@ -5,14 +5,15 @@ use actucheck_spec::Spec;
 use actucheck_spec::model::{Citation, Fault, HexBytes, Outcome, Vector, VectorsFile};
 use actucheck_spec::wire::{Packet, dynamixel2};
 
+use actucheck_spec::wire::dynamixel2::reference::PREFIX;
+
 use super::{of_building, of_reading};
 use crate::adapter::{Output, Question, Wire};
 use crate::suite::Author;
 use crate::suite::check::{Check, Demand, Unspecified, Way};
 use crate::suite::plan::{Family, by_stem};
 
-/// Bytes before the body, and after it.
-const PREFIX: usize = 7;
+/// Bytes after the body.
 const CRC: usize = 2;
 
 pub(super) fn family(author: Author<'_>) -> Family<'_> {

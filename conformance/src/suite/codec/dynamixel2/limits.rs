@@ -118,7 +118,10 @@ fn checks(author: &Author<'_>, stem: &str, end: End, packet: &Packet, is_over: b
                 read,
                 demand(Output::Packet(packet)),
             );
-            vec![read, author.check(format!("{stem}/stream"), requirement, find, found)]
+            // Nothing is found of what is over the limit, whether or not it can be read.
+            let requires = (!is_over).then(|| format!("{stem}/decode"));
+            let find = author.check(format!("{stem}/stream"), requirement, find, found);
+            vec![read, Check { requires, ..find }]
         }
     }
 }

@@ -58,7 +58,6 @@ pub(super) fn families<'a>(author: Author<'a>, options: &Options) -> Vec<Family<
     families.extend(fast::families(author));
     families.push(negative::family(author));
     families.extend(streams::families(author, options));
-    // Whoever loses packets in many streams is no worse at the limit.
     families.extend(limits::families(author, options.limits));
     families.push(Family::of("dynamixel2.open.", move || unspecified::checks(&author)));
     families.extend(values::families(author));

@@ -105,8 +105,6 @@ fn replaced(frame: &[u8], at: usize, byte: u8) -> Vec<u8> {
 
 /// The same bytes with a matching CRC.
 fn with_crc(mut frame: Vec<u8>) -> Vec<u8> {
-    frame.truncate(frame.len().saturating_sub(2));
-    let crc = reference::crc(&frame);
-    frame.extend(crc.to_le_bytes());
+    reference::repair(&mut frame);
     frame
 }

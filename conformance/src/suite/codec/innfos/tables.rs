@@ -15,15 +15,13 @@ pub(super) const fn of_each_size(direction: Direction) -> &'static [u8] {
 
 /// Packets in this direction, one per command that has one and leaves nothing unspecified.
 pub(super) fn all(author: Author<'_>, direction: Direction) -> impl Iterator<Item = Packet> {
-    rows(author).commands.iter().filter_map(move |row| {
-        let packet = of_row(row, direction)?;
-        reference::is_in_tables(rows(author), &packet).then_some(packet)
-    })
+    let innfos = rows(author);
+    innfos.commands.iter().filter_map(move |row| of_row(innfos, row, direction))
 }
 
 /// The packet of [`all`] with this command.
 pub(super) fn of_command(author: Author<'_>, direction: Direction, code: u8) -> Option<Packet> {
-    of_row(rows(author).command(code)?, direction)
+    of_row(rows(author), rows(author).command(code)?, direction)
 }
 
 /// The wire's tables.
@@ -31,16 +29,13 @@ pub(super) const fn rows(author: Author<'_>) -> &Innfos {
     &author.spec.wires.innfos.content
 }
 
-fn of_row(row: &Command, direction: Direction) -> Option<Packet> {
+fn of_row(innfos: &Innfos, row: &Command, direction: Direction) -> Option<Packet> {
     row.size_in(direction)?;
     let data = row.format_in(direction).map_or(&[][..], sample).to_vec().into();
-    let (board, actuator) = (0, 6);
-    let address = match direction {
-        Direction::Request if matches!(row.code, 0x02 | 0x44) => board,
-        Direction::Reply if row.code == 0x44 => board,
-        _ => actuator,
-    };
-    Some(Packet { direction, address, command: row.code, data })
+    // An actuator, or the board.
+    let packet =
+        |address| Packet { direction, address, command: row.code, data: Clone::clone(&data) };
+    [6, 0].into_iter().map(packet).find(|packet| reference::is_in_tables(innfos, packet))
 }
 
 /// A value of this format. Its bytes differ, and as a fraction of a full scale it is a valid one.

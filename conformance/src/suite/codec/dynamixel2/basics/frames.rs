@@ -60,11 +60,3 @@ pub(super) fn frames(packet: &Packet, may: May) -> Vec<Vec<u8>> {
     }
     frames
 }
-
-/// The same bytes with a matching CRC.
-pub(super) fn with_crc(mut frame: Vec<u8>) -> Vec<u8> {
-    frame.truncate(frame.len().saturating_sub(2));
-    let crc = reference::crc(&frame);
-    frame.extend(crc.to_le_bytes());
-    frame
-}

@@ -4,7 +4,7 @@ use actucheck_spec::wire::Direction;
 use actucheck_spec::wire::dynamixel2::Packet;
 use actucheck_spec::wire::dynamixel2::reference::BROADCAST;
 
-use super::{Cut, Kind, decoded, frame, question};
+use super::{Cut, FOUND, Kind, decoded, frame, question};
 use crate::adapter::Output;
 use crate::suite::Author;
 use crate::suite::check::{Check, Demand};
@@ -45,7 +45,10 @@ fn checks(
         let required = if matches!(cut, Cut::Whole) { "decode" } else { "whole" };
         let id = format!("{stem}{}", cut.name());
         let question = question(author, Direction::Reply, &cut.chunks(&frames));
-        let requirement = "dynamixel2.status-packet.layout";
+        let requirement = match cut {
+            Cut::Whole => "dynamixel2.status-packet.layout",
+            _ => FOUND,
+        };
         let check = author.check(id, requirement, question, demand.clone());
         checks.push(Check { requires: Some(format!("{stem}{required}")), ..check });
     }

@@ -104,7 +104,7 @@ enum Part {
 impl Part {
     fn bytes(&self) -> Vec<u8> {
         match self {
-            Self::Packet(packet) => reference::encode(packet).unwrap_or_default(),
+            Self::Packet(packet) => frame(packet),
             Self::Other(bytes) => bytes.clone(),
         }
     }

@@ -45,18 +45,20 @@ pub(super) fn stuffed_headers() -> Vec<Scenario> {
     Kind::ALL.into_iter().flat_map(|kind| LENGTHS.map(|length| of(kind, length))).collect()
 }
 
-/// A stuffed packet without its first bytes, before good packets. What follows its pattern is the ID
-/// and the length of a packet that would cover the next one.
+/// A stuffed packet without its first bytes, before good packets. If its pattern is left, what
+/// follows that is the ID and the length of a packet that would cover the next one.
 pub(super) fn cut_at_front() -> Vec<Scenario> {
     const DATA: [u8; 8] = [0xFF, 0xFF, 0xFD, 0x01, 0x10, 0x00, 0x55, 0x00];
     let of = |kind: Kind, lost: usize| {
+        let rest = frame(&kind.packet(&DATA)).split_off(lost);
+        let has_header = rest.windows(4).any(|window| window == [0xFF, 0xFF, 0xFD, 0xFD]);
+        let requirement = if has_header { NO_HEADER } else { FOUND };
         let parts = move || {
-            let rest = frame(&kind.packet(&DATA)).split_off(lost);
             let [one, two] = [1, 2].map(|number| Part::Packet(kind.numbered(number)));
-            vec![Part::Other(rest), one, two]
+            vec![Part::Other(rest.clone()), one, two]
         };
         let name = format!("stuffed-cut.{kind}.without-{lost}");
-        Scenario::new(name, NO_HEADER, &[Cut::ByPart, Cut::Every(1)], parts)
+        Scenario::new(name, requirement, &[Cut::ByPart, Cut::Every(1)], parts)
     };
     let losses = |kind: Kind| 1..frame(&kind.packet(&DATA)).len();
     Kind::ALL.into_iter().flat_map(|kind| losses(kind).map(move |lost| of(kind, lost))).collect()

@@ -96,19 +96,22 @@ fn numbers(device: &Device, register: &Register) -> BTreeSet<i64> {
 }
 
 /// The smallest and the largest value. A bound that is another register's value is as wide as that
-/// register can be.
+/// register's own numbers allow.
 fn bounds(device: &Device, register: &Register) -> (i64, i64) {
+    let of = |name: &str| device.register(name).map(|other| within(other, |_| None));
+    within(register, of)
+}
+
+/// The same, with the bounds of other registers from `others`; without them, those of the size.
+fn within(register: &Register, others: impl Fn(&str) -> Option<(i64, i64)>) -> (i64, i64) {
     let (smallest, largest) = register.kind.limits();
     let Some(Range { min, max, .. }) = &register.range else { return (smallest, largest) };
-    let number = |bound: &Option<Bound>, end: fn((i64, i64)) -> i64| {
-        let of = |name: &str| device.register(name).map(|other| bounds(device, other));
-        match bound.as_ref()? {
-            Bound::Value(value) => Some(*value),
-            Bound::Register(name) => match name.strip_prefix('-') {
-                Some(name) => of(name).map(|(_, max)| -max),
-                None => of(name).map(end),
-            },
-        }
+    let number = |bound: &Option<Bound>, end: fn((i64, i64)) -> i64| match bound.as_ref()? {
+        Bound::Value(value) => Some(*value),
+        Bound::Register(name) => match name.strip_prefix('-') {
+            Some(name) => others(name).map(|(_, max)| -max),
+            None => others(name).map(end),
+        },
     };
     let min = number(min, |(min, _)| min).unwrap_or(smallest);
     let max = number(max, |(_, max)| max).unwrap_or(largest);
