@@ -131,7 +131,10 @@ pub(super) fn bytes(bytes: &[u8]) -> impl Iterator<Item = Vec<u8>> {
 
 /// Lower numbers.
 pub(super) fn lower(number: usize) -> impl Iterator<Item = usize> {
-    let lower =
-        [0, 1, number / 2, number - number / 4, number - number / 16, number.wrapping_sub(1)];
-    lower.into_iter().filter(move |lower| *lower < number)
+    let mut lower =
+        vec![0, 1, number / 2, number - number / 4, number - number / 16, number.wrapping_sub(1)];
+    lower.retain(|lower| *lower < number);
+    lower.sort_unstable();
+    lower.dedup();
+    lower.into_iter()
 }

@@ -46,7 +46,9 @@ fn fast_blocks(blocks: &[Block]) -> Vec<Vec<Block>> {
     smaller.extend(lower(size).map(|size| changed(&|block| block.data.0.truncate(size))));
     smaller.push(changed(&|block| block.data.0.fill(0)));
     smaller.push(changed(&|block| block.error = 0));
-    for (place, block) in blocks.iter().enumerate() {
+    // A change of the only block is a change of all of them.
+    let each = if blocks.len() > 1 { blocks } else { &[] };
+    for (place, block) in each.iter().enumerate() {
         let with = |block| {
             let mut blocks = blocks.to_vec();
             blocks.iter_mut().skip(place).take(1).for_each(|slot| *slot = Block::clone(&block));
