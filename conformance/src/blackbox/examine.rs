@@ -40,7 +40,7 @@ impl Examiner<'_> {
         let goes_on = self.goes_on;
         let started = Instant::now();
         let goes_on = move || goes_on() && started.elapsed() < TIME;
-        if self.fails_after(&[], &drawn.check, kind).is_some() {
+        if self.fails_after(&[], &drawn.check, kind, &goes_on).is_some() {
             self.alone(drawn, kind, &goes_on)
         } else {
             self.in_a_row(drawn, kind, before, &goes_on)
@@ -57,7 +57,7 @@ impl Examiner<'_> {
         });
         let finding = |this: &mut Self, probe: &Probe| {
             let check = scope.check(probe, id.clone())?;
-            let outcome = this.fails_after(&[], &check, kind)?;
+            let outcome = this.fails_after(&[], &check, kind, goes_on)?;
             Some(Finding { kind: kind.clone(), check, before: Vec::new(), outcome, times: 1 })
         };
         if let Some(finding) = finding(self, &smallest) {
@@ -67,7 +67,7 @@ impl Examiner<'_> {
         let steps = steps.min(FRESH_STEPS);
         let smallest = shrink(drawn.probe.clone(), steps, goes_on, |probe| {
             let check = scope.check(probe, id.clone())?;
-            Some(self.fails_after(&[], &check, kind).is_some())
+            Some(self.fails_after(&[], &check, kind, goes_on).is_some())
         });
         finding(self, &smallest).or_else(|| finding(self, &drawn.probe))
     }
@@ -86,15 +86,15 @@ impl Examiner<'_> {
         let sizes = sizes.take_while(|size| *size < 2 * before.len() && goes_on());
         let mut before = sizes
             .map(|size| before.get(before.len().saturating_sub(size)..).unwrap_or_default())
-            .find(|before| self.fails_after(before, &drawn.check, kind).is_some())?
+            .find(|before| self.fails_after(before, &drawn.check, kind, goes_on).is_some())?
             .to_vec();
         before = shrink(before, steps, goes_on, |before| {
-            Some(self.fails_after(before, &drawn.check, kind).is_some())
+            Some(self.fails_after(before, &drawn.check, kind, goes_on).is_some())
         });
         let last = &drawn.check.id;
         let smallest = shrink(drawn.probe.clone(), steps, goes_on, |probe| {
             let check = scope.check(probe, last.clone())?;
-            Some(self.fails_after(&before, &check, kind).is_some())
+            Some(self.fails_after(&before, &check, kind, goes_on).is_some())
         });
         let check = scope.check(&smallest, last.clone())?;
         for place in 0..before.len() {
@@ -107,11 +107,12 @@ impl Examiner<'_> {
                 Some(before)
             };
             let smallest = shrink(drawn.probe.clone(), steps, goes_on, |probe| {
-                Some(self.fails_after(&with(probe)?, &check, kind).is_some())
+                Some(self.fails_after(&with(probe)?, &check, kind, goes_on).is_some())
             });
             before = with(&smallest)?;
         }
-        let outcome = self.fails_after(&before, &check, kind)?;
+        // All of it was asked in time before, so that it does not take long.
+        let outcome = self.fails_after(&before, &check, kind, &|| true)?;
         Some(row(before, check, kind, outcome))
     }
 
@@ -121,10 +122,20 @@ impl Examiner<'_> {
         (failure.kind == *kind).then_some(failure.outcome)
     }
 
-    /// Whether it fails on a fresh process that is asked something before it.
-    fn fails_after(&mut self, before: &[Drawn], check: &Check, kind: &Kind) -> Option<Outcome> {
+    /// Whether it fails on a fresh process that is asked something before it; `None` too if there is
+    /// no time to ask all of that.
+    fn fails_after(
+        &mut self,
+        before: &[Drawn],
+        check: &Check,
+        kind: &Kind,
+        goes_on: &dyn Fn() -> bool,
+    ) -> Option<Outcome> {
         self.subject.restart();
         for drawn in before {
+            if !goes_on() {
+                return None;
+            }
             self.subject.ask(&drawn.check.question);
         }
         self.fails(check, kind)
