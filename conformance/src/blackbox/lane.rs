@@ -19,8 +19,8 @@ pub(super) struct Lane<'s> {
     /// Its part of the batch.
     dealt: Vec<Drawn>,
     answers: Vec<(usize, Heard)>,
-    /// Whether it was started again since the batch was asked.
-    pub(super) is_fresh: bool,
+    /// Whether it was asked something else since the batch, to examine a failure.
+    pub(super) is_examined: bool,
 }
 
 /// What an answer means.
@@ -48,7 +48,7 @@ pub(super) struct Shared<'a> {
 impl<'s> Lane<'s> {
     pub(super) fn new(subject: &'s mut (dyn Subject + Send)) -> Self {
         let (before, dealt, answers) = (Vec::new(), Vec::new(), Vec::new());
-        Self { subject, before, dealt, answers, is_fresh: false }
+        Self { subject, before, dealt, answers, is_examined: false }
     }
 
     /// Adds probes to its part of the batch.
@@ -80,9 +80,10 @@ impl<'s> Lane<'s> {
         asked.skip(forgotten).cloned().collect()
     }
 
-    /// Ends the batch.
+    /// Ends the batch, on a fresh process if a failure was examined.
     pub(super) fn end_batch(&mut self) {
-        self.before = if std::mem::take(&mut self.is_fresh) {
+        self.before = if std::mem::take(&mut self.is_examined) {
+            self.subject.restart();
             Vec::new()
         } else {
             self.before(self.dealt.len())
@@ -112,7 +113,8 @@ impl Questions for Asking<'_> {
     }
 
     fn answered(&mut self, place: usize, answer: Answer) {
-        let asked = self.shared.asked.fetch_add(1, Ordering::Relaxed) + 1;
+        let one = u64::from(!matches!(answer, Answer::NotAsked(_)));
+        let asked = self.shared.asked.fetch_add(one, Ordering::Relaxed) + one;
         if (self.shared.watch)(asked).is_break() {
             self.shared.over.store(true, Ordering::Relaxed);
         }

@@ -67,7 +67,8 @@ pub struct Fuzzed {
     pub asked: u64,
     /// The kinds of failure found, in the order in which they were found.
     pub findings: Vec<Finding>,
-    /// Kinds of failure that did not come again, neither alone nor after what was asked before.
+    /// Kinds of failure that did not come again on a fresh process, neither alone nor after what was
+    /// asked before, as far as there was time to ask.
     pub passing: Vec<Finding>,
     /// What was not asked, or not any more.
     pub not_asked: NotAsked,
@@ -113,7 +114,7 @@ pub fn fuzz(
     fuzzer.end()
 }
 
-/// The checks of all probes of the options, before any of them is asked.
+/// Checks of the first probes, `cases` at most.
 #[must_use]
 pub fn checks(spec: &Spec, options: &Options, hello: &Hello) -> Vec<Check> {
     let scope = Scope { author: Author { spec, wire: options.wire }, hello };
@@ -271,17 +272,15 @@ impl Fuzzer<'_> {
         answers.sort_by_key(|(drawn, ..)| drawn.number);
         for (drawn, number, place, heard) in answers {
             let Some(lane) = lanes.get_mut(number) else { continue };
-            let skipped = match &heard {
-                Heard::Skipped(reason) => Some(reason.as_str()),
-                _ => None,
-            };
-            self.topics.note(&self.scope.topic(&drawn.probe), skipped);
+            let topic = self.scope.topic(&drawn.probe);
             match heard {
-                Heard::Right | Heard::Skipped(_) => {}
+                Heard::Right => self.topics.note(&topic, None),
+                Heard::Skipped(reason) => self.topics.note(&topic, Some(&reason)),
                 Heard::Lost(reason) => {
                     self.result.given_up.get_or_insert(reason);
                 }
                 Heard::Wrong(failure) => {
+                    self.topics.note(&topic, None);
                     let before = lane.before(place);
                     self.fail(&drawn, *failure, lane, &before, watch);
                 }
@@ -312,7 +311,7 @@ impl Fuzzer<'_> {
             return;
         }
         known.examined += 1;
-        lane.is_fresh = true;
+        lane.is_examined = true;
         let asked = self.result.asked;
         let found = self.known.values().filter(|known| known.found.is_some()).count();
         let goes_on = || watch(asked, found).is_continue();
