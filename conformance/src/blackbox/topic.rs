@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 use crate::adapter::{Hello, Question};
+use crate::legible::{LONGEST_TEXT, legible};
 
 /// After so many skips, and no other answer, a topic is closed.
 const SKIPS: u32 = 5;
@@ -24,13 +25,13 @@ impl fmt::Display for Topic {
     }
 }
 
-/// The topics that are not asked any more, by the reason.
+/// The topics that are not asked any more, by the reason, which can be printed as it is.
 pub type NotAsked = BTreeMap<String, BTreeSet<Topic>>;
 
 /// The topics of a run.
 #[derive(Debug, Default)]
 pub(super) struct Topics {
-    /// How often each topic was skipped in a row; `None` if it was answered.
+    /// How often each topic was skipped; `None` once it was answered.
     skips: BTreeMap<Topic, Option<u32>>,
     closed: BTreeSet<Topic>,
     not_asked: NotAsked,
@@ -65,7 +66,7 @@ impl Topics {
             *count += 1;
             if *count >= SKIPS {
                 let reason = if reason.is_empty() { "skipped without a reason" } else { reason };
-                self.close(topic, reason.to_owned());
+                self.close(topic, legible(reason, LONGEST_TEXT));
             }
         }
     }

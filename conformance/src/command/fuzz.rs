@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 
 use actucheck::adapter::Wire;
 use actucheck::blackbox::{self, Finding, Fuzzed, fuzz};
+use actucheck::legible::{LONGEST_TEXT, legible};
 use actucheck::report::{Collector, End, Report, Run, text};
 use actucheck::suite::Options;
 use actucheck::suite::saved;
@@ -88,7 +89,7 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
     let probes = blackbox::Options { wire: options.wire, seed, cases };
     let fuzzed = fuzz(&spec, &probes, &mut subjects.all, &|asked, found| {
         progress.set_position(asked);
-        progress.set_message(format!("{found} kinds of failure"));
+        progress.set_message(format!("{found} kinds of finding"));
         let over = time.is_some_and(|time| started.elapsed() >= time);
         if over || interrupted.load(Ordering::Relaxed) {
             return ControlFlow::Break(());
@@ -96,9 +97,9 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
         ControlFlow::Continue(())
     });
     progress.finish_and_clear();
-    let log = subjects.end()?;
-
-    keep(options, &fuzzed.findings)?;
+    // What cannot be written is told behind the findings.
+    let log = subjects.end();
+    let kept = keep(options, &fuzzed.findings);
     let took = started.elapsed();
     let found = fuzzed.findings.iter();
     let run = Run {
@@ -118,11 +119,13 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
     let report = collector.finish(End { seconds: took.as_secs_f64(), ..End::default() });
     let mut out = anstream::stdout();
     show(&report, &fuzzed, &mut out)
-        .and_then(|()| summary(options, seed, &fuzzed, took, &mut out))
+        .and_then(|()| summary(options, seed, &fuzzed, kept.is_ok(), took, &mut out))
         .map_err(Failure::incomplete)?;
+    kept?;
+    let log = log?;
     if let Some(reason) = &fuzzed.given_up {
         let last = log.lines().last().map(|line| format!("; it said `{line}`")).unwrap_or_default();
-        return Err(Failure::incomplete(format!("{reason}{last}")));
+        return Err(Failure::incomplete(legible(&format!("{reason}{last}"), LONGEST_TEXT)));
     }
     let failed = |finding: &Finding| finding.outcome.verdict.is_failure();
     let found = fuzzed.findings.iter().chain(&fuzzed.passing).any(failed);
@@ -160,11 +163,12 @@ fn show(report: &Report, fuzzed: &Fuzzed, out: &mut impl Write) -> io::Result<()
     }
     for Finding { kind, check, times, outcome, .. } in &fuzzed.passing {
         writeln!(out, "{} {}: {}", kind.op, kind.requirement, kind.symptom)?;
-        writeln!(out, "  {times} times, the first at {}: {}", check.id, outcome.detail)?;
+        let detail = legible(&outcome.detail, LONGEST_TEXT);
+        writeln!(out, "  {times} times, the first at {}: {detail}", check.id)?;
         writeln!(
             out,
-            "  it depends on what came before, or on chance: a fresh process passes, also after \
-             the questions just before it; it is not kept"
+            "  it did not come again on a fresh process, as far as there was time to ask; it may \
+             depend on what came before, or on chance; it is not kept"
         )?;
     }
     Ok(())
@@ -174,6 +178,7 @@ fn summary(
     options: &Fuzz,
     seed: u64,
     fuzzed: &Fuzzed,
+    is_kept: bool,
     took: Duration,
     out: &mut impl Write,
 ) -> io::Result<()> {
@@ -182,10 +187,11 @@ fn summary(
         writeln!(out, "not asked, {reason}: {}", topics.join(", "))?;
     }
     let kinds = |count: usize, what: &str| match count {
-        1 => format!("1 kind of failure{what}"),
-        count => format!("{count} kinds of failure{what}"),
+        1 => format!("1 kind of finding{what}"),
+        count => format!("{count} kinds of finding{what}"),
     };
-    let kept = kinds(fuzzed.findings.len(), &format!(", kept in {}", options.out.display()));
+    let place = is_kept.then(|| format!(", kept in {}", options.out.display()));
+    let kept = kinds(fuzzed.findings.len(), &place.unwrap_or_default());
     let passing = kinds(fuzzed.passing.len(), " that did not come again");
     let found = match (fuzzed.findings.is_empty(), fuzzed.passing.is_empty()) {
         (true, true) => "nothing found".to_owned(),

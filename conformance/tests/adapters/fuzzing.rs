@@ -27,7 +27,7 @@ fn a_finding_is_shown_kept_and_asked_again() {
     let (output, text) = actucheck(folder.path(), &fuzz, WRONG);
     assert_eq!(output.status.code(), Some(1), "{text}");
     assert!(text.contains("crc dynamixel2.crc.value: wrong CRC"), "{text}");
-    assert!(text.contains("seed 3: 1 kind of failure, kept in findings.yaml"), "{text}");
+    assert!(text.contains("seed 3: 1 kind of finding, kept in findings.yaml"), "{text}");
     let (output, text) = actucheck(folder.path(), &["replay", "findings.yaml"], WRONG);
     assert_eq!(output.status.code(), Some(1), "{text}");
     assert!(text.contains("actucheck replay findings.yaml -- sh -c"), "{text}");
@@ -74,6 +74,27 @@ fn an_adapter_that_hangs_does_not_outlast_the_time() {
     assert_eq!(output.status.code(), Some(1), "{text}");
     assert!(text.contains("does not answer in time"), "{text}");
     assert!(started.elapsed() < Duration::from_secs(15), "{:?}", started.elapsed());
+}
+
+#[test]
+fn what_an_adapter_says_does_not_control_the_terminal() {
+    let folder = tempfile::tempdir().unwrap();
+    let skip = r#"printf '{"id":%s,"skip":{"reason":"no \\u001b[31mCRC"}}\n' "$id""#;
+    let (_, text) = actucheck(folder.path(), &["fuzz", "--cases", "50"], skip);
+    assert!(text.contains(r"not asked, no \u{1b}[31mCRC: crc"), "{text}");
+    assert!(!text.contains('\u{1b}'), "{text}");
+}
+
+#[test]
+fn findings_that_cannot_be_kept_are_shown() {
+    let folder = tempfile::tempdir().unwrap();
+    let fuzz = ["fuzz", "--seed", "3", "--cases", "50", "--out", "missing/findings.yaml"];
+    let (output, text) = actucheck(folder.path(), &fuzz, WRONG);
+    assert_eq!(output.status.code(), Some(3), "{text}");
+    assert!(text.contains("crc dynamixel2.crc.value: wrong CRC"), "{text}");
+    assert!(text.ends_with("seed 3: 1 kind of finding\n"), "{text}");
+    let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(stderr.contains("cannot write missing/findings.yaml"), "{stderr}");
 }
 
 #[test]
