@@ -119,6 +119,7 @@ fn again(findings: &[Finding], subject: Box<dyn Subject + Send>) -> Vec<Verdict>
 fn what_was_found_is_kept_and_fails_again() {
     let mutant = &MUTANTS[0];
     let findings = fuzzed(Mutated::new(mutant), 1, 1_000).findings;
+    assert!(!findings.is_empty());
     let verdicts = again(&findings, Box::new(Mutated::new(mutant)));
     assert!(verdicts.iter().all(|verdict| *verdict == Verdict::Fail), "{verdicts:?}");
     let verdicts = again(&findings, Box::<Builtin>::default());
