@@ -204,7 +204,8 @@ fn one_that_answers_for_the_other_role_is_found() {
 fn one_that_rejects_or_fails_all_is_found() {
     let err = r#"printf '{"id":%s,"err":{"class":"unspecified"}}\n' "$id""#;
     let rejecting = check(&changed(&[(ANSWER, err)]));
-    let wrong = "WRONG  takes what is valid: each crc on dynamixel2 is rejected, though it is valid";
+    let wrong =
+        "WRONG  takes what is valid: each crc on dynamixel2 is rejected, though it is valid";
     assert!(rejecting.1.contains(wrong), "{}", rejecting.1);
     assert_eq!(rejecting.0, 1);
     let building = playing("device").replace(r#"["crc","encode","decode"]"#, r#"["crc","encode"]"#);
