@@ -121,6 +121,7 @@ fn invented_op(subject: &mut dyn Subject) -> Option<Outcome> {
         verdict,
         detail,
         because: None,
+        reason: None,
         request: None,
         expected: None,
         actual: None,

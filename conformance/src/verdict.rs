@@ -135,6 +135,9 @@ pub struct Outcome {
     /// The earlier check that this one failed because of; its own requirement is not accused then.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub because: Option<Because>,
+    /// Why the failure is expected; only for [`Verdict::ExpectedFailure`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
     /// The request; only if the check did not pass.
     #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "question")]
     pub request: Option<Question>,

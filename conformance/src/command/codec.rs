@@ -93,10 +93,12 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
 
     let template = "{bar:30} {pos}/{len} checks  {per_sec}  {eta} left";
     let progress = shared::progress(Some(size as u64), template);
-    let started = Instant::now();
+    let (started, date) = (Instant::now(), shared::date());
     let interrupted = shared::interrupted()?;
     let run = Run {
         spec: &spec,
+        date,
+        command_line: shared::command_line(),
         implementation: &hello.implementation,
         wires: &wires,
         options: selection.growth.options(Some(&hello)),

@@ -83,7 +83,7 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
     let cases = options.cases.unwrap_or(u64::MAX);
     let time = options.time.or_else(|| options.cases.is_none().then_some(MINUTE));
 
-    let started = Instant::now();
+    let (started, date) = (Instant::now(), shared::date());
     let interrupted = shared::interrupted()?;
     let progress = progress(options.cases);
     let probes = blackbox::Options { wire: options.wire, seed, cases };
@@ -104,6 +104,8 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
     let found = fuzzed.findings.iter();
     let run = Run {
         spec: &spec,
+        date,
+        command_line: shared::command_line(),
         implementation: &hello.implementation,
         wires: &[options.wire],
         options: Options { seed, ..Options::new() },

@@ -49,6 +49,8 @@ pub(crate) fn run(options: &Replay) -> Result<ExitCode, Failure> {
     let records = ids.map(|id| (id, path.to_owned())).collect();
     let run = Run {
         spec: &spec,
+        date: shared::date(),
+        command_line: shared::command_line(),
         implementation: &hello.implementation,
         wires: &wires,
         options: options.growth.options(Some(&hello)),

@@ -43,6 +43,7 @@ pub struct Collector<'a> {
     requirements: IndexMap<String, Collected>,
     questions: IndexMap<(String, String), Counts>,
     skips: Counts,
+    expected_failures: Counts,
 }
 
 /// The outcomes of a requirement's checks.
@@ -58,13 +59,17 @@ impl<'a> Collector<'a> {
     #[must_use]
     pub fn new(run: &'a Run<'a>) -> Self {
         let (causes, requirements, questions) = Default::default();
-        Self { run, causes, requirements, questions, skips: Counts::default() }
+        let (skips, expected_failures) = Default::default();
+        Self { run, causes, requirements, questions, skips, expected_failures }
     }
 
     /// Adds an outcome. Outcomes arrive in the order of the plan.
     pub fn add(&mut self, outcome: Outcome) {
         if outcome.verdict == Verdict::Skip {
             self.skips.add(&outcome.detail, &outcome.id);
+        }
+        if let Some(reason) = &outcome.reason {
+            self.expected_failures.add(reason, &outcome.id);
         }
         if outcome.verdict.is_failure() {
             self.accuse(&outcome);
@@ -140,6 +145,7 @@ impl<'a> Collector<'a> {
             requirements,
             profile: self.profile(),
             skips: self.skips.tallies(),
+            expected_failures: self.expected_failures.tallies(),
             not_passed,
             log: lines.join("\n"),
         }

@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 use std::time::Duration;
 
+use chrono::DateTime;
 use quick_junit::{NonSuccessKind, TestCase, TestCaseStatus, TestSuite};
 
 use super::model::{CheckResult, NotPassed, Report, RequirementResult};
@@ -20,6 +21,10 @@ pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let mut junit = quick_junit::Report::new(format!("{} {}", who.name, who.version));
     if let Ok(time) = Duration::try_from_secs_f64(report.summary.seconds) {
         junit.set_time(time);
+    }
+    let date = report.header.date.as_deref().map(DateTime::parse_from_rfc3339);
+    if let Some(Ok(date)) = date {
+        junit.set_timestamp(date);
     }
     junit.add_test_suites(report.sections().iter().map(|section| suite(report, section)));
     junit.add_test_suites(report.cut_short().map(cut_short));
@@ -69,7 +74,11 @@ fn check(result: &CheckResult) -> TestCase {
     let outcome = &result.outcome;
     let lines: Vec<_> = evidence(result).collect();
     let lines = lines.join("\n");
-    case(&outcome.id, &outcome.requirement, outcome.verdict, &outcome.detail, &lines)
+    let message = match &outcome.reason {
+        Some(reason) => format!("{}; expected: {reason}", outcome.detail),
+        None => outcome.detail.clone(),
+    };
+    case(&outcome.id, &outcome.requirement, outcome.verdict, &message, &lines)
 }
 
 fn evidence(result: &CheckResult) -> impl Iterator<Item = String> {

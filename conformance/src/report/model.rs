@@ -34,6 +34,9 @@ pub struct Report {
     pub profile: Vec<ProfileEntry>,
     /// Why checks were skipped.
     pub skips: Vec<Tally>,
+    /// Why failures are expected.
+    #[serde(default)]
+    pub expected_failures: Vec<Tally>,
     /// The checks that did not pass, by requirement and verdict.
     pub not_passed: Vec<NotPassed>,
     /// The last lines that the adapter logged.
@@ -45,6 +48,12 @@ pub struct Report {
 pub struct Header {
     /// Version of the program that wrote it.
     pub actucheck: String,
+    /// When the run began, in UTC, as in RFC 3339; `null` in earlier reports.
+    #[serde(default)]
+    pub date: Option<String>,
+    /// The program's command line, quoted for a shell; `null` in earlier reports.
+    #[serde(default)]
+    pub command_line: Option<String>,
     /// The implementation that was checked.
     pub implementation: Implementation,
     /// The wires.

@@ -131,6 +131,7 @@ impl From<Version3> for Report {
             requirements,
             profile,
             skips,
+            expected_failures: Vec::new(),
             not_passed,
             log,
         }

@@ -29,6 +29,10 @@ pub struct Run<'a> {
     pub implementation: &'a Implementation,
     /// The wires whose checks are asked.
     pub wires: &'a [Wire],
+    /// When it began, in UTC, as in RFC 3339.
+    pub date: String,
+    /// The program's command line, quoted for a shell.
+    pub command_line: String,
     /// The options that determine the checks.
     pub options: Options,
     /// The adapter's command; empty for the built-in codec.
@@ -45,6 +49,8 @@ impl Run<'_> {
         let Implementation { name: own, version, language, url } = self.implementation;
         Header {
             actucheck: env!("CARGO_PKG_VERSION").to_owned(),
+            date: Some(self.date.clone()),
+            command_line: Some(legible(&self.command_line, LONGEST_TEXT)),
             implementation: Implementation {
                 name: name(own),
                 version: name(version),
@@ -73,6 +79,7 @@ impl Run<'_> {
         };
         let replay = outcome.request.is_some().then(|| self.replay(&outcome.id));
         outcome.detail = legible(&outcome.detail, LONGEST_TEXT);
+        outcome.reason = outcome.reason.map(|reason| legible(&reason, LONGEST_TEXT));
         let left_out = leave_out(&mut outcome.request)
             + leave_out(&mut outcome.expected)
             + leave_out(&mut outcome.actual);

@@ -163,7 +163,7 @@ impl CheckResult {
     /// each with its label.
     #[must_use]
     pub fn evidence(&self) -> Vec<(&'static str, Evidence<'_>)> {
-        let Outcome { request, expected, actual, detail, .. } = &self.outcome;
+        let Outcome { request, expected, actual, detail, reason, .. } = &self.outcome;
         let outputs = [expected, actual]
             .map(|output| output.as_ref().map(|output| Evidence::Code(output.to_string())));
         let rows = match &self.diff {
@@ -183,6 +183,7 @@ impl CheckResult {
             ("instead", instead),
             ("differs", self.differs().map(Evidence::Words)),
             ("because", Some(Evidence::Words(detail.clone()))),
+            ("reason", reason.clone().map(Evidence::Words)),
             ("follows", self.follows().map(Evidence::Words)),
             ("left out", self.left_out().map(Evidence::Words)),
             ("replay", self.replay.clone().map(Evidence::Code)),

@@ -225,6 +225,7 @@ fn follow(outcome: &mut Outcome, required: &Past) {
                 verdict: Verdict::Skip,
                 detail: REQUIRED_SKIPPED.to_owned(),
                 because: None,
+                reason: None,
                 request: None,
                 expected: None,
                 actual: None,

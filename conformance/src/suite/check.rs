@@ -144,6 +144,7 @@ impl Check {
             verdict,
             detail: if behaviour.is_some() { String::new() } else { detail },
             because: None,
+            reason: None,
             request: unmet.then_some(self.question),
             actual: actual.filter(|_| unmet),
             behaviour,

@@ -148,7 +148,7 @@ impl Expectations {
             expected.failed |= failed;
             if outcome.verdict.is_failure() {
                 outcome.verdict = Verdict::ExpectedFailure;
-                outcome.detail = format!("{}; expected: {}", outcome.detail, expected.row);
+                outcome.reason = Some(expected.row.to_string());
             }
         }
         if outcome.verdict == Verdict::Pass && !matches.is_empty() {

@@ -122,6 +122,7 @@ fn failure(place: usize, size: usize, detail: &str) -> Outcome {
         verdict: Verdict::Fail,
         detail: detail.to_owned(),
         because: None,
+        reason: None,
         request: Some(Question::Crc { wire: Wire::default(), bytes: vec![0; size].into() }),
         expected: Some(Output::Crc(0)),
         actual: Some(Output::Bytes(vec![1; size].into())),

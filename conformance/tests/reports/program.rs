@@ -53,6 +53,23 @@ fn several_reports_are_written_at_once_and_again_from_json() {
 }
 
 #[test]
+fn a_report_says_when_and_how_it_was_made() {
+    let header = |epoch: &str| {
+        let mut command = Command::cargo_bin("actucheck").unwrap();
+        command.args(["codec", "--select", "*goal-position/encode", "--report", "json=-"]);
+        let output = command.env("SOURCE_DATE_EPOCH", epoch).output().unwrap();
+        serde_json::from_slice::<Value>(&output.stdout).unwrap()
+    };
+    let fixed = header("1795777200");
+    assert_eq!(fixed["date"], "2026-11-27T11:00:00Z");
+    let said = "actucheck codec --select '*goal-position/encode' --report 'json=-'";
+    assert_eq!(fixed["command_line"], said);
+    // No date has so many seconds, so it is the time of the run.
+    let now = header("99999999999999999");
+    assert!(now["date"].as_str().unwrap().starts_with("20"), "{}", now["date"]);
+}
+
+#[test]
 fn a_whole_run_that_passes_makes_a_small_report() {
     let folder = tempfile::tempdir().unwrap();
     // The built-in codec at its default settings is asked 66,000 checks.

@@ -122,6 +122,8 @@ fn report(name: &str, only: &str, bend: fn(&Question, Answer) -> Answer, expect:
 pub(crate) fn run(implementation: &Implementation) -> Run<'_> {
     Run {
         spec: &SPEC,
+        date: "2026-11-27T11:00:00Z".to_owned(),
+        command_line: "actucheck codec -- ./adapter 'two words'".to_owned(),
         implementation,
         wires: &WIRES,
         options: OPTIONS,

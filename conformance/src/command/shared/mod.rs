@@ -1,5 +1,6 @@
 //! What several subcommands have in common: groups of options, and where their output goes.
 
+mod begun;
 mod failure;
 mod outputs;
 mod progress;
@@ -14,6 +15,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use actucheck_spec::Spec;
 
+pub(crate) use begun::{command_line, date};
 pub(crate) use failure::Failure;
 pub(crate) use outputs::{Outputs, Reports};
 pub(crate) use progress::progress;
