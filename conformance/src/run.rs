@@ -87,7 +87,8 @@ impl<'a> Source<'_, 'a> {
             size += group.size();
             groups.push(group);
         }
-        self.next += 1;
+        // An empty batch would never be finished, and so hold up those behind it.
+        self.next += u64::from(!groups.is_empty());
         groups
     }
 }
