@@ -1,0 +1,104 @@
+//! The ways to misbehave, and what each may cost.
+
+use std::ops::RangeInclusive;
+
+/// A way to misbehave, and the run that it leads to.
+pub(crate) struct Row {
+    pub(crate) name: &'static str,
+    /// The adapter's mode, and when it misbehaves.
+    pub(crate) adapter: &'static str,
+    /// Which checks are asked; all of them if it is empty.
+    pub(crate) select: &'static [&'static str],
+    pub(crate) exit: i32,
+    /// What comes out besides what a well-behaved adapter gets: each verdict after its count, or after
+    /// the least and the greatest count.
+    pub(crate) verdicts: &'static str,
+    /// The time limit of a request, in seconds.
+    pub(crate) timeout: &'static str,
+    /// At most so long, in seconds.
+    pub(crate) seconds: f64,
+    /// At most so much memory.
+    pub(crate) megabytes: u64,
+}
+
+impl Row {
+    /// How often the row has a verdict; `None` if it does not name it.
+    pub(crate) fn counts(&self, verdict: &str) -> Option<RangeInclusive<u64>> {
+        let named = self.verdicts.split(", ").find_map(|named| {
+            let (counts, named) = named.split_once(' ')?;
+            (named == verdict).then_some(counts)
+        });
+        let (least, most) = named?.split_once('-').unwrap_or((named?, named?));
+        Some(least.parse().unwrap()..=most.parse().unwrap())
+    }
+}
+
+/// Checks of every op on both wires. Three ask for a CRC.
+const FEW: &[&str] = &["ja40.ping.*", "innfos.handshake.request/*", "innfos.handshake.reply/*"];
+/// Four of the longest packets, and a hundred others.
+const LONG: &[&str] = &["dynamixel2.limit.length-field.*", "dynamixel2.length.*"];
+/// 160 checks of short packets.
+const SHORT: &[&str] = &["dynamixel2.id.[1234]?.*"];
+/// Ten packets to build.
+const TEN: &[&str] = &["dynamixel2.id.1?.ping/encode"];
+/// About a thousand checks.
+const IDS: &[&str] = &["dynamixel2.id.*"];
+const ALL: &[&str] = &[];
+
+/// What most runs take. The program itself takes a fifth of this, mostly for the checks.
+const MEMORY: u64 = 100;
+
+const fn row(
+    name: &'static str,
+    adapter: &'static str,
+    select: &'static [&'static str],
+    exit: i32,
+    verdicts: &'static str,
+) -> Row {
+    Row { name, adapter, select, exit, verdicts, timeout: "1", seconds: 60.0, megabytes: MEMORY }
+}
+
+/// The same for an adapter that works hard instead of waiting.
+const fn slow(
+    name: &'static str,
+    adapter: &'static str,
+    select: &'static [&'static str],
+    exit: i32,
+    verdicts: &'static str,
+) -> Row {
+    Row { timeout: "20", ..row(name, adapter, select, exit, verdicts) }
+}
+
+pub(crate) const ROWS: &[Row] = &[
+    row("well behaved", "well never", FEW, 0, ""),
+    row("hangs", "hangs crc", FEW, 3, "3 timeout"),
+    row("spins", "spins crc", FEW, 3, "3 timeout"),
+    row("stops reading", "stops-reading long", LONG, 3, "4 timeout"),
+    row("half a line", "half-a-line crc", FEW, 3, "3 timeout"),
+    slow("100 MB without a line end", "no-line-end crc", FEW, 3, "3 adapter-fault"),
+    row("no UTF-8", "no-utf-8 crc", FEW, 3, "3 adapter-fault"),
+    row("blank lines before replies", "blank-lines crc", FEW, 3, "3 adapter-fault"),
+    row("answers twice", "twice crc", FEW, 3, "3 adapter-fault"),
+    row("out of order, as it may", "out-of-order always", IDS, 0, ""),
+    row("another request's id", "wrong-id crc", FEW, 3, "3 adapter-fault"),
+    row("closes its output and lives", "closes-its-output crc", FEW, 3, "3 crash"),
+    row("ends after each request", "ends-after always", FEW, 3, "11 crash"),
+    row("aborts", "aborts crc", FEW, 3, "3 crash"),
+    row("wrong every thousandth time", "wrong thousandth", ALL, 1, "40-60 fail"),
+    row("leaves a child", "leaves-a-child crc", FEW, 0, ""),
+    row("dies, its child lives", "dies-with-a-child crc", FEW, 3, "3 timeout"),
+    slow("floods its log", "floods-its-log crc", FEW, 0, ""),
+    slow("details of 1 MB", "long-detail always", SHORT, 1, "160 fail"),
+    slow("answers 7 MB too long", "long-answer encode", TEN, 1, "10 fail"),
+    row("dies on bye", "dies-on-bye never", FEW, 0, ""),
+    row("late hello", "late never", FEW, 4, ""),
+    row("version 99", r#"hello {"protocol": 99}"#, FEW, 4, ""),
+    row("a version in words", r#"hello {"protocol": "two"}"#, FEW, 4, ""),
+    row("limit 0", r#"hello {"limits": {"max_packet": 0}}"#, FEW, 0, ""),
+    row("limit -1", r#"hello {"limits": {"max_packet": -1}}"#, FEW, 4, ""),
+    row("limit 1e300", r#"hello {"limits": {"max_send": 1e300}}"#, FEW, 4, ""),
+    row("limit in words", r#"hello {"limits": {"max_receive": "ten"}}"#, FEW, 4, ""),
+    row("limit 2^64", r#"hello {"limits": {"max_packet": 18446744073709551616}}"#, FEW, 4, ""),
+    row("limit 2^64 - 1", r#"hello {"limits": {"max_packet": 18446744073709551615}}"#, FEW, 0, ""),
+    row("2^64 - 1 at once", r#"hello {"max_in_flight": 18446744073709551615}"#, FEW, 0, ""),
+];
