@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-use actucheck::report::{Collector, End, Run, Stopped, text};
+use actucheck::report::{Collector, End, Run, Stopped, screen};
 use actucheck::run;
 use actucheck::suite::check::Check;
 use actucheck::suite::expect::Expectations;
@@ -16,7 +16,9 @@ use actucheck::suite::saved;
 use actucheck::verdict::Outcome;
 use clap::Args;
 
-use super::shared::{self, Adapter, Failure, Outputs, Reports, Selection, Streams, Subjects};
+use super::shared::{
+    self, Adapter, Failure, Look, NEXT, Outputs, Reports, Selection, Streams, Subjects,
+};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -56,6 +58,8 @@ pub(crate) struct Codec {
     expect: Option<PathBuf>,
     #[command(flatten)]
     reports: Reports,
+    #[command(flatten)]
+    look: Look,
     /// How many processes of the adapter share the work
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u8).range(1..))]
     jobs: u8,
@@ -135,7 +139,10 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
         log: subjects.end()?,
     });
     let streamed = streams.end(&report.summary);
-    outputs.write(|format, out| format.write(&report, out), |out| text::write(&report, out))?;
+    outputs.write(
+        |format, out| format.write(&report, out),
+        |out| screen::write(&report, &options.look.terminal(NEXT), out),
+    )?;
     streamed?;
     Ok(ExitCode::from(report.exit_status()))
 }

@@ -11,13 +11,14 @@ use std::time::{Duration, Instant};
 use actucheck::adapter::Wire;
 use actucheck::blackbox::{self, Finding, Fuzzed, fuzz};
 use actucheck::legible::{LONGEST_TEXT, legible};
-use actucheck::report::{Collector, End, Report, Run, text};
+use actucheck::report::screen::{self, Detail};
+use actucheck::report::{Collector, End, Report, Run};
 use actucheck::suite::Options;
 use actucheck::suite::saved;
 use clap::Args;
 use indicatif::ProgressBar;
 
-use super::shared::{self, Adapter, Failure, Subjects, duration, wire};
+use super::shared::{self, Adapter, Failure, Look, Subjects, duration, wire};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -63,6 +64,8 @@ pub(crate) struct Fuzz {
     /// Where to write what was found
     #[arg(long, value_name = "FILE", default_value = "findings.yaml")]
     out: PathBuf,
+    #[command(flatten)]
+    look: Look,
     #[command(flatten)]
     adapter: Adapter,
 }
@@ -120,7 +123,7 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
     collector.extend(found.map(|finding| finding.outcome.clone()));
     let report = collector.finish(End { seconds: took.as_secs_f64(), ..End::default() });
     let mut out = anstream::stdout();
-    show(&report, &fuzzed, &mut out)
+    show(&report, &fuzzed, options.look, &mut out)
         .and_then(|()| summary(options, seed, &fuzzed, kept.is_ok(), took, &mut out))
         .map_err(Failure::incomplete)?;
     kept?;
@@ -148,13 +151,21 @@ fn keep(options: &Fuzz, findings: &[Finding]) -> Result<(), Failure> {
     std::fs::write(&options.out, text).map_err(|error| cannot_write(&error))
 }
 
+/// How many kinds of finding are told on a screen.
+const KINDS: usize = 4;
+
 /// Prints the report on the smallest case of each kind of failure, then what is known of each kind.
-fn show(report: &Report, fuzzed: &Fuzzed, out: &mut impl Write) -> io::Result<()> {
+fn show(report: &Report, fuzzed: &Fuzzed, look: Look, out: &mut impl Write) -> io::Result<()> {
+    let most = match look.detail() {
+        Detail::Least => return Ok(()),
+        Detail::Screen => KINDS,
+        Detail::Most => usize::MAX,
+    };
     if !fuzzed.findings.is_empty() {
-        text::write(report, out)?;
+        screen::write(report, &look.terminal(&[]), out)?;
         writeln!(out)?;
     }
-    for Finding { kind, check, before, times, .. } in &fuzzed.findings {
+    for Finding { kind, check, before, times, .. } in fuzzed.findings.iter().take(most) {
         writeln!(out, "{} {}: {}", kind.op, kind.requirement, kind.symptom)?;
         writeln!(out, "  {times} times; the smallest is {}", check.id)?;
         if !before.is_empty() {
@@ -163,7 +174,7 @@ fn show(report: &Report, fuzzed: &Fuzzed, out: &mut impl Write) -> io::Result<()
             writeln!(out, "  it depends on what came before: it needs {before} first")?;
         }
     }
-    for Finding { kind, check, times, outcome, .. } in &fuzzed.passing {
+    for Finding { kind, check, times, outcome, .. } in fuzzed.passing.iter().take(most) {
         writeln!(out, "{} {}: {}", kind.op, kind.requirement, kind.symptom)?;
         let detail = legible(&outcome.detail, LONGEST_TEXT);
         writeln!(out, "  {times} times, the first at {}: {detail}", check.id)?;
@@ -173,7 +184,11 @@ fn show(report: &Report, fuzzed: &Fuzzed, out: &mut impl Write) -> io::Result<()
              depend on what came before, or on chance; it is not kept"
         )?;
     }
-    Ok(())
+    let left = |findings: &[Finding]| findings.len().saturating_sub(most);
+    match left(&fuzzed.findings) + left(&fuzzed.passing) {
+        0 => Ok(()),
+        more => writeln!(out, "… and {more} more; -v prints them"),
+    }
 }
 
 fn summary(
@@ -184,7 +199,8 @@ fn summary(
     took: Duration,
     out: &mut impl Write,
 ) -> io::Result<()> {
-    for (reason, topics) in &fuzzed.not_asked {
+    let quiet = options.look.detail() == Detail::Least;
+    for (reason, topics) in fuzzed.not_asked.iter().filter(|_| !quiet) {
         let topics: Vec<_> = topics.iter().map(ToString::to_string).collect();
         writeln!(out, "not asked, {reason}: {}", topics.join(", "))?;
     }

@@ -5,11 +5,12 @@
 //! format or to [`compare`] it with others. [`jsonl`] has every outcome as it arrives.
 //!
 //! A module imports only from those before it in this order: [`model`]; `result`; `smallest`;
-//! [`collect`], [`read`]; `words`, [`view`]; [`text`], [`json`], [`jsonl`], [`junit`], [`markdown`],
-//! [`html`]; [`format`](mod@format); [`compare`]; [`schema`].
+//! [`collect`], [`read`]; `fit`, `words`, [`view`]; [`text`], [`json`], [`jsonl`], [`junit`],
+//! [`markdown`], [`html`]; [`format`](mod@format), [`screen`]; [`compare`]; [`schema`].
 
 pub mod collect;
 pub mod compare;
+mod fit;
 pub mod format;
 pub mod html;
 pub mod json;
@@ -20,6 +21,7 @@ pub mod model;
 pub mod read;
 mod result;
 pub mod schema;
+pub mod screen;
 mod smallest;
 pub mod text;
 pub mod view;

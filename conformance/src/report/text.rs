@@ -9,41 +9,57 @@ use anstyle::{AnsiColor, Style};
 use super::model::{CheckResult, Report, Statement};
 use super::view::Group;
 use super::words;
+use crate::adapter::Implementation;
 use crate::suite::check::{Check, Demand, Unspecified};
 use crate::verdict::{Totals, Verdict};
 
 pub(super) const BOLD: Style = Style::new().bold();
 pub(super) const DIM: Style = Style::new().dimmed();
 
+/// The heading of the adapter's log.
+pub(super) const LOG: &str = "The adapter's standard error ends with:";
+
 /// Writes the report with ANSI colours, which the writer may take out.
 ///
 /// # Errors
 /// If it can't be written.
 pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
-    let who = &report.header.implementation;
-    writeln!(
-        out,
-        "{BOLD}{} {}{BOLD:#} ({})  {}  {} checks",
-        who.name,
-        who.version,
-        who.language,
-        words::wires(&report.header.wires),
-        report.summary.totals.sum()
-    )?;
+    writeln!(out, "{}", header(report))?;
     causes(report, out)?;
     requirements(report, out)?;
     // The most urgent part is last, at the end of the terminal.
     for verdict in Report::URGENT.into_iter().rev() {
-        for group in report.groups(verdict) {
-            self::group(&group, out)?;
+        match verdict {
+            Verdict::ExpectedFailure => excused(report, out)?,
+            verdict => {
+                report.groups(verdict).iter().try_for_each(|group| self::group(group, out))?;
+            }
         }
     }
-    profile(report, out)?;
+    if let Some(profile) = profile(report) {
+        writeln!(out, "\n{DIM}{profile}{DIM:#}")?;
+    }
     log(report, out)?;
     if let Some(sentence) = report.cut_short() {
         writeln!(out, "\n{sentence}")?;
     }
-    summary(report, out)
+    writeln!(out, "\n{}", summary(report))
+}
+
+/// Who was checked, on which wires, with how many checks.
+pub(super) fn header(report: &Report) -> String {
+    let who = &report.header.implementation;
+    let wires = words::wires(&report.header.wires);
+    let checks = words::count(report.summary.totals.sum(), "check");
+    let Implementation { name, version, language, .. } = who;
+    format!("{BOLD}{name} {version}{BOLD:#} ({language})  {wires}  {checks}")
+}
+
+/// The verdict and the requirement of some checks.
+pub(super) fn title(group: &Group<'_>) -> String {
+    let style = style(group.checks.verdict);
+    let word = group.checks.verdict.to_string().to_uppercase().replace('-', " ");
+    format!("{style}{word}{style:#} {BOLD}{}{BOLD:#}", group.requirement.id)
 }
 
 /// Writes one check: its question, the right answer, and the sentence of a document that requires
@@ -110,9 +126,7 @@ fn requirements(report: &Report, out: &mut dyn Write) -> io::Result<()> {
 
 fn group(group: &Group<'_>, out: &mut dyn Write) -> io::Result<()> {
     let Group { requirement, checks } = group;
-    let style = style(checks.verdict);
-    let word = checks.verdict.to_string().to_uppercase().replace('-', " ");
-    write!(out, "\n{style}{word}{style:#} {BOLD}{}{BOLD:#}", requirement.id)?;
+    write!(out, "\n{}", title(group))?;
     if let Some(origin) = group.origin() {
         return writeln!(out, "  {}, all because of {origin}", group.share());
     }
@@ -140,14 +154,20 @@ fn result(result: &CheckResult, out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// Differences in unspecified behaviour matter to users who mix implementations on a bus.
-fn profile(report: &Report, out: &mut dyn Write) -> io::Result<()> {
-    if report.profile.is_empty() {
-        return Ok(());
+/// Expected failures need no evidence.
+fn excused(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+    for (place, line) in report.excused(usize::MAX).iter().enumerate() {
+        let before = if place == 0 { "\n" } else { "" };
+        writeln!(out, "{before}{line}")?;
     }
-    let many = words::count(report.profile.len(), "question");
-    let rest = "that the documents leave unspecified: --report html=FILE shows what it does there";
-    writeln!(out, "\n{DIM}{many} {rest}{DIM:#}")
+    Ok(())
+}
+
+/// Differences in unspecified behaviour matter to users who mix implementations on a bus.
+pub(super) fn profile(report: &Report) -> Option<String> {
+    let many = words::count(report.profile.len(), "unspecified question");
+    let line = format!("{many}: --report html=FILE shows what it does there");
+    (!report.profile.is_empty()).then_some(line)
 }
 
 /// The adapter's log, if the adapter itself had a problem.
@@ -155,21 +175,22 @@ fn log(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     if report.log.is_empty() || !report.adapter_broke() {
         return Ok(());
     }
-    writeln!(out, "\nThe adapter's standard error ends with:")?;
+    writeln!(out, "\n{LOG}")?;
     for line in report.log.lines() {
         writeln!(out, "  {line}")?;
     }
     Ok(())
 }
 
-fn summary(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+/// The result of the run, and the counts of the verdicts.
+pub(super) fn summary(report: &Report) -> String {
     let color = match report.exit_status() {
         0 => AnsiColor::Green,
         1 => AnsiColor::Red,
         _ => AnsiColor::Yellow,
     };
     let style = color.on_default().bold();
-    writeln!(out, "\n{style}{}{style:#}  {}", report.word(), counts(&report.summary.totals))
+    format!("{style}{}{style:#}  {}", report.word(), counts(&report.summary.totals))
 }
 
 /// The counts of the verdicts that occurred: `12 pass  3 fail`.

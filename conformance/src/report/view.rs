@@ -4,7 +4,7 @@ use std::fmt;
 
 use indexmap::IndexMap;
 
-use super::model::{Cause, CheckResult, NotPassed, Report, RequirementResult, Stopped};
+use super::model::{Cause, CheckResult, NotPassed, Report, RequirementResult, Stopped, Tally};
 use super::words;
 use crate::adapter::Output;
 use crate::explain::diff::Row;
@@ -51,6 +51,45 @@ impl Report {
         };
         groups.sort_by_key(place);
         groups
+    }
+
+    /// The checks that accuse their own requirement, the most basic requirement first. If failures
+    /// that are expected lead to others, they are among them.
+    #[must_use]
+    pub fn findings(&self) -> Vec<Group<'_>> {
+        let cause = |group: &Group<'_>| {
+            let own = |cause: &Cause| cause.requirement == group.requirement.id;
+            self.causes.iter().position(own).unwrap_or(self.causes.len())
+        };
+        let leads = |group: &Group<'_>| {
+            self.causes.get(cause(group)).is_some_and(|cause| cause.failed == 0)
+        };
+        let accuses = |group: &Group<'_>| match group.checks.verdict {
+            Verdict::Warn => false,
+            Verdict::ExpectedFailure => leads(group),
+            _ => group.origin().is_none(),
+        };
+        let groups = Self::URGENT.into_iter().flat_map(|verdict| self.groups(verdict));
+        let mut findings: Vec<_> = groups.filter(accuses).collect();
+        findings.sort_by_key(cause);
+        findings
+    }
+
+    /// Why failures are expected, at most so many reasons, in a line each.
+    #[must_use]
+    pub fn excused(&self, most: usize) -> Vec<String> {
+        let count = |number| words::count(number, "expected failure");
+        let line = |tally: &Tally| format!("{}: {}", count(tally.count), tally.text);
+        let mut lines: Vec<_> = self.expected_failures.iter().take(most).map(line).collect();
+        let (all, rest) = (&self.expected_failures, self.expected_failures.iter().skip(most));
+        let more: usize = rest.map(|tally| tally.count).sum();
+        // An earlier report has no reasons.
+        match self.summary.totals.count(Verdict::ExpectedFailure) {
+            number if number > 0 && all.is_empty() => lines.push(count(number)),
+            _ if more > 0 => lines.push(format!("… and {} for other reasons", count(more))),
+            _ => {}
+        }
+        lines
     }
 
     /// The requirements by section, in the order of the documents.

@@ -8,6 +8,9 @@ use crate::adapter::{Output, Question, Rejection};
 use crate::subject::Answer;
 use crate::verdict::{Behaviour, Outcome, Verdict};
 
+/// Why a check failed if expected and actual answer say it all.
+pub const DIFFERS: &str = "the answer differs";
+
 /// One question to a subject, and what its answer must be.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
@@ -208,7 +211,7 @@ impl Check {
                 let detail = format!("accepted, but must be rejected ({fault})");
                 (Verdict::Fail, detail, Some(actual))
             }
-            _ => (Verdict::Fail, "the answer differs".to_owned(), Some(actual)),
+            _ => (Verdict::Fail, DIFFERS.to_owned(), Some(actual)),
         }
     }
 

@@ -17,7 +17,7 @@ fn a_wrong_answer_fails_with_both_values() {
     let run = answering(r#"printf '{"id":%s,"ok":{"crc":1}}\n' "$id""#);
     assert_eq!(run.exit(), 1);
     let text = String::from_utf8_lossy(&run.output.stdout).into_owned();
-    assert!(text.contains("expected  0xE6A1\n  got       0x0001"), "{text}");
+    assert!(text.contains("expected  0x4E19\n  got       0x0001"), "{text}");
 }
 
 #[test]

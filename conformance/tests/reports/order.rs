@@ -10,10 +10,10 @@ const REPORT: &[&[&str]] = &[
     &["result"],
     &["smallest"],
     &["collect", "read"],
-    &["words"],
+    &["fit", "words"],
     &["view"],
     &["json", "jsonl", "junit", "markdown", "html", "text"],
-    &["format"],
+    &["format", "screen"],
     &["compare"],
     &["schema"],
 ];

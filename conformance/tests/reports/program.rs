@@ -40,7 +40,13 @@ fn several_reports_are_written_at_once_and_again_from_json() {
     assert_eq!(actucheck(folder.path(), &render), (0, stdout.clone(), String::new()));
 
     let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
-    assert_eq!(read("first.text"), stdout);
+    assert_eq!(read("first.text"), read("again.text"));
+    let printed = |option| actucheck(folder.path(), &["report", "render", "report.json", option]).1;
+    assert_eq!(printed("-v"), read("first.text"));
+    assert_eq!(
+        printed("--quiet").lines().collect::<Vec<_>>(),
+        stdout.lines().rev().take(1).collect::<Vec<_>>()
+    );
     for (format, start) in [
         ("junit", "<?xml"),
         ("markdown", "## passed: actucheck-codec"),
@@ -153,6 +159,7 @@ fn what_can_not_be_is_refused_in_a_sentence() {
             "two reports go to -; give each a path of its own",
         ),
         (&["report", "render", "none.json"], "cannot read none.json"),
+        (&["codec", "-v", "-q"], "'--verbose' cannot be used with '--quiet'"),
         (&["report", "render", "old.json"], "old.json is a report of version 1"),
         (&["report", "compare", "report.json"], "<REPORT>..."),
         (&["report", "compare", "report.json", "old.json"], "old.json is a report of version 1"),

@@ -167,6 +167,11 @@ pub(crate) fn small_right() -> Report {
 }
 
 /// A report of an implementation that reads byte stuffing as data.
+pub(crate) fn left_in_whole() -> Report {
+    report("left in", "*", left_in, "[]")
+}
+
+/// A short report of the same.
 pub(crate) fn leaves_stuffing_in() -> Report {
     report("left in", "*stuffing.*/decode", left_in, "[]")
 }

@@ -1,8 +1,19 @@
 use actucheck::report::compare::Comparison;
 use actucheck::report::{Format, Report};
 use actucheck::verdict::Verdict;
+use anstream::adapter::strip_bytes;
+use textwrap::core::display_width;
+
+use actucheck::report::screen::{self, Detail, Terminal};
 
 use super::sample;
+
+fn on_terminal(report: &Report, detail: Detail, width: usize) -> String {
+    let mut text = Vec::new();
+    let terminal = Terminal { detail, width, next: &["Next: look at the page."] };
+    screen::write(report, &terminal, &mut text).unwrap();
+    String::from_utf8(strip_bytes(&text).into_vec()).unwrap()
+}
 
 fn written(format: Format, report: &Report) -> String {
     let mut text = Vec::new();
@@ -37,6 +48,76 @@ fn a_terminal_shows_the_worst_last() {
 
     FAILED  2 pass  1 fail
     "#);
+}
+
+#[test]
+fn a_failing_run_fits_a_screen() {
+    insta::assert_snapshot!(on_terminal(&sample::interrupted(), Detail::Screen, 80), @r"
+    unstuffed 1.0 (C)  wire dynamixel2  3 checks
+
+    At fault, the most basic first:
+
+    FAIL dynamixel2.stuffing.transmit  1 of 2 checks
+      must      A sender adds FD after every FF FF FD between the instruction and
+                the last parameter, then sets the length and computes the CRC.
+      source    DYNAMIXEL Protocol 2.0, Packet 처리 (packet handling)
+      request   encode kind: instruction, id: 1, instruction: 3, params:
+                3402fffffdff
+      expected  ff ff fd 00 01 [0a] 00 03 34 02 ff ff fd [fd] ff [23 51]
+      got       ff ff fd 00 01 [09] 00 03 34 02 ff ff fd ff [7f 05]
+      differs   byte 5, in the length
+      replay    actucheck replay dynamixel2.stuffing.goal-position/encode -- ./adapter 'two words'
+
+    interrupted: 7 checks not asked
+
+    Next: look at the page.
+
+    FAILED  2 pass  1 fail
+    ");
+    for report in [sample::every_verdict(), sample::unstuffed_whole(), sample::left_in_whole()] {
+        for width in [80, 120] {
+            let text = on_terminal(&report, Detail::Screen, width);
+            let rows = |line: &str| display_width(line).div_ceil(width).max(1);
+            let filled: usize = text.lines().map(rows).sum();
+            assert!((12..=40).contains(&filled), "{filled} of {width}:\n{text}");
+            let is_evidence = |line: &str| line.starts_with("  ") && !line.starts_with("  replay ");
+            let long = |line: &&str| display_width(line) > width && is_evidence(line);
+            assert_eq!(text.lines().find(long), None, "{width}");
+        }
+    }
+}
+
+#[test]
+fn a_passing_run_takes_a_few_lines_and_a_quiet_one_a_single_line() {
+    insta::assert_snapshot!(on_terminal(&sample::small_right(), Detail::Screen, 80), @r"
+    right 1.0 (C)  wire dynamixel2  3 checks
+
+    passed  3 pass
+    ");
+    let last = on_terminal(&sample::interrupted(), Detail::Least, 80);
+    assert_eq!(last, "FAILED  2 pass  1 fail\n");
+    let all = written(Format::Text, &sample::every_verdict());
+    assert_eq!(on_terminal(&sample::every_verdict(), Detail::Most, 80), all);
+}
+
+#[test]
+fn a_script_in_the_replay_line_is_left_out_of_the_screen() {
+    let mut report = sample::small();
+    let replay = &mut report.not_passed[0].smallest[0].replay;
+    *replay = replay.take().map(|line| format!("{line} 'a\nb'"));
+    let text = on_terminal(&report, Detail::Screen, 80);
+    let line = text.lines().find(|line| line.starts_with("  replay ")).unwrap();
+    assert!(line.ends_with("stuffing.goal-position/encode -- …"), "{text}");
+}
+
+#[test]
+fn an_expected_failure_is_told_by_its_reason() {
+    let report = sample::every_verdict();
+    for detail in [Detail::Screen, Detail::Most] {
+        let text = on_terminal(&report, detail, 80);
+        assert!(text.contains("\n1 expected failure: <i>known</i>\n"), "{text}");
+        assert!(!text.contains("EXPECTED FAILURE"), "{text}");
+    }
 }
 
 #[test]

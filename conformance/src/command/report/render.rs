@@ -4,11 +4,11 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use actucheck::report::format::NO_JSONL;
-use actucheck::report::{Format, text};
+use actucheck::report::{Format, screen};
 use clap::Args;
 
 use super::read;
-use crate::command::shared::{Failure, Outputs, Reports};
+use crate::command::shared::{Failure, Look, NEXT, Outputs, Reports};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -27,6 +27,8 @@ pub(crate) struct Render {
     file: PathBuf,
     #[command(flatten)]
     reports: Reports,
+    #[command(flatten)]
+    look: Look,
 }
 
 /// Reads the report and writes it.
@@ -35,7 +37,9 @@ pub(crate) fn run(options: &Render) -> Result<ExitCode, Failure> {
         return Err(Failure::usage(NO_JSONL));
     }
     let report = read(&options.file)?;
-    Outputs::open(&options.reports)?
-        .write(|format, out| format.write(&report, out), |out| text::write(&report, out))?;
+    Outputs::open(&options.reports)?.write(
+        |format, out| format.write(&report, out),
+        |out| screen::write(&report, &options.look.terminal(NEXT), out),
+    )?;
     Ok(ExitCode::SUCCESS)
 }

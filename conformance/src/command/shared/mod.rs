@@ -2,6 +2,7 @@
 
 mod begun;
 mod failure;
+mod look;
 mod outputs;
 mod progress;
 mod selection;
@@ -17,6 +18,7 @@ use actucheck_spec::Spec;
 
 pub(crate) use begun::{command_line, date};
 pub(crate) use failure::Failure;
+pub(crate) use look::{Look, NEXT};
 pub(crate) use outputs::{Outputs, Reports};
 pub(crate) use progress::progress;
 pub(crate) use selection::{Growth, Selection};

@@ -1,0 +1,39 @@
+//! How much a command prints.
+
+use actucheck::report::screen::{Detail, Terminal};
+use clap::Args;
+
+/// More or less than a screenful.
+#[derive(Clone, Copy, Debug, Args)]
+pub(crate) struct Look {
+    /// Print everything: each requirement, and each finding with its smallest checks
+    #[arg(short, long, conflicts_with = "quiet")]
+    verbose: bool,
+    /// Print the last line only
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+/// The narrowest terminal that a report is fitted to.
+const NARROWEST: usize = 40;
+
+impl Look {
+    /// How much of a report is printed.
+    pub(crate) const fn detail(self) -> Detail {
+        match self {
+            Self { verbose: true, .. } => Detail::Most,
+            Self { quiet: true, .. } => Detail::Least,
+            _ => Detail::Screen,
+        }
+    }
+
+    /// How a report is printed, with what its reader can do next.
+    pub(crate) fn terminal<'a>(self, next: &'a [&'a str]) -> Terminal<'a> {
+        let width = textwrap::termwidth().max(NARROWEST);
+        Terminal { detail: self.detail(), width, next }
+    }
+}
+
+/// What the reader of a failing report can do next.
+pub(crate) const NEXT: &[&str] =
+    &["Next: run a replay line; -v for every finding; --report html=FILE for a page."];
