@@ -8,12 +8,15 @@ use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
+use actucheck::adapter::Wire;
 use actucheck::report::{Collector, End, Run, Stopped, screen};
 use actucheck::run;
 use actucheck::suite::check::Check;
 use actucheck::suite::expect::Expectations;
+use actucheck::suite::plan::Plan;
 use actucheck::suite::saved;
 use actucheck::verdict::Outcome;
+use actucheck_spec::Spec;
 use clap::Args;
 
 use super::shared::{
@@ -30,6 +33,8 @@ Examples:
       only some checks, of one of the wires that the adapter offers
   actucheck codec --report html=report.html --report junit=report.xml -- ./my-adapter
       with a page to read and a file for what collects the results of tests
+  actucheck codec --report markdown+=\"$GITHUB_STEP_SUMMARY\" -- ./my-adapter
+      adds to a file, as to the page of a GitHub job
   actucheck codec --report json=- -- ./my-adapter | jq .totals
       for a program: totals, requirements, and the smallest checks of each that did not pass
   actucheck codec --report jsonl=- -- ./my-adapter | jq -r 'select(.verdict == \"fail\").id'
@@ -41,8 +46,12 @@ Examples:
 
 Ctrl-C ends a run early and reports what was found so far.
 
-Exit status: 0 all passed, 1 something failed, 2 wrong usage, 3 something could not be run, \
-4 the adapter could not be started.";
+A file of a report is replaced when the new report is whole. If a run cannot begin, as of a mistyped \
+command, the reports of the run before stay, but a junit report says in an error why: else a CI \
+server would take the old one for the new one.
+
+Exit status: 0 all passed, 1 something failed, 2 wrong usage, 3 something could not be run or \
+written, 4 the adapter could not be started.";
 
 /// Checks a codec: the built-in one, or a library behind an adapter
 #[derive(Debug, Args)]
@@ -74,25 +83,10 @@ pub(crate) struct Codec {
 pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     let spec = shared::spec()?;
     let selection = &options.selection;
-    let mut outputs = Outputs::open(&options.reports)?;
-    let mut subjects = Subjects::start(&options.adapter, options.jobs)?;
+    let outputs = Outputs::open(&options.reports, options.adapter.trace())?;
+    let (mut outputs, start) = outputs.unless_failed(Start::new(options, &spec))?;
+    let Start { mut subjects, wires, plan, records, mut expectations } = start;
     let hello = subjects.hello.clone();
-    let wires = selection.offered_wires(&hello)?;
-    let mut plan = selection.growth.plan(&spec, &wires, Some(&hello));
-    subjects.say_other_role(&plan);
-    let mut records = BTreeMap::new();
-    for path in &options.also {
-        let more = saved::read(path).map_err(Failure::usage)?;
-        let selected = |check: &Check| wires.contains(&check.question.wire());
-        let more: Vec<_> = more.into_iter().filter(selected).collect();
-        records.extend(more.iter().map(|check| (check.id.clone(), path.clone())));
-        plan.add(more);
-    }
-    let mut expectations = match &options.expect {
-        Some(path) => Expectations::read(path, &plan).map_err(Failure::usage)?,
-        None => Expectations::default(),
-    };
-    selection.restrict(&mut plan)?;
     let size = plan.size();
 
     let template = "{bar:30} {pos}/{len} checks  {per_sec}  {eta} left";
@@ -127,6 +121,7 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     let seconds = started.elapsed().as_secs_f64();
     progress.finish_and_clear();
 
+    let (log, traced) = subjects.end();
     expectations.unexpected().into_iter().for_each(|passes| collector.revise(passes));
     let report = collector.finish(End {
         seconds,
@@ -136,15 +131,50 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
             interrupted.load(Ordering::Relaxed).then_some(Stopped::Interrupted)
         },
         left: size.saturating_sub(asked),
-        log: subjects.end()?,
+        log,
     });
     let streamed = streams.end(&report.summary);
-    outputs.write(
+    let written = outputs.write(
         |format, out| format.write(&report, out),
         |out| screen::write(&report, &options.look.terminal(NEXT), out),
-    )?;
-    streamed?;
+    );
+    shared::both(traced, shared::both(streamed, written))?;
     Ok(ExitCode::from(report.exit_status()))
+}
+
+/// What a run needs before its first check.
+struct Start<'a> {
+    subjects: Subjects,
+    wires: Vec<Wire>,
+    plan: Plan<'a>,
+    /// The files of the checks that `--also` adds, by the checks' ids.
+    records: BTreeMap<String, PathBuf>,
+    expectations: Expectations,
+}
+
+impl<'a> Start<'a> {
+    fn new(options: &Codec, spec: &'a Spec) -> Result<Self, Failure> {
+        let selection = &options.selection;
+        let mut subjects = Subjects::start(&options.adapter, options.jobs)?;
+        let hello = subjects.hello.clone();
+        let wires = selection.offered_wires(&hello)?;
+        let mut plan = selection.growth.plan(spec, &wires, Some(&hello));
+        subjects.say_other_role(&plan);
+        let mut records = BTreeMap::new();
+        for path in &options.also {
+            let more = saved::read(path).map_err(Failure::usage)?;
+            let selected = |check: &Check| wires.contains(&check.question.wire());
+            let more: Vec<_> = more.into_iter().filter(selected).collect();
+            records.extend(more.iter().map(|check| (check.id.clone(), path.clone())));
+            plan.add(more);
+        }
+        let expectations = match &options.expect {
+            Some(path) => Expectations::read(path, &plan).map_err(Failure::usage)?,
+            None => Expectations::default(),
+        };
+        selection.restrict(&mut plan)?;
+        Ok(Self { subjects, wires, plan, records, expectations })
+    }
 }
 
 /// What ends a run early.

@@ -18,7 +18,7 @@ use actucheck::suite::saved;
 use clap::Args;
 use indicatif::ProgressBar;
 
-use super::shared::{self, Adapter, Failure, Look, Subjects, duration, wire};
+use super::shared::{self, Adapter, Failure, Look, Subjects, Target, duration, wire};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -80,6 +80,8 @@ const RESTARTS: u32 = 1000;
 /// Fuzzes, prints the findings and saves them.
 pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
     let spec = shared::spec()?;
+    Target::all_differ(options.adapter.trace().into_iter().chain([options.out.as_path()]))?;
+    let out = Target::new(&options.out)?;
     let mut subjects = Subjects::start_with(&options.adapter, options.jobs, RESTARTS)?;
     let hello = subjects.hello.clone();
     let seed = options.seed.unwrap_or_else(|| RandomState::new().hash_one(()));
@@ -101,8 +103,8 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
     });
     progress.finish_and_clear();
     // What cannot be written is told behind the findings.
-    let log = subjects.end();
-    let kept = keep(options, &fuzzed.findings);
+    let (log, traced) = subjects.end();
+    let kept = keep(out, &fuzzed.findings);
     let took = started.elapsed();
     let found = fuzzed.findings.iter();
     let run = Run {
@@ -126,8 +128,7 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
     show(&report, &fuzzed, options.look, &mut out)
         .and_then(|()| summary(options, seed, &fuzzed, kept.is_ok(), took, &mut out))
         .map_err(Failure::incomplete)?;
-    kept?;
-    let log = log?;
+    shared::both(kept, traced)?;
     if let Some(reason) = &fuzzed.given_up {
         let last = log.lines().last().map(|line| format!("; it said `{line}`")).unwrap_or_default();
         return Err(Failure::incomplete(legible(&format!("{reason}{last}"), LONGEST_TEXT)));
@@ -138,17 +139,12 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
 }
 
 /// Writes the smallest case of each kind of failure to a file that `replay` and `codec` take.
-fn keep(options: &Fuzz, findings: &[Finding]) -> Result<(), Failure> {
+fn keep(out: Target, findings: &[Finding]) -> Result<(), Failure> {
     if findings.is_empty() {
         return Ok(());
     }
     let checks: Vec<_> = findings.iter().flat_map(Finding::checks).cloned().collect();
-    let cannot_write = |error: &dyn std::fmt::Display| {
-        let path = options.out.display();
-        Failure::incomplete(format!("cannot write {path}: {error}"))
-    };
-    let text = saved::write(&checks).map_err(|error| cannot_write(&error))?;
-    std::fs::write(&options.out, text).map_err(|error| cannot_write(&error))
+    out.write(saved::write(&checks).map_err(Failure::incomplete)?.as_bytes())
 }
 
 /// How many kinds of finding are told on a screen.

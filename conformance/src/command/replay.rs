@@ -59,13 +59,15 @@ pub(crate) fn run(options: &Replay) -> Result<ExitCode, Failure> {
     };
     let mut collector = Collector::new(&run);
     collector.extend(run::outcomes(&mut subjects.all, &Plan::of(checks.clone())));
-    let report = collector.finish(End { log: subjects.end()?, ..End::default() });
+    let (log, traced) = subjects.end();
+    let report = collector.finish(End { log, ..End::default() });
     let mut out = anstream::stdout();
     checks
         .iter()
         .try_for_each(|check| text::check(&spec, check, &mut out))
         .and_then(|()| text::write(&report, &mut out))
         .map_err(Failure::incomplete)?;
+    traced?;
     Ok(ExitCode::from(report.exit_status()))
 }
 

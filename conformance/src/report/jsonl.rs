@@ -55,13 +55,14 @@ impl<W: Write> Stream<W> {
         self.line(&Line::Check(Box::new(result)))
     }
 
-    /// Writes the last line.
+    /// Writes the last line, and returns what the lines were written to.
     ///
     /// # Errors
     /// If it can't be written.
-    pub fn end(mut self, summary: Summary) -> io::Result<()> {
+    pub fn end(mut self, summary: Summary) -> io::Result<W> {
         self.line(&Line::Summary(summary))?;
-        self.out.flush()
+        self.out.flush()?;
+        Ok(self.out)
     }
 
     fn line(&mut self, line: &Line) -> io::Result<()> {

@@ -27,8 +27,23 @@ pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         junit.set_timestamp(date);
     }
     junit.add_test_suites(report.sections().iter().map(|section| suite(report, section)));
-    junit.add_test_suites(report.cut_short().map(cut_short));
-    junit.serialize(out).map_err(io::Error::other)
+    junit.add_test_suites(report.cut_short().as_deref().map(cut_short));
+    serialize(&junit, out)
+}
+
+/// Writes the error that ended a run before its first check.
+///
+/// # Errors
+/// If it can't be written.
+pub fn write_not_started(sentence: &str, out: &mut dyn Write) -> io::Result<()> {
+    let mut junit = quick_junit::Report::new("actucheck");
+    junit.add_test_suite(error("started", "not-started", sentence));
+    serialize(&junit, out)
+}
+
+/// A reader that is gone or a full disk is told by the error's kind, which the XML writer would hide.
+fn serialize(junit: &quick_junit::Report, out: &mut dyn Write) -> io::Result<()> {
+    out.write_all(junit.to_string().map_err(io::Error::other)?.as_bytes())
 }
 
 fn suite(report: &Report, section: &Section<'_>) -> TestSuite {
@@ -108,10 +123,15 @@ const fn kind(verdict: Verdict) -> NonSuccessKind {
 }
 
 /// Checks that were not asked have no test cases, so an error says that they are missing.
-fn cut_short(sentence: String) -> TestSuite {
+fn cut_short(sentence: &str) -> TestSuite {
+    error("complete", "not-run", sentence)
+}
+
+/// An error of the whole run.
+fn error(name: &str, kind: &str, sentence: &str) -> TestSuite {
     let mut status = TestCaseStatus::non_success(NonSuccessKind::Error);
-    status.set_type("not-run").set_message(sentence);
+    status.set_type(kind).set_message(sentence);
     let mut suite = TestSuite::new("actucheck");
-    suite.add_test_case(TestCase::new("complete", status));
+    suite.add_test_case(TestCase::new(name, status));
     suite
 }

@@ -7,6 +7,8 @@ mod compare;
 mod html;
 mod json;
 mod junit;
+#[cfg(unix)]
+mod kept;
 mod order;
 mod program;
 mod sample;

@@ -156,7 +156,7 @@ fn what_can_not_be_is_refused_in_a_sentence() {
         (&["codec", "--report", "html="], "a report is written as FORMAT=PATH"),
         (
             &["codec", "--report", "json=-", "--report", "html=-"],
-            "two reports go to -; give each a path of its own",
+            "two outputs go to -; give each a path of its own",
         ),
         (&["report", "render", "none.json"], "cannot read none.json"),
         (&["codec", "-v", "-q"], "'--verbose' cannot be used with '--quiet'"),

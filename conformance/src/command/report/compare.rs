@@ -43,7 +43,7 @@ pub(crate) fn run(options: &Compare) -> Result<ExitCode, Failure> {
     }
     let others = options.others.iter().map(|file| read(file)).collect::<Result<_, _>>()?;
     let comparison = Comparison::of(read(&options.first)?, others).map_err(Failure::usage)?;
-    Outputs::open(&options.reports)?.write(
+    Outputs::open(&options.reports, [])?.write(
         |format, out| format.write_comparison(&comparison, out),
         |out| compare::write_text(&comparison, out),
     )?;

@@ -37,7 +37,7 @@ pub(crate) fn run(options: &Render) -> Result<ExitCode, Failure> {
         return Err(Failure::usage(NO_JSONL));
     }
     let report = read(&options.file)?;
-    Outputs::open(&options.reports)?.write(
+    Outputs::open(&options.reports, [])?.write(
         |format, out| format.write(&report, out),
         |out| screen::write(&report, &options.look.terminal(NEXT), out),
     )?;

@@ -64,6 +64,11 @@ impl Failure {
         Self::usage(format!("{sentence}{hint} (see `{command} --help`)"))
     }
 
+    /// Says another failure too; the exit status is that of the first.
+    pub(crate) fn and(self, other: &Self) -> Self {
+        Self { status: self.status, message: format!("{}; {}", self.message, other.message) }
+    }
+
     fn new(status: u8, message: &dyn Display) -> Self {
         Self { status, message: message.to_string() }
     }

@@ -9,6 +9,7 @@ mod selection;
 mod streams;
 mod subjects;
 pub(crate) mod table;
+mod target;
 mod value;
 
 use std::sync::Arc;
@@ -19,11 +20,12 @@ use actucheck_spec::Spec;
 pub(crate) use begun::{command_line, date};
 pub(crate) use failure::Failure;
 pub(crate) use look::{Look, NEXT};
-pub(crate) use outputs::{Outputs, Reports};
+pub(crate) use outputs::{Outputs, Reports, both};
 pub(crate) use progress::progress;
 pub(crate) use selection::{Growth, Selection};
 pub(crate) use streams::Streams;
 pub(crate) use subjects::{Adapter, Exchange, Subjects, finish};
+pub(crate) use target::{Draft, Target};
 pub(crate) use value::{duration, one_of, wire};
 
 /// The spec that this program was built with.
@@ -34,7 +36,7 @@ pub(crate) fn spec() -> Result<Spec, Failure> {
     })
 }
 
-/// Returns a flag that Ctrl-C sets.
+/// Returns a flag that Ctrl-C sets, or what else asks the program to end.
 pub(crate) fn interrupted() -> Result<Arc<AtomicBool>, Failure> {
     let flag = Arc::new(AtomicBool::new(false));
     let setter = Arc::clone(&flag);

@@ -1,66 +1,67 @@
 //! Where reports go.
 
-use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use actucheck::report::Format;
+use actucheck::report::{Format, junit};
 use clap::Args;
 
-use super::Failure;
+use super::target::{Target, seen};
+use super::{Draft, Failure};
 
 /// The reports to write.
 #[derive(Debug, Args)]
 pub(crate) struct Reports {
     /// Write a report: text, json, junit, markdown or html, or jsonl for every outcome as it comes;
-    /// `-` is standard output; may be given more than once
-    #[arg(long = "report", value_name = "FORMAT=PATH", value_parser = target)]
-    targets: Vec<Target>,
+    /// `-` is standard output; may be given more than once. A file keeps its old content until the
+    /// report is whole; `text+=PATH` and `markdown+=PATH` add to it
+    #[arg(long = "report", value_name = "FORMAT=PATH", value_parser = place)]
+    places: Vec<Place>,
 }
 
 impl Reports {
     /// Whether one of them has this format.
     pub(crate) fn any(&self, format: Format) -> bool {
-        self.targets.iter().any(|target| target.format == format)
+        self.places.iter().any(|place| place.format == format)
     }
 }
 
 /// A report to write.
 #[derive(Clone, Debug)]
-struct Target {
+struct Place {
     format: Format,
     path: PathBuf,
+    appends: bool,
 }
 
-impl Target {
-    fn is_stdout(&self) -> bool {
-        self.path == Path::new("-")
-    }
-}
-
-fn target(text: &str) -> Result<Target, String> {
+fn place(text: &str) -> Result<Place, String> {
     let parse = || {
         let (name, path) = text.split_once('=')?;
+        let (name, appends) = name.strip_suffix('+').map_or((name, false), |name| (name, true));
         let format = Format::ALL.into_iter().find(|format| format.name() == name)?;
-        (!path.is_empty()).then(|| Target { format, path: path.into() })
+        (!path.is_empty()).then(|| Place { format, path: path.into(), appends })
     };
-    parse().ok_or_else(|| {
+    let place = parse().ok_or_else(|| {
         let formats = Format::ALL.map(Format::name).join(", ");
         format!("a report is written as FORMAT=PATH; formats are {formats}")
-    })
+    })?;
+    if place.appends && !matches!(place.format, Format::Text | Format::Markdown) {
+        let format = place.format.name();
+        return Err(format!("only text and markdown can be added to a file; write {format}=PATH"));
+    }
+    Ok(place)
 }
 
-/// Reports that are open for writing, and the text on the terminal.
+/// Reports that can be written, and the text on the terminal.
 pub(crate) struct Outputs {
     files: Vec<Output>,
     terminal: Terminal,
 }
 
-/// A report that is open for writing.
-pub(crate) struct Output {
+/// A report that can be written.
+struct Output {
     format: Format,
-    pub(crate) name: String,
-    pub(crate) file: Box<dyn Write + Send>,
+    target: Target,
 }
 
 /// Where the text report goes.
@@ -72,67 +73,74 @@ enum Terminal {
 }
 
 impl Outputs {
-    /// Opens the reports before the run, so that a wrong path is reported at once.
-    pub(crate) fn open(reports: &Reports) -> Result<Self, Failure> {
-        let mut outputs = Self { files: Vec::new(), terminal: Terminal::Stdout };
-        for (index, target) in reports.targets.iter().enumerate() {
-            let name = target.path.display().to_string();
-            let others = reports.targets.iter().take(index);
-            if others.map(|other| &other.path).any(|path| *path == target.path) {
-                let message = format!("two reports go to {name}; give each a path of its own");
-                return Err(Failure::usage(message));
-            }
-            if target.is_stdout() && target.format == Format::Text {
-                continue; // It goes there anyway.
-            }
-            let file = outputs
-                .file(target)
-                .map_err(|error| Failure::usage(format!("cannot write {name}: {error}")))?;
-            outputs.files.push(Output { format: target.format, name, file });
+    /// Finds out whether the reports can be written, and that each file is written once. `others`
+    /// are the files that the command writes besides.
+    pub(crate) fn open<'a>(
+        reports: &'a Reports,
+        others: impl IntoIterator<Item = &'a Path>,
+    ) -> Result<Self, Failure> {
+        let paths = reports.places.iter().map(|place| place.path.as_path());
+        Target::all_differ(paths.chain(others))?;
+        let mut files = Vec::new();
+        for Place { format, path, appends } in &reports.places {
+            let target = if *appends { Target::appending(path) } else { Target::new(path) }?;
+            files.push(Output { format: *format, target });
         }
-        Ok(outputs)
+        // The text goes to standard output anyway.
+        files.retain(|file| !(file.target.is_stdout() && file.format == Format::Text));
+        let is_taken = files.iter().any(|file| file.target.is_stdout());
+        let terminal = if is_taken { Terminal::Stderr } else { Terminal::Stdout };
+        Ok(Self { files, terminal })
     }
 
-    fn file(&mut self, target: &Target) -> io::Result<Box<dyn Write + Send>> {
-        if target.is_stdout() {
-            self.terminal = Terminal::Stderr;
-            return Ok(Box::new(io::BufWriter::new(io::stdout())));
-        }
-        Ok(Box::new(io::BufWriter::new(File::create(&target.path)?)))
+    /// Takes out the reports of one format, each with its name.
+    pub(super) fn take(&mut self, format: Format) -> Vec<(String, io::Result<Draft>)> {
+        let own = self.files.extract_if(.., |file| file.format == format);
+        own.map(|file| (file.target.name.clone(), file.target.begin())).collect()
     }
 
-    /// Takes out the reports of one format.
-    pub(crate) fn take(&mut self, format: Format) -> Vec<Output> {
-        self.files.extract_if(.., |file| file.format == format).collect()
+    /// Hands on what a run needs before its first check. If that failed, the reports of earlier
+    /// runs stay, but JUnit gets an error: a CI server would take an earlier file for this run's.
+    pub(crate) fn unless_failed<T>(self, start: Result<T, Failure>) -> Result<(Self, T), Failure> {
+        let failure = match start {
+            Ok(started) => return Ok((self, started)),
+            Err(failure) => failure,
+        };
+        let junit = self.files.into_iter().filter(|file| file.format == Format::Junit);
+        let mut text = Vec::new();
+        let composed = junit::write_not_started(&failure.to_string(), &mut text);
+        let composed = composed.map_err(Failure::incomplete);
+        let written = junit.map(|file| file.target.write(&text));
+        let problems: Vec<_> =
+            [composed].into_iter().chain(written).filter_map(Result::err).collect();
+        Err(problems.iter().fold(failure, Failure::and))
     }
 
-    /// Writes every report with `report`, whether or not another can be written, and the text on the terminal, which may have colours,
-    /// with `text`.
+    /// Writes every report with `report`, whether or not another can be written, and the text on
+    /// the terminal, which may have colours, with `text`.
     pub(crate) fn write(
         self,
         report: impl Fn(Format, &mut dyn Write) -> io::Result<()>,
         text: impl Fn(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), Failure> {
         let mut result = Ok(());
-        for Output { format, name, mut file } in self.files {
-            let written = report(format, &mut file).and_then(|()| file.flush());
-            result = result.and(seen(&name, written));
+        for Output { format, target } in self.files {
+            let name = target.name.clone();
+            let write = |mut draft: Draft| report(format, &mut draft).and_then(|()| draft.finish());
+            result = both(result, seen(&name, target.begin().and_then(write)));
         }
         let written = match self.terminal {
             Terminal::Stdout => text(&mut anstream::stdout()),
             Terminal::Stderr => text(&mut anstream::stderr()),
         };
-        result.and(seen("the report", written))
+        both(result, seen("the report", written))
     }
 }
 
-/// A closed pipe, as of `| head`, is not an error.
-pub(super) fn seen(name: &str, written: io::Result<()>) -> Result<(), Failure> {
-    match written {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            let message = format!("cannot write {name}: {error}");
-            Err(Failure::incomplete(message))
-        }
-        _ => Ok(()),
+/// Both failures in one, if there are two.
+pub(crate) fn both(first: Result<(), Failure>, second: Result<(), Failure>) -> Result<(), Failure> {
+    match (first, second) {
+        (Err(first), Err(second)) => Err(first.and(&second)),
+        (first, second) => first.and(second),
     }
 }

@@ -1,26 +1,28 @@
 //! Reports that are written during a run.
 
-use std::io::{self, Write};
+use std::io;
 
 use actucheck::report::jsonl::Stream;
 use actucheck::report::model::{Header, Summary};
 use actucheck::report::{Format, Run};
 use actucheck::verdict::Outcome;
 
-use super::Failure;
-use super::outputs::{Output, Outputs, seen};
+use super::outputs::{Outputs, both};
+use super::target::seen;
+use super::{Draft, Failure};
 
 /// The `jsonl` reports of a run. An error in writing one does not end the run.
 pub(crate) struct Streams(Vec<Open>);
 
 /// The name of a report, and its stream or the error that ended it.
-type Open = (String, io::Result<Stream<Box<dyn Write + Send>>>);
+type Open = (String, io::Result<Stream<Draft>>);
 
 impl Streams {
     /// Writes the headers.
     pub(crate) fn begin(outputs: &mut Outputs, header: &Header) -> Self {
-        let begin = |Output { name, file, .. }| (name, Stream::begin(file, header.clone()));
-        Self(outputs.take(Format::Jsonl).into_iter().map(begin).collect())
+        let drafts = outputs.take(Format::Jsonl).into_iter();
+        let begin = |draft| Stream::begin(draft, header.clone());
+        Self(drafts.map(|(name, draft)| (name, draft.and_then(begin))).collect())
     }
 
     /// Writes an outcome.
@@ -36,9 +38,8 @@ impl Streams {
 
     /// Writes the summaries.
     pub(crate) fn end(self, summary: &Summary) -> Result<(), Failure> {
-        for (name, stream) in self.0 {
-            seen(&name, stream.and_then(|stream| stream.end(summary.clone())))?;
-        }
-        Ok(())
+        let end = |stream: Stream<Draft>| stream.end(summary.clone())?.finish();
+        let ended = self.0.into_iter().map(|(name, stream)| seen(&name, stream.and_then(end)));
+        ended.fold(Ok(()), both)
     }
 }

@@ -1,7 +1,5 @@
 //! The subject that is judged: the built-in codec, or a library behind an adapter.
 
-use std::fs::File;
-use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -10,8 +8,8 @@ use actucheck::subject::{Builtin, Process, Subject};
 use actucheck::suite::plan::Plan;
 use clap::Args;
 
-use super::Failure;
 use super::value::seconds;
+use super::{Failure, Target};
 
 /// An adapter, or none.
 #[derive(Debug, Args)]
@@ -35,6 +33,13 @@ pub(crate) struct Exchange {
     /// Write every line exchanged with the adapter to this file
     #[arg(long, value_name = "FILE")]
     trace: Option<PathBuf>,
+}
+
+impl Adapter {
+    /// The file that the exchange is written to, if it is.
+    pub(crate) fn trace(&self) -> Option<&Path> {
+        self.exchange.trace.as_deref()
+    }
 }
 
 impl Exchange {
@@ -101,13 +106,12 @@ impl Subjects {
         }
     }
 
-    /// Ends the processes. Returns the last lines that they logged.
-    pub(crate) fn end(self) -> Result<String, Failure> {
+    /// Ends the processes. Returns the last lines that they logged, and whether the trace was written.
+    pub(crate) fn end(self) -> (String, Result<(), Failure>) {
         let logs = self.all.iter().map(|subject| subject.log());
         let log = logs.filter(|log| !log.is_empty()).collect::<Vec<_>>().join("\n");
         drop(self.all);
-        finish(self.trace)?;
-        Ok(log)
+        (log, finish(self.trace))
     }
 }
 
@@ -117,8 +121,10 @@ pub(crate) fn finish(trace: Option<Trace>) -> Result<(), Failure> {
     trace.finish().map_err(|error| Failure::incomplete(format!("cannot write the trace: {error}")))
 }
 
+/// Unlike a report it is not written beside and renamed: if the program is killed, its lines say why.
 fn open_trace(path: &Path) -> Result<Trace, Failure> {
-    let file = File::create(path)
-        .map_err(|error| Failure::usage(format!("cannot write {}: {error}", path.display())))?;
-    Ok(Trace::new(Box::new(BufWriter::new(file))))
+    let file = Target::new(path)?.begin_record();
+    let file =
+        file.map_err(|error| Failure::usage(format!("cannot write {}: {error}", path.display())))?;
+    Ok(Trace::new(Box::new(file)))
 }

@@ -1,12 +1,11 @@
 //! `actucheck spec export`.
 
-use std::fs;
 use std::path::PathBuf;
 
 use actucheck_spec::{Spec, export};
 use clap::{Args, ValueEnum};
 
-use crate::command::shared::Failure;
+use crate::command::shared::{Failure, Target};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -20,7 +19,7 @@ pub(crate) struct Export {
     /// What to write
     #[arg(value_enum)]
     format: Format,
-    /// Where to write it; standard output if it is not given
+    /// Where to write it; standard output if it is not given, or `-`
     #[arg(long, value_name = "PATH")]
     output: Option<PathBuf>,
 }
@@ -47,11 +46,8 @@ pub(super) fn run(spec: &Spec, options: &Export) -> Result<(), Failure> {
         Format::Markdown => Ok(export::markdown::export(spec)),
     }
     .map_err(Failure::incomplete)?;
-    let Some(path) = &options.output else {
-        return super::print(&text);
-    };
-    fs::write(path, text).map_err(|error| {
-        let message = format!("cannot write {}: {error}", path.display());
-        Failure::usage(message)
-    })
+    match &options.output {
+        Some(path) => Target::new(path)?.write(text.as_bytes()),
+        None => super::print(&text),
+    }
 }
