@@ -193,7 +193,7 @@ fn an_export_goes_to_a_file_or_to_standard_output() {
     assert_eq!((status, stdout.as_str()), (0, ""));
     let text = std::fs::read_to_string(file).unwrap();
     assert_eq!(spec(&["export", "c-header"]).1, text);
-    for format in ["json", "vectors", "markdown"] {
+    for format in ["json", "vectors", "markdown", "wireshark"] {
         assert_eq!(spec(&["export", format]).0, 0, "{format}");
     }
 }

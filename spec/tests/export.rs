@@ -27,6 +27,7 @@ fn every_export_is_the_same_from_run_to_run() {
             export::vectors::export(&spec).unwrap(),
             export::c_header::export(&spec).unwrap(),
             export::markdown::export(&spec),
+            export::wireshark::export(&spec),
         ]
     };
     assert_eq!(all(), all());

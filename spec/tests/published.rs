@@ -23,6 +23,7 @@ fn generated() -> Vec<(String, String)> {
         schema::all().into_iter().map(|SchemaFile { path, text }| (path, text)).collect();
     let vectors = export::vectors::export(&spec()).unwrap();
     files.push(("export/vectors.json".to_owned(), vectors));
+    files.push(("export/actucheck.lua".to_owned(), export::wireshark::export(&spec())));
     files
 }
 

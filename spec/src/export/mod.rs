@@ -4,6 +4,7 @@ pub mod c_header;
 pub mod json;
 pub mod markdown;
 pub mod vectors;
+pub mod wireshark;
 
 use std::fmt;
 

@@ -9,6 +9,7 @@ use serde_json::Value;
 use super::{Call, Context, Direction, Fields, Packet};
 use crate::export::c_header::Header;
 use crate::export::markdown::Text;
+use crate::export::wireshark::Script;
 use crate::model::{Citation, Fault, HexBytes, Requirement};
 use crate::{Diagnostic, Spec};
 
@@ -131,6 +132,9 @@ pub trait Rules: Sync + RefUnwindSafe {
 
     /// Writes its part of the tables for people.
     fn markdown(&self, spec: &Spec, text: &mut Text);
+
+    /// Writes its part of the dissector for Wireshark: its tables, and the code that uses them.
+    fn wireshark(&self, spec: &Spec, script: &mut Script);
 
     /// The JSON Schema of its file, as text.
     fn schema(&self) -> String;

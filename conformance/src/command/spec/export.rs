@@ -10,7 +10,8 @@ use crate::command::shared::{Failure, Target};
 const EXAMPLES: &str = "\
 Examples:
   actucheck spec export vectors --output vectors.json
-  actucheck spec export c-header > actucheck.h";
+  actucheck spec export c-header > actucheck.h
+  actucheck spec export wireshark --output ~/.local/lib/wireshark/plugins/actucheck.lua";
 
 /// Writes the spec for programs, compilers or readers
 #[derive(Debug, Args)]
@@ -35,6 +36,8 @@ enum Format {
     CHeader,
     /// Control tables, instructions and commands as tables to read
     Markdown,
+    /// A dissector for Wireshark and tshark in Lua, for all wires
+    Wireshark,
 }
 
 /// Writes the export to the file, or to standard output.
@@ -44,6 +47,7 @@ pub(super) fn run(spec: &Spec, options: &Export) -> Result<(), Failure> {
         Format::Vectors => export::vectors::export(spec),
         Format::CHeader => export::c_header::export(spec),
         Format::Markdown => Ok(export::markdown::export(spec)),
+        Format::Wireshark => Ok(export::wireshark::export(spec)),
     }
     .map_err(Failure::incomplete)?;
     match &options.output {

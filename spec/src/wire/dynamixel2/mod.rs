@@ -8,6 +8,7 @@ mod model;
 mod packet;
 pub mod reference;
 mod validate;
+mod wireshark;
 
 use proc_macro2::TokenStream;
 use schemars::SchemaGenerator;
@@ -21,6 +22,7 @@ pub use packet::{Block, Packet};
 use super::{Ask, Call, Cited, Context, Direction, Fields, Rules, Wire};
 use crate::export::c_header::Header;
 use crate::export::markdown::Text;
+use crate::export::wireshark::Script;
 use crate::model::{Fault, HexBytes, Requirement};
 use crate::{Diagnostic, Spec, schema};
 
@@ -171,6 +173,10 @@ impl Rules for This {
 
     fn markdown(&self, spec: &Spec, text: &mut Text) {
         markdown::write(&spec.wires.dynamixel2.content, text);
+    }
+
+    fn wireshark(&self, spec: &Spec, script: &mut Script) {
+        wireshark::write(spec, script);
     }
 
     fn schema(&self) -> String {

@@ -8,6 +8,7 @@ mod model;
 mod packet;
 pub mod reference;
 mod validate;
+mod wireshark;
 
 use proc_macro2::TokenStream;
 use schemars::SchemaGenerator;
@@ -22,6 +23,7 @@ pub use packet::Packet;
 use super::{Ask, Call, Cited, Context, Direction, Fields, Rules, Wire};
 use crate::export::c_header::Header;
 use crate::export::markdown::Text;
+use crate::export::wireshark::Script;
 use crate::model::{Fault, HexBytes, Requirement};
 use crate::{Diagnostic, Spec, schema};
 
@@ -161,6 +163,10 @@ impl Rules for This {
 
     fn markdown(&self, spec: &Spec, text: &mut Text) {
         markdown::write(&spec.wires.innfos.content, text);
+    }
+
+    fn wireshark(&self, spec: &Spec, script: &mut Script) {
+        wireshark::write(&spec.wires.innfos.content, script);
     }
 
     fn schema(&self) -> String {
