@@ -38,6 +38,7 @@ fn run() -> Result<ExitCode, Failure> {
         Command::Codec(options) => command::codec::run(options),
         Command::Fuzz(options) => command::fuzz::run(options),
         Command::Decode(options) => command::decode::run(options),
+        Command::Encode(options) => command::encode::run(options),
         Command::List(options) => command::list::run(options),
         Command::Show(options) => command::show::run(options),
         Command::Replay(options) => command::replay::run(options),

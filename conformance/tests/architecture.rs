@@ -162,7 +162,7 @@ fn unsafe_code_is_in_few_places() {
 
 /// The places outside a wire's own folders that name it: registries, with one line per wire, and
 /// code that is about one wire by its nature.
-const NAMED: [(&str, &str); 23] = [
+const NAMED: [(&str, &str); 25] = [
     ("spec/src/wire/mod.rs", "registry"),
     ("spec/src/generate/device.rs", "control tables are of one wire"),
     ("codec/src/lib.rs", "registry"),
@@ -173,11 +173,13 @@ const NAMED: [(&str, &str); 23] = [
     ("codec/examples/", "a program for a device is for one wire"),
     ("conformance/src/suite/codec/mod.rs", "registry"),
     ("conformance/src/subject/builtin/mod.rs", "registry"),
+    ("conformance/src/compose/mod.rs", "registry"),
     ("conformance/src/explain/mod.rs", "registry"),
     ("conformance/src/blackbox/wire/mod.rs", "registry"),
     ("conformance/src/adapter/lint/example.rs", "registry: questions that any adapter can take"),
     ("conformance/src/command/codec.rs", "an example in a help text"),
     ("conformance/src/command/decode.rs", "an example in a help text"),
+    ("conformance/src/command/encode.rs", "an example in a help text"),
     ("conformance/src/command/list.rs", "an example in a help text"),
     ("conformance/src/command/replay.rs", "an example in a help text"),
     ("conformance/src/command/show.rs", "an example in a help text"),

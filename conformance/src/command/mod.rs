@@ -4,6 +4,7 @@ pub(crate) mod adapter;
 pub(crate) mod codec;
 pub(crate) mod completions;
 pub(crate) mod decode;
+pub(crate) mod encode;
 pub(crate) mod fuzz;
 pub(crate) mod list;
 pub(crate) mod replay;
@@ -32,6 +33,7 @@ pub(crate) enum Command {
     Codec(codec::Codec),
     Fuzz(fuzz::Fuzz),
     Decode(decode::Decode),
+    Encode(encode::Encode),
     List(list::List),
     Show(show::Show),
     Replay(replay::Replay),
