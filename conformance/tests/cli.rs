@@ -248,6 +248,7 @@ fn help_lists_the_subcommands_and_the_exit_status() {
       codec        Checks a codec: the built-in one, or a library behind an adapter
       fuzz         Looks for failures that no check foresees, and shrinks them
       decode       Explains one packet field by field
+      encode       Builds a packet from words
       list         Lists the checks
       show         Shows one check: what it asks, what it demands, and which sentence demands it
       replay       Asks one check again and shows the exchange
@@ -290,7 +291,7 @@ fn the_help_of_each_subcommand_has_an_example_of_it() {
             seen += 1;
         }
     }
-    assert_eq!(seen, 18);
+    assert_eq!(seen, 19);
 }
 
 #[test]

@@ -86,7 +86,8 @@ fn nearest(error: &clap::Error) -> Option<&str> {
         [ContextKind::SuggestedSubcommand, ContextKind::SuggestedArg, ContextKind::SuggestedValue];
     kinds.into_iter().find_map(|kind| match error.get(kind)? {
         ContextValue::String(name) => Some(name.as_str()),
-        ContextValue::Strings(names) => names.first().map(String::as_str),
+        // clap puts the most similar one last.
+        ContextValue::Strings(names) => names.last().map(String::as_str),
         _ => None,
     })
 }
