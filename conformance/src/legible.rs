@@ -5,28 +5,64 @@ use std::fmt::Write as _;
 /// The limit of a sentence, in characters.
 pub const LONGEST_TEXT: usize = 1000;
 
-/// A text from outside on one line. Characters that would control a terminal or change the
-/// direction of the script are escaped, and a long text is cut.
+/// The limit of a name, in characters.
+pub const LONGEST_NAME: usize = 100;
+
+/// Room for the note that a text was cut, in characters.
+const NOTE: usize = 36;
+
+/// A text from outside on one line, `longest` characters at most. Characters that control a
+/// terminal, break a line, change the direction of the script or are invisible are escaped. A long
+/// text is cut, and ends with the number of bytes that are missing. What is legible stays as it is.
 #[must_use]
 pub fn legible(text: &str, longest: usize) -> String {
     let mut clean = String::with_capacity(text.len().min(longest));
-    for (count, (at, character)) in text.char_indices().enumerate() {
-        if count == longest {
-            // Writing to a string can't fail.
-            let _ = write!(clean, "… ({} bytes more)", text.len() - at);
-            break;
+    let mut size = 0;
+    // Where the text is cut if it is too long: the places in it and in the clean one.
+    let mut cut = (0, 0);
+    for (at, character) in text.char_indices() {
+        if size <= longest.saturating_sub(NOTE) {
+            cut = (at, clean.len());
         }
-        let turns = matches!(
-            character,
-            '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}'
-        );
-        if character.is_control() || turns {
-            clean.extend(character.escape_default());
-        } else {
+        if is_seen(character) {
             clean.push(character);
+            size += 1;
+        } else {
+            let escaped = character.escape_default();
+            size += escaped.len();
+            clean.extend(escaped);
+        }
+        if size > longest {
+            let (from, to) = cut;
+            clean.truncate(to);
+            // Writing to a string can't fail.
+            let _ = write!(clean, "… ({} bytes more)", text.len() - from);
+            break;
         }
     }
     clean
+}
+
+/// Whether a character shows as what it is, and moves nothing else.
+fn is_seen(character: char) -> bool {
+    let hidden = matches!(
+        character,
+        '\u{ad}'                            // a hyphen that shows at the end of a line only
+            | '\u{61c}'                     // marks of direction
+            | '\u{200e}'..='\u{200f}'
+            | '\u{202a}'..='\u{202e}'
+            | '\u{2066}'..='\u{2069}'
+            | '\u{180e}'                    // characters without a width
+            | '\u{200b}'..='\u{200d}'
+            | '\u{2060}'..='\u{2065}'
+            | '\u{206a}'..='\u{206f}'
+            | '\u{feff}'
+            | '\u{2028}'..='\u{2029}'       // ends of lines and of paragraphs
+            | '\u{fff9}'..='\u{fffb}'       // annotations
+            | '\u{fffe}'..='\u{ffff}'       // no characters, and XML refuses them
+            | '\u{e0000}'..='\u{e0fff}'     // tags
+    );
+    !hidden && !character.is_control()
 }
 
 #[cfg(test)]
@@ -34,10 +70,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_text_from_outside_is_one_short_line() {
-        assert_eq!(legible("모두 \u{1b}[31mred\r\n\0", 99), "모두 \\u{1b}[31mred\\r\\n\\u{0}");
-        assert_eq!(legible("a\u{202e}b", 99), "a\\u{202e}b");
-        assert_eq!(legible("abcdé", 4), "abcd… (2 bytes more)");
+    fn a_text_from_outside_is_one_line() {
+        let text = "모두 \u{1b}[31mred\r\n\0 \u{9b}";
+        assert_eq!(legible(text, 99), "모두 \\u{1b}[31mred\\r\\n\\u{0} \\u{9b}");
+        assert_eq!(legible("a\u{202e}b\u{2028}c\u{200b}", 99), "a\\u{202e}b\\u{2028}c\\u{200b}");
+    }
+
+    #[test]
+    fn a_long_text_is_cut_to_the_limit_once() {
         assert_eq!(legible("abcd", 4), "abcd");
+        let cut = legible(&"é".repeat(7_000_000), 50);
+        assert_eq!(cut, format!("{}… (13999972 bytes more)", "é".repeat(14)));
+        let cut = legible(&"\u{1b}".repeat(7_000_000), 50);
+        assert_eq!(cut, "\\u{1b}\\u{1b}… (6999998 bytes more)");
+        assert_eq!(legible(&cut, 50), cut);
     }
 }

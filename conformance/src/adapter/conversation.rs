@@ -6,11 +6,12 @@ use std::process::ExitStatus;
 use std::time::Duration;
 
 use serde::Deserialize;
-use serde_json::Value;
+use serde_json::value::RawValue;
 use thiserror::Error;
 
 use super::process::{Line, Running};
 use super::{Rejection, Request, Settings, VERSION};
+use crate::legible::{LONGEST_TEXT, legible};
 
 /// A conversation with a running adapter. Dropping it kills the process.
 #[derive(Debug)]
@@ -30,27 +31,34 @@ pub(crate) struct Conversation {
 pub struct Said {
     /// Whether the adapter wrote the line, not the suite.
     pub by_adapter: bool,
-    /// The line, without its end.
+    /// The beginning of the line, without its end, as [`legible`] writes it.
     pub line: String,
 }
 
-/// The content of a reply.
-#[derive(Clone, Debug, PartialEq)]
+/// The content of a reply. Its texts are legible and short, whatever the adapter wrote.
+#[derive(Clone, Debug)]
 pub(crate) enum Reply {
-    /// The result.
-    Ok(Value),
+    /// The result: an object that is not read yet. So nothing of it that is not asked for takes
+    /// memory.
+    Ok(Box<RawValue>),
     /// The bytes or the packet are rejected.
     Err(Rejection),
-    /// The request was skipped, with the reason if there is one.
-    Skip(Option<String>),
+    /// The request was skipped, with the reason.
+    Skip(String),
 }
 
 /// What is wrong with the content of a reply whose request is known.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub(crate) enum Malformed {
+    /// `ok` is not an object.
+    #[error("`ok` is no object")]
+    Ok,
     /// `err` is not an object with a known class.
     #[error("`err` is wrong: {0}")]
     Err(String),
+    /// `skip` is not an object with a reason.
+    #[error("`skip` has no `reason`")]
+    Skip,
     /// It has no content.
     #[error("the reply has none of `ok`, `err` and `skip`")]
     Nothing,
@@ -127,7 +135,7 @@ impl Conversation {
         let line = format!("{{\"id\":{id},{fields}");
         self.running.send(line.as_bytes());
         if let Some(said) = &mut self.said {
-            said.push(Said { by_adapter: false, line });
+            said.push(Said { by_adapter: false, line: legible(&line, LONGEST_TEXT) });
         }
         id
     }
@@ -149,7 +157,7 @@ impl Conversation {
     pub(crate) fn hear(&mut self, limit: Duration) -> Option<Line> {
         let heard = self.running.receive(limit);
         if let (Some(Line::Text(line)), Some(said)) = (&heard, &mut self.said) {
-            let line = String::from_utf8_lossy(line).into_owned();
+            let line = legible(&String::from_utf8_lossy(line), LONGEST_TEXT);
             said.push(Said { by_adapter: true, line });
         }
         heard
@@ -175,11 +183,15 @@ impl Conversation {
     fn read(&mut self, line: &[u8]) -> Result<(u64, Result<Reply, Malformed>), Lost> {
         /// Fields that the adapter protocol does not have are ignored.
         #[derive(Deserialize)]
-        struct Fields {
-            id: Option<Value>,
-            ok: Option<Value>,
-            err: Option<Value>,
-            skip: Option<Value>,
+        struct Fields<'a> {
+            #[serde(borrow)]
+            id: Option<&'a RawValue>,
+            #[serde(borrow)]
+            ok: Option<&'a RawValue>,
+            #[serde(borrow)]
+            err: Option<&'a RawValue>,
+            #[serde(borrow)]
+            skip: Option<&'a RawValue>,
         }
         let no_object = |error| Lost::NoObject { error, line: shown(line) };
         match line.trim_ascii_start().first() {
@@ -188,27 +200,46 @@ impl Conversation {
             Some(b'[') => return Err(no_object("a list".to_owned())),
             Some(_) => {}
         }
-        let fields: Fields =
+        let fields: Fields<'_> =
             serde_json::from_slice(line).map_err(|error| no_object(error.to_string()))?;
-        let id = fields.id.as_ref().and_then(Value::as_u64);
+        let id = fields.id.and_then(|id| id.get().parse().ok());
         let id = id.ok_or_else(|| Lost::NoId(shown(line)))?;
         if !self.outstanding.remove(&id) {
             return Err(if id < self.next_id { Lost::Again(id) } else { Lost::NotSent(id) });
         }
         let reply = match (fields.ok, fields.err, fields.skip) {
-            (Some(ok), None, None) => Ok(Reply::Ok(ok)),
-            (None, Some(err), None) => serde_json::from_value(err)
-                .map(Reply::Err)
-                .map_err(|error| Malformed::Err(error.to_string())),
-            (None, None, Some(skip)) => {
-                let reason = skip.get("reason").and_then(Value::as_str);
-                Ok(Reply::Skip(reason.map(str::to_owned)))
+            (Some(ok), None, None) => {
+                object(ok).map(|ok| Reply::Ok(ok.to_owned())).ok_or(Malformed::Ok)
             }
+            (None, Some(err), None) => rejection(err),
+            (None, None, Some(skip)) => skipped(skip).ok_or(Malformed::Skip),
             (None, None, None) => Err(Malformed::Nothing),
             _ => Err(Malformed::Several),
         };
         Ok((id, reply))
     }
+}
+
+/// The value if it is an object: serde would also read the fields from a list.
+fn object(value: &RawValue) -> Option<&RawValue> {
+    value.get().starts_with('{').then_some(value)
+}
+
+fn rejection(err: &RawValue) -> Result<Reply, Malformed> {
+    let err = object(err).ok_or_else(|| Malformed::Err("it is no object".to_owned()))?;
+    let rejection: Rejection = serde_json::from_str(err.get())
+        .map_err(|error| Malformed::Err(legible(&error.to_string(), LONGEST_TEXT)))?;
+    let detail = legible(&rejection.detail, LONGEST_TEXT);
+    Ok(Reply::Err(Rejection { detail, ..rejection }))
+}
+
+fn skipped(skip: &RawValue) -> Option<Reply> {
+    #[derive(Deserialize)]
+    struct Skip {
+        reason: String,
+    }
+    let Skip { reason } = serde_json::from_str(object(skip)?.get()).ok()?;
+    Some(Reply::Skip(legible(&reason, LONGEST_TEXT)))
 }
 
 /// How an adapter ended.
@@ -221,8 +252,6 @@ pub(crate) fn ended(status: Option<ExitStatus>) -> String {
 
 /// The beginning of a line, for a message.
 fn shown(line: &[u8]) -> String {
-    const SHOWN: usize = 60;
-    let text: String = String::from_utf8_lossy(line).chars().take(SHOWN).collect();
-    let dots = if line.len() > SHOWN { "…" } else { "" };
-    format!("`{text}{dots}`")
+    const SHOWN: usize = 100;
+    format!("`{}`", legible(&String::from_utf8_lossy(line), SHOWN))
 }

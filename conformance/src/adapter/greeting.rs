@@ -7,6 +7,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 
 use super::{Hello, Implementation, Limits, VERSIONS, Wire};
+use crate::legible::{LONGEST_NAME, legible};
 
 /// The ops that `hello` may name. Every adapter has `hello` and `bye`, so they need not be listed.
 const OPS: [&str; 10] =
@@ -99,6 +100,7 @@ impl Greeting {
         let shortest = offered.map(|wire| wire.shortest_frame()).min().unwrap_or(1);
         let limits = limits.meant(shortest, &mut found);
         let max_in_flight = max_in_flight.max(1);
+        let implementation = implementation.legible();
         (Hello { protocol, implementation, wires, ops, roles, max_in_flight, limits }, found)
     }
 
@@ -124,6 +126,9 @@ impl Greeting {
     }
 }
 
+/// How many unknown names of a field are told one by one.
+const SHOWN: usize = 5;
+
 /// Removes the unknown names in a field of `hello`.
 fn known(
     given: &mut Vec<String>,
@@ -133,12 +138,16 @@ fn known(
 ) {
     let is_known = |name: &String| known.iter().any(|known| known.as_ref() == name);
     let names: Vec<_> = known.iter().map(AsRef::as_ref).collect();
-    found.extend(given.iter().filter(|name| !is_known(name)).map(|name| Contradiction {
-        what: format!("`{field}` names `{}`", name.escape_debug()),
+    let unknown: Vec<_> = given.extract_if(.., |name| !is_known(name)).collect();
+    let more = unknown.len().saturating_sub(SHOWN);
+    let last = (more > 0).then(|| format!("`{field}` names {more} more that there are not"));
+    let first = unknown.iter().take(SHOWN);
+    let first = first.map(|name| format!("`{field}` names `{}`", legible(name, LONGEST_NAME)));
+    found.extend(first.chain(last).map(|what| Contradiction {
+        what,
         mend: format!("name in `{field}` what there is: {}", names.join(", ")),
         instead: PASSED_OVER,
     }));
-    given.retain(is_known);
 }
 
 impl Limits {

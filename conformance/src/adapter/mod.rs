@@ -3,9 +3,11 @@
 
 pub(crate) mod conversation;
 mod greeting;
+mod kept;
 pub mod lint;
 mod message;
 mod process;
+mod reading;
 mod requests;
 pub mod schema;
 mod trace;
@@ -15,6 +17,7 @@ use std::time::Duration;
 
 pub use greeting::{Contradiction, Greeting};
 pub use message::Told;
+pub use reading::Misfit;
 pub use requests::{
     Called, Hello, Implementation, Limits, Output, Question, Rejection, Request, VERSION, VERSIONS,
     Wire,

@@ -12,6 +12,7 @@ use tokio::task::JoinHandle;
 use tokio::time::timeout;
 
 use super::{Settings, Trace};
+use crate::legible::{LONGEST_TEXT, legible};
 
 /// The longest line that an adapter may write, in bytes.
 const MAX_LINE: usize = 16 << 20;
@@ -122,10 +123,11 @@ impl Running {
         line
     }
 
-    /// The last bytes that it wrote to its standard error.
+    /// The last lines that it wrote to its standard error, each of them legible.
     pub(crate) fn log(&self) -> String {
-        let log = self.log.lock().unwrap_or_else(PoisonError::into_inner);
-        String::from_utf8_lossy(&log).trim_end().to_owned()
+        let log = self.log.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let log = String::from_utf8_lossy(&log).trim_end().to_owned();
+        log.lines().map(|line| legible(line, LONGEST_TEXT)).collect::<Vec<_>>().join("\n")
     }
 
     /// The exit status, if the process has ended or ends within a moment.

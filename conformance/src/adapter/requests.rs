@@ -354,60 +354,6 @@ impl Output {
             _ => self == other,
         }
     }
-
-    /// Reads the `ok` object of a reply to `op`.
-    ///
-    /// # Errors
-    /// What is wrong with the object.
-    pub fn read(op: &Question, ok: Value) -> Result<Self, serde_json::Error> {
-        #[derive(Deserialize)]
-        struct Crc {
-            crc: u64,
-        }
-        #[derive(Deserialize)]
-        struct Bytes {
-            bytes: HexBytes,
-        }
-        #[derive(Deserialize)]
-        struct One {
-            packet: Packet,
-        }
-        #[derive(Deserialize)]
-        struct Many {
-            packets: Vec<Packet>,
-        }
-        #[derive(Deserialize)]
-        #[serde(deny_unknown_fields)]
-        struct Meaning {
-            value: wire::Value,
-        }
-        #[derive(Deserialize)]
-        struct Said {
-            message: Message,
-        }
-        Ok(match op {
-            Question::Message { form, told: Told::Frame { .. }, .. } => {
-                let Said { message } = serde_json::from_value(ok)?;
-                match (form, &message.value) {
-                    (Some(form), Some(value)) if !form.fits(value) => {
-                        Err(serde::de::Error::custom(format!("`value` must have {form}")))
-                    }
-                    _ => Ok(Self::Message(message)),
-                }?
-            }
-            Question::Value { form, given: Given::Bytes(_), .. } => {
-                let Meaning { value } = serde_json::from_value(ok)?;
-                if !form.fits(&value) {
-                    return Err(serde::de::Error::custom(format!("`value` must have {form}")));
-                }
-                Self::Value(value)
-            }
-            Question::Crc { .. } => Self::Crc(serde_json::from_value::<Crc>(ok)?.crc),
-            Question::Decode { .. } => Self::Packet(serde_json::from_value::<One>(ok)?.packet),
-            Question::Stream { .. } => Self::Packets(serde_json::from_value::<Many>(ok)?.packets),
-            _ => Self::Bytes(serde_json::from_value::<Bytes>(ok)?.bytes),
-        })
-    }
 }
 
 /// Writes a CRC as a hexadecimal number, bytes in hex, and packets as JSON.

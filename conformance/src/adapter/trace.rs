@@ -3,6 +3,11 @@
 use std::io::{self, Write};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use crate::legible::legible;
+
+/// The limit of a line, in characters. A stream of 65,535 bytes in chunks of one byte is shorter.
+const LONGEST_LINE: usize = 400_000;
+
 /// A trace; its clones write to the same place.
 #[derive(Clone)]
 pub struct Trace {
@@ -34,15 +39,14 @@ impl Trace {
         }
     }
 
-    /// Records a line of the adapter process number `process`. The mark is `>` for a line to the
-    /// adapter, `<` for a line from it, and `!` for an event such as its end.
+    /// Records a line of the adapter process number `process`, as far as it is not longer than any
+    /// that makes sense. The mark is `>` for a line to the adapter, `<` for a line from it, and `!`
+    /// for an event such as its end.
     pub(super) fn note(&self, process: u32, mark: char, line: &[u8]) {
         let mut out = self.lock();
         if out.error.is_none() {
-            let mut text = format!("{process}{mark} ").into_bytes();
-            text.extend(line);
-            text.push(b'\n');
-            out.error = out.writer.write_all(&text).err();
+            let line = legible(&String::from_utf8_lossy(line), LONGEST_LINE);
+            out.error = writeln!(out.writer, "{process}{mark} {line}").err();
         }
     }
 

@@ -102,17 +102,25 @@ fn profile(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// Escapes a text so that Markdown shows it as it is, in a table's cell too.
+/// Escapes a text so that Markdown shows it as it is, in a table's cell too. An empty comment keeps
+/// a site from making links of addresses, of names and of numbers.
 pub(super) fn prose(text: &str) -> String {
+    const BREAK: &str = "<!-- -->";
     let mut escaped = String::with_capacity(text.len());
+    let mut before = ' ';
     for character in text.chars() {
         match character {
             '\n' | '\r' => escaped.push(' '),
-            '\\' | '`' | '*' | '_' | '[' | ']' | '<' | '>' | '|' | '#' | '~' | '&' | '$' => {
+            '\\' | '`' | '*' | '_' | '[' | ']' | '<' | '>' | '|' | '~' | '&' | '$' => {
                 escaped.extend(['\\', character]);
             }
+            '#' => escaped.extend(["\\#", BREAK]),
+            '@' => escaped.extend(["@", BREAK]),
+            '/' if before == ':' => escaped.extend([BREAK, "/"]),
+            '.' if before.eq_ignore_ascii_case(&'w') => escaped.extend([BREAK, "."]),
             character => escaped.push(character),
         }
+        before = character;
     }
     escaped
 }
@@ -129,6 +137,8 @@ mod tests {
     #[test]
     fn outside_text_is_neither_markup_nor_a_cell_of_its_own() {
         assert_eq!(prose("a|b <script>\n`c`"), r"a\|b \<script\> \`c\`");
+        assert_eq!(prose("@a #1"), r"@<!-- -->a \#<!-- -->1");
+        assert_eq!(prose("https://a www.b"), "https:<!-- -->//a www<!-- -->.b");
         assert_eq!(block("a\n```\nb"), "    a\n    ```\n    b");
     }
 }

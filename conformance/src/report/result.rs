@@ -14,9 +14,6 @@ use crate::legible::{LONGEST_TEXT, legible};
 use crate::suite::Options;
 use crate::verdict::Outcome;
 
-/// The limit of a name, in characters.
-const LONGEST_NAME: usize = 100;
-
 /// The limit of a request or output as JSON, in bytes.
 const LONGEST_PART: usize = 4000;
 
@@ -45,18 +42,11 @@ impl Run<'_> {
     /// The part of a report about it.
     #[must_use]
     pub fn header(&self) -> Header {
-        let name = |text: &String| legible(text, LONGEST_NAME);
-        let Implementation { name: own, version, language, url } = self.implementation;
         Header {
             actucheck: env!("CARGO_PKG_VERSION").to_owned(),
             date: Some(self.date.clone()),
             command_line: Some(legible(&self.command_line, LONGEST_TEXT)),
-            implementation: Implementation {
-                name: name(own),
-                version: name(version),
-                language: name(language),
-                url: url.as_ref().map(name),
-            },
+            implementation: self.implementation.clone().legible(),
             wires: self.wires.to_vec(),
             command: self.command.to_vec(),
             seed: self.options.seed,

@@ -6,15 +6,13 @@ use std::fmt::Write as _;
 use std::io;
 use std::time::Duration;
 
-use serde_json::Value;
 use thiserror::Error;
 
 use super::{Answer, Questions, Subject};
 use crate::adapter::conversation::{Conversation, Lost, Malformed, Reply};
 use crate::adapter::{
-    Contradiction, Greeting, Hello, Output, Question, Request, Settings, VERSIONS,
+    Contradiction, Greeting, Hello, Misfit, Output, Question, Request, Settings, VERSIONS,
 };
-use crate::legible::{LONGEST_TEXT, legible};
 
 /// The maximum number of outstanding questions, even if the adapter offers more.
 const MAX_IN_FLIGHT: usize = 256;
@@ -106,7 +104,7 @@ impl Process {
     fn say(
         &mut self,
         request: &Request<'_>,
-        read: impl FnOnce(Value) -> Result<Output, serde_json::Error>,
+        read: impl FnOnce(&str) -> Result<Output, Misfit>,
     ) -> Answer {
         let limit = self.settings.timeouts.request;
         let conversation = match self.conversation() {
@@ -224,7 +222,7 @@ fn start(command: &[String], settings: &Settings) -> Result<(Conversation, Greet
             let mut log = String::new();
             for line in conversation.log().lines() {
                 // Writing to a string can't fail.
-                let _ = write!(log, "\n  {}", legible(line, LONGEST_TEXT));
+                let _ = write!(log, "\n  {line}");
             }
             Err(StartError::Hello { command: name, problem, log })
         }
@@ -245,15 +243,8 @@ fn greet(conversation: &mut Conversation, limit: Duration) -> Result<Greeting, S
     let Ok(Reply::Ok(object)) = reply else {
         return Err("did not answer hello with `ok`".to_owned());
     };
-    let greeting: Greeting = serde_json::from_value(object)
-        .map_err(|error| format!("answered hello wrongly: {error}"))?;
-    if !VERSIONS.contains(&greeting.protocol) {
-        return Err(format!(
-            "speaks version {} of the adapter protocol; this suite speaks {}",
-            greeting.protocol,
-            VERSIONS.map(|version| version.to_string()).join(" and ")
-        ));
-    }
+    let greeting = Greeting::read(object.get())
+        .map_err(|misfit| format!("answered hello wrongly: {misfit}"))?;
     conversation.speak(greeting.protocol);
     Ok(greeting)
 }
@@ -272,13 +263,14 @@ impl From<Lost> for Answer {
 /// The answer that a reply is, whose `ok` is read with `read`.
 fn answer(
     reply: Result<Reply, Malformed>,
-    read: impl FnOnce(Value) -> Result<Output, serde_json::Error>,
+    read: impl FnOnce(&str) -> Result<Output, Misfit>,
 ) -> Answer {
     match reply {
-        Ok(Reply::Ok(ok)) => read(ok)
-            .map_or_else(|error| Answer::Faulty(format!("a wrong `ok`: {error}")), Answer::Ok),
+        Ok(Reply::Ok(ok)) => {
+            read(ok.get()).map_or_else(|misfit| Answer::Faulty(misfit.what), Answer::Ok)
+        }
         Ok(Reply::Err(rejection)) => Answer::Rejected(rejection),
-        Ok(Reply::Skip(reason)) => Answer::Skipped(reason.unwrap_or_default()),
+        Ok(Reply::Skip(reason)) => Answer::Skipped(reason),
         Err(malformed) => Answer::Faulty(malformed.to_string()),
     }
 }

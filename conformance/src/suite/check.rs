@@ -5,6 +5,7 @@ use actucheck_spec::wire::Number;
 use serde::{Deserialize, Serialize};
 
 use crate::adapter::{Output, Question, Rejection};
+use crate::legible::{LONGEST_TEXT, legible};
 use crate::subject::Answer;
 use crate::verdict::{Behaviour, Outcome, Verdict};
 
@@ -139,17 +140,24 @@ impl Check {
             verdict => verdict,
         };
         let unmet = !matches!(verdict, Verdict::Pass | Verdict::Recorded | Verdict::Skip);
+        let kept = actual.filter(|_| unmet).map(|actual| actual.kept(self.expected()));
+        let (actual, missing) = kept.unwrap_or_default();
+        let detail = match missing.as_str() {
+            _ if behaviour.is_some() => String::new(),
+            "" => legible(&detail, LONGEST_TEXT),
+            missing => format!("{detail}; {missing}"),
+        };
         Outcome {
             expected: self.expected().filter(|_| unmet).cloned(),
             id: self.id,
             requirement: self.requirement,
             level: self.level,
             verdict,
-            detail: if behaviour.is_some() { String::new() } else { detail },
+            detail,
             because: None,
             reason: None,
             request: unmet.then_some(self.question),
-            actual: actual.filter(|_| unmet),
+            actual,
             behaviour,
         }
     }

@@ -4,9 +4,12 @@
 #![cfg(unix)]
 
 mod adapter_check;
+mod alike;
+mod bounded;
 mod contract;
 mod early_end;
 mod fuzzing;
+mod hostile;
 mod misbehaving;
 mod several;
 mod templates;

@@ -18,6 +18,17 @@ pub struct Message {
 }
 
 impl Message {
+    /// The same with other names.
+    #[must_use]
+    pub fn map_names(self, other: impl Fn(String) -> String) -> Self {
+        let value = self.value.map(|value| match value {
+            Value::Name(name) => Value::Name(other(name)),
+            Value::Flags(names) => Value::Flags(names.into_iter().map(other).collect()),
+            number @ Value::Number(_) => number,
+        });
+        Self { value, ..self }
+    }
+
     /// Whether it is the same as `other`, or has a number that is less than `within` away.
     #[must_use]
     pub fn is_near(&self, other: &Self, within: Number) -> bool {

@@ -9,7 +9,7 @@ use serde_json::Value;
 use super::{Problem, Said};
 use crate::adapter::conversation::{Conversation, Lost, Malformed, Reply, ended};
 use crate::adapter::process::Line;
-use crate::adapter::{Rejection, Settings};
+use crate::adapter::{Misfit, Rejection, Settings, reading};
 
 pub(super) const ONLY_REPLIES: &str = "write nothing but replies to standard output, a JSON object a line; \
     messages go to standard error";
@@ -107,15 +107,18 @@ pub(super) const TOO_LONG: &str = "a line is longer than 16 MiB";
 /// The answer in a reply, or how to mend a reply that is not an answer.
 fn answer(reply: Result<Reply, Malformed>) -> Result<Answer, Problem> {
     match reply {
-        Ok(Reply::Ok(ok @ Value::Object(_))) => Ok(Answer::Ok(ok)),
-        Ok(Reply::Ok(_)) => Err(Problem::new(
-            "`ok` is no object",
+        Ok(Reply::Ok(ok)) => {
+            let ok = reading::object(ok.get());
+            ok.map(Answer::Ok).map_err(|Misfit { what, mend }| Problem::new(what, mend))
+        }
+        Ok(Reply::Err(rejection)) => Ok(Answer::Err(rejection)),
+        Ok(Reply::Skip(reason)) => Ok(Answer::Skip(reason)),
+        Err(malformed @ Malformed::Ok) => Err(Problem::new(
+            malformed,
             "put the result under its name into `ok`, such as {\"crc\": 1}",
         )),
-        Ok(Reply::Err(rejection)) => Ok(Answer::Err(rejection)),
-        Ok(Reply::Skip(Some(reason))) => Ok(Answer::Skip(reason)),
-        Ok(Reply::Skip(None)) => Err(Problem::new(
-            "`skip` has no `reason`",
+        Err(malformed @ Malformed::Skip) => Err(Problem::new(
+            malformed,
             "`skip` is an object with `reason`, a text that reports show",
         )),
         Err(malformed @ Malformed::Err(_)) => Err(Problem::new(
