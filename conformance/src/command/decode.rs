@@ -1,19 +1,24 @@
 //! `actucheck decode`.
 
-use std::io::{self, Read as _, Write as _};
+mod input;
+mod packet;
+mod text;
+
+use std::io::{BufWriter, Write as _};
 use std::process::ExitCode;
 
-use actucheck::adapter::{Output, Question, Wire};
-use actucheck::explain::{Asked, Explanation, explain};
-use actucheck::subject::{Answer, Builtin, Subject as _};
+use actucheck::adapter::Wire;
+use actucheck::capture::{Form, Piece};
+use actucheck::explain::stream::{Event, Follower, Summary, wire_of};
+use actucheck::explain::{Asked, DEVICES};
+use actucheck_codec::ja40;
 use actucheck_codec::register::Device;
-use actucheck_codec::{ja_variant, ja40, xm430_w210};
-use actucheck_spec::model::HexBytes;
 use actucheck_spec::wire::{Context, Direction, Fast};
 use clap::Args;
 
-use super::shared::table::{self, BOLD};
 use super::shared::{Failure, one_of, wire};
+use input::Input;
+use text::Text;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -24,113 +29,170 @@ Examples:
   actucheck decode --fast 4:1,2 fffffd00fe11005500 01d0070000 0c83 00 02 09000000 1140
       the packet that answers a Fast Sync Read of 4 bytes from devices 1 and 2
   actucheck decode --wire innfos --direction request ee 06 0a 00 04 01 00 00 00 01 d8 ed
+  actucheck decode '[255, 255, 253, 0, 1, 3, 0, 1, 25, 78]'
+  actucheck decode --show lines bus.log
+      the packets of a log, one line each, and who answers what
 
-Exit status: 0 a valid packet, 1 no valid packet, 2 wrong usage.";
+The form of the bytes is found by itself: hex with any separators, decimal lists, arrays of
+programs, text with \\xFF, dumps of xxd, hexdump or Wireshark, and plain bytes. Lines of a log may
+have times, and directions such as TX: and RX:. What has two readings is refused.
 
-/// Explains one packet field by field
+Exit status: 0 valid packets only, 1 no valid packet, or bytes that are none, 2 wrong usage.";
+
+/// Explains packets field by field: one, or all in a log, a dump or a capture
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Decode {
     /// Print the packet object of the adapter protocol
     #[arg(long)]
     json: bool,
-    /// The packet's wire
-    #[arg(long, value_parser = wire(), default_value_t)]
-    wire: Wire,
-    /// The packet's direction, on a wire whose frames do not state it
+    /// The form of the bytes, if it is not to be found
+    #[arg(long, value_name = "FORM", value_parser = one_of(Form::ALL.map(|form| (form, form.id(), form.help()))))]
+    input: Option<Form>,
+    /// The packets' wire, if it is not to be found
+    #[arg(long, value_parser = wire())]
+    wire: Option<Wire>,
+    /// The direction of bytes whose direction is not in the input
     #[arg(long, alias = "kind", value_parser = one_of(DIRECTIONS))]
     direction: Option<Direction>,
-    /// The device whose registers are meant
-    #[arg(long, value_name = "DEVICE", value_parser = one_of(DEVICES.map(|device| (device, device.id, device.name))), default_value = "ja40")]
-    device: &'static Device,
+    /// The device whose registers are meant; of a single packet, ja40 if not told
+    #[arg(long, value_name = "DEVICE", value_parser = one_of(DEVICES.map(|device| (device, device.id, device.name))))]
+    device: Option<&'static Device>,
     /// The address at which a status packet's data was read
     #[arg(long, value_name = "ADDRESS")]
     address: Option<u16>,
     /// The request that a fast status packet answers: bytes per device, and the devices in order
     #[arg(long, value_name = "LENGTH:ID,ID…", value_parser = fast, conflicts_with = "address")]
     fast: Option<Fast>,
-    /// The packet's bytes in hex, with or without spaces, commas and 0x; `-` reads them from
-    /// standard input
-    #[arg(required = true, value_name = "HEX")]
-    hex: Vec<String>,
+    /// How much of a stream is shown
+    #[arg(long, value_parser = one_of(Show::ALL))]
+    show: Option<Show>,
+    /// The bytes, or a file that has them; `-` reads them from standard input
+    #[arg(required = true, value_name = "BYTES|FILE")]
+    bytes: Vec<String>,
 }
 
 const DIRECTIONS: [(Direction, &str, &str); 2] =
     [(Direction::Request, "request", "From the host"), (Direction::Reply, "reply", "To the host")];
 
-/// The devices whose registers have names here.
-const DEVICES: [&Device; 3] = [&ja40::DEVICE, &ja_variant::DEVICE, &xm430_w210::DEVICE];
+/// How much of a stream is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Show {
+    Fields,
+    Lines,
+    Summary,
+}
 
-/// Explains the packet, or prints it as an object.
+impl Show {
+    const ALL: [(Self, &'static str, &'static str); 3] = [
+        (Self::Fields, "fields", "The fields of every packet"),
+        (Self::Lines, "lines", "A line for every packet"),
+        (Self::Summary, "summary", "The summary only"),
+    ];
+}
+
+/// Explains one packet or a stream.
 pub(crate) fn run(options: &Decode) -> Result<ExitCode, Failure> {
-    let bytes = bytes(&options.hex)?;
-    let (wire, direction) = (options.wire, options.direction);
-    if direction.is_none() && !wire.tells_direction() {
-        let message = format!(
-            "a frame of {wire} does not state its direction; add --direction request or \
-             --direction reply"
-        );
-        return Err(Failure::usage(message));
+    let input = Input::open(&options.bytes, options.input)?;
+    let wire = options.wire.unwrap_or_else(|| {
+        let pieces = input.beginning.iter();
+        let direction = |piece: &Piece| piece.direction.or(options.direction);
+        wire_of(&pieces.map(|piece| (piece.bytes.clone(), direction(piece))).collect::<Vec<_>>())
+    });
+    match single(options, wire, &input) {
+        Some(context) => packet(options, wire, context, &input),
+        None => stream(options, wire, input),
     }
-    let context = Context { fast: options.fast.clone(), direction };
-    let (device, address) = (options.device, options.address);
-    let asked = Asked { bytes: &bytes, context, device, address };
-    let explanation = explain(wire, &asked)
-        .map_err(|error| Failure::failed(format!("no valid packet, {error}")))?;
-    check_direction(wire, &asked)?;
-    let text = if options.json { json(options, bytes)? } else { table(&explanation) };
+}
+
+/// What is known about the one packet that the input is to be read as; `None` if it is a stream.
+fn single(options: &Decode, wire: Wire, input: &Input) -> Option<Context> {
+    let told = options.direction;
+    let mut context = Context { fast: options.fast.clone(), direction: told };
+    if options.fast.is_some() || options.address.is_some() {
+        return Some(context);
+    }
+    if !input.whole || input.named || options.show.is_some() {
+        return None;
+    }
+    let Some(mut follower) = Follower::new(wire, None) else { return Some(context) };
+    let mut events = 0;
+    let mut take = |event: Event<'_>| {
+        events += 1;
+        if let Event::Packet(heard, _) = event {
+            context.direction = told.or(heard.direction);
+        }
+    };
+    for piece in &input.beginning {
+        follower.feed(&piece.bytes, piece.direction.or(told), None, None, &mut take);
+        if piece.ends {
+            follower.pause(&mut take);
+        }
+    }
+    follower.end(&mut take);
+    (events == 1).then_some(context)
+}
+
+fn packet(
+    options: &Decode,
+    wire: Wire,
+    context: Context,
+    input: &Input,
+) -> Result<ExitCode, Failure> {
+    let bytes: Vec<u8> = input.beginning.iter().flat_map(|piece| &piece.bytes).copied().collect();
+    let device = options.device.or(Some(&ja40::DEVICE));
+    let asked = Asked { bytes: &bytes, context, device, address: options.address };
+    let text = packet::text(wire, &asked, options.json)?;
+    if input.form != Form::Hex {
+        anstream::eprintln!("read as {}", input.form);
+    }
     // A closed pipe, as of `| head`, is not an error.
     let _ = write!(anstream::stdout(), "{text}");
     Ok(ExitCode::SUCCESS)
 }
 
-fn bytes(arguments: &[String]) -> Result<Vec<u8>, Failure> {
-    let mut text = arguments.join(" ");
-    if text == "-" {
-        text.clear();
-        io::stdin()
-            .read_to_string(&mut text)
-            .map_err(|error| Failure::usage(format!("cannot read standard input: {error}")))?;
+fn stream(options: &Decode, wire: Wire, input: Input) -> Result<ExitCode, Failure> {
+    let mut follower = Follower::new(wire, options.device)
+        .ok_or_else(|| Failure::usage(format!("streams of {wire} are not followed")))?;
+    if options.json {
+        return Err(Failure::usage("--json takes one packet, and here are several"));
     }
-    let plain = text.replace("0x", " ").replace("0X", " ").replace([',', ':', ';'], " ");
-    let bytes = HexBytes::parse(&plain).map_err(Failure::usage)?;
-    Ok(bytes.0)
-}
-
-/// Refuses a packet whose direction is not the one that the user gave.
-fn check_direction(wire: Wire, asked: &Asked<'_>) -> Result<(), Failure> {
-    let found = wire.decode(asked.bytes, &asked.context).map(|packet| packet.direction());
-    match (asked.context.direction, found) {
-        (Some(told), Ok(found)) if told != found => {
-            Err(Failure::failed(format!("no valid {told}: the packet is a {found}")))
+    let show = options.show.unwrap_or(Show::Fields);
+    let mut out = BufWriter::new(anstream::stdout().lock());
+    let mut written = writeln!(out, "read as {}, wire {wire}", input.form);
+    let mut text = Text { out, wire, show, begin: None };
+    let mut summary = Summary::default();
+    let mut take = |event: Event<'_>| {
+        summary.add(&event);
+        if written.is_ok() {
+            written = text.event(&event);
         }
-        _ => Ok(()),
-    }
-}
-
-/// The packet as JSON of the adapter protocol.
-fn json(options: &Decode, bytes: Vec<u8>) -> Result<String, Failure> {
-    let op = Question::Decode {
-        wire: options.wire,
-        bytes: bytes.into(),
-        context: Context { fast: options.fast.clone(), direction: options.direction },
     };
-    match Builtin::default().ask(&op) {
-        Answer::Ok(Output::Packet(packet)) => {
-            serde_json::to_string(&packet).map(|text| text + "\n").map_err(Failure::incomplete)
+    let mut failed = None;
+    for piece in input.into_pieces() {
+        let piece = match piece {
+            Ok(piece) => piece,
+            Err(error) => {
+                failed = Some(Failure::usage(error));
+                break;
+            }
+        };
+        let direction = piece.direction.or(options.direction);
+        follower.feed(&piece.bytes, direction, piece.line, piece.time, &mut take);
+        if piece.ends {
+            follower.pause(&mut take);
         }
-        Answer::Rejected(rejection) => Err(Failure::failed(rejection.detail)),
-        other => Err(Failure::incomplete(format!("no packet: {other:?}"))),
     }
-}
-
-fn table(explanation: &Explanation) -> String {
-    let rows = explanation.rows.iter().map(|row| {
-        let offset = format!("{:>5}", row.offset);
-        [offset, row.bytes.clone(), row.field.clone(), row.meaning.clone()]
-    });
-    let lines = table::lines("", &rows.collect::<Vec<_>>());
-    format!("{BOLD}{}{BOLD:#}\n{}\n", explanation.title, lines.join("\n"))
+    follower.end(&mut take);
+    // A closed pipe, as of `| head`, is not an error.
+    let _ = written.and_then(|()| text.end(&summary));
+    match failed {
+        Some(failure) => Err(failure),
+        None if summary.total() == 0 || !summary.skipped.is_empty() => {
+            Ok(ExitCode::from(Failure::FAILED))
+        }
+        None => Ok(ExitCode::SUCCESS),
+    }
 }
 
 /// Reads the request that a fast status packet answers.

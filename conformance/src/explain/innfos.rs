@@ -1,8 +1,13 @@
 //! One frame of the INNFOS Ethernet protocol, field by field.
 
+mod converse;
+mod split;
+
 use actucheck_codec::innfos::{self, Frame, FrameError, Message, MessageError, Value};
+use actucheck_codec::register::Device;
 use actucheck_spec::wire::Direction;
 
+use super::stream::{Converse, Split};
 use super::table::{Explanation, Table, rounded};
 use super::{Asked, Invalid};
 
@@ -17,6 +22,11 @@ pub(super) fn explain(asked: &Asked<'_>) -> Result<Explanation, Invalid> {
         _ => innfos::Direction::Request,
     };
     frame(direction, asked.bytes).map_err(|error| Invalid::new(error.offset(), &error))
+}
+
+/// Finds frames in a stream, and follows who asks and who answers.
+pub(super) fn listen(_: Option<&'static Device>) -> (Box<dyn Split>, Box<dyn Converse>) {
+    (Box::new(split::Frames::default()), Box::new(converse::Talk::default()))
 }
 
 fn frame(direction: innfos::Direction, bytes: &[u8]) -> Result<Explanation, FrameError> {

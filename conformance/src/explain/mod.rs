@@ -4,13 +4,16 @@
 pub mod diff;
 mod dynamixel2;
 mod innfos;
+pub mod stream;
 mod table;
 
 use std::fmt;
 
 use actucheck_codec::register::Device;
+use actucheck_codec::{ja_variant, ja40, xm430_w210};
 use actucheck_spec::wire::{self, Context, Wire};
 
+use self::stream::Listen;
 use self::table::Table;
 
 pub use self::table::{Explanation, Row};
@@ -22,8 +25,8 @@ pub struct Asked<'a> {
     pub bytes: &'a [u8],
     /// What a reader has to know beside the bytes.
     pub context: Context,
-    /// The device whose registers are meant.
-    pub device: &'a Device,
+    /// The device whose registers are meant, if it is known.
+    pub device: Option<&'a Device>,
     /// The address at which the data of an answer was read, if known.
     pub address: Option<u16>,
 }
@@ -44,17 +47,22 @@ impl Invalid {
 
 type Explain = fn(&Asked<'_>) -> Result<Explanation, Invalid>;
 
-/// The wires whose frames are explained in detail.
-const WIRES: [(Wire, Explain); 2] =
-    [(wire::dynamixel2::WIRE, dynamixel2::explain), (wire::innfos::WIRE, innfos::explain)];
+/// The wires whose frames are explained in detail, and whose streams are followed.
+const WIRES: [(Wire, Explain, Listen); 2] = [
+    (wire::dynamixel2::WIRE, dynamixel2::explain, dynamixel2::listen),
+    (wire::innfos::WIRE, innfos::explain, innfos::listen),
+];
+
+/// The devices whose registers have names here.
+pub const DEVICES: [&Device; 3] = [&ja40::DEVICE, &ja_variant::DEVICE, &xm430_w210::DEVICE];
 
 /// Explains a whole frame.
 ///
 /// # Errors
 /// The first rule that the bytes break.
 pub fn explain(wire: Wire, asked: &Asked<'_>) -> Result<Explanation, Invalid> {
-    let own = WIRES.into_iter().find(|(other, _)| *other == wire);
-    own.map_or_else(|| parts(wire, asked), |(_, explain)| explain(asked))
+    let own = WIRES.into_iter().find(|(other, ..)| *other == wire);
+    own.map_or_else(|| parts(wire, asked), |(_, explain, _)| explain(asked))
 }
 
 /// Names the parts of a frame, without their meaning.

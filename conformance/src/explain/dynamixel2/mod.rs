@@ -1,6 +1,8 @@
 //! One frame of DYNAMIXEL Protocol 2.0, field by field.
 
 mod body;
+mod converse;
+mod split;
 mod words;
 
 use actucheck_codec::dynamixel2::{BROADCAST_ID, FastStatus, Frame, FrameError, Instruction};
@@ -8,6 +10,7 @@ use actucheck_codec::layout::{self, Item};
 use actucheck_codec::register::{Device, NamedValue};
 use actucheck_spec::wire::Fast;
 
+use super::stream::{Converse, Split};
 use super::table::{Explanation, Table, low_first};
 use super::{Asked, Invalid};
 use body::WireBody;
@@ -19,15 +22,24 @@ const PREFIX: usize = 7;
 /// Explains a whole frame.
 pub(super) fn explain(asked: &Asked<'_>) -> Result<Explanation, Invalid> {
     let explanation = match &asked.context.fast {
-        Some(fast) => fast_status(asked.bytes, fast),
+        Some(fast) => fast_status(asked.bytes, fast, asked.device, asked.address),
         None => packet(asked.bytes, asked.device, asked.address),
     };
     explanation.map_err(|error| Invalid::new(error.offset(), &error))
 }
 
+/// Finds packets in a stream, and follows who asks and who answers.
+pub(super) fn listen(table: Option<&'static Device>) -> (Box<dyn Split>, Box<dyn Converse>) {
+    (Box::new(split::Packets::new()), Box::new(converse::Talk::new(table)))
+}
+
 /// An instruction or status packet. `address` is the address at which a status packet's data was
 /// read, if known.
-fn packet(bytes: &[u8], device: &Device, address: Option<u16>) -> Result<Explanation, FrameError> {
+fn packet(
+    bytes: &[u8],
+    device: Option<&Device>,
+    address: Option<u16>,
+) -> Result<Explanation, FrameError> {
     let frame = Frame::parse(bytes)?;
     let mut table = Table::new(bytes);
     prefix(&mut table, frame.id());
@@ -50,7 +62,12 @@ fn packet(bytes: &[u8], device: &Device, address: Option<u16>) -> Result<Explana
 }
 
 /// A fast status packet that answers a request for `fast`.
-fn fast_status(bytes: &[u8], fast: &Fast) -> Result<Explanation, FrameError> {
+fn fast_status(
+    bytes: &[u8],
+    fast: &Fast,
+    device: Option<&Device>,
+    address: Option<u16>,
+) -> Result<Explanation, FrameError> {
     let packet = FastStatus::parse(bytes, fast.length, &fast.ids)?;
     let mut table = Table::new(bytes);
     prefix(&mut table, BROADCAST_ID);
@@ -59,7 +76,13 @@ fn fast_status(bytes: &[u8], fast: &Fast) -> Result<Explanation, FrameError> {
         table.take(1, "error", |_| error_words(block.error));
         table.take(1, "ID", |_| block.id.to_string());
         if !block.data.is_empty() {
-            table.take(block.data.len(), "data", numbers);
+            let register = device.zip(address).and_then(|(device, address)| {
+                device.register(address).filter(|row| row.decode(block.data).is_some())
+            });
+            table.take(block.data.len(), "data", |bytes| {
+                let value = register.and_then(|row| Some(value_words(row, row.decode(bytes)?)));
+                value.unwrap_or_else(|| numbers(bytes))
+            });
         }
         table.take(2, "CRC", |_| "of all bytes before it, right".to_owned());
     }
@@ -84,7 +107,7 @@ fn instruction_params(
     wire: &WireBody<'_>,
     instruction: Instruction,
     params: &[u8],
-    device: &Device,
+    device: Option<&Device>,
 ) {
     let Some(layout) = instruction.parameters() else {
         if !params.is_empty() {
@@ -116,7 +139,7 @@ fn param(
     table: &mut Table<'_>,
     wire: &WireBody<'_>,
     item: &Item<'_>,
-    device: &Device,
+    device: Option<&Device>,
     address: Option<u16>,
 ) {
     let start = 1 + item.offset;
@@ -132,11 +155,12 @@ fn param(
     }
 }
 
-fn meaning(item: &Item<'_>, device: &Device) -> String {
+fn meaning(item: &Item<'_>, device: Option<&Device>) -> String {
     let Some(value) = item.number() else {
         return String::new();
     };
     if item.field.name == "address" {
+        let Some(device) = device else { return value.to_string() };
         let register = u16::try_from(value).ok().and_then(|address| device.register(address));
         return match register {
             Some(register) => format!("{value} ({}, {})", register.name, device.name),
@@ -155,7 +179,7 @@ fn status_data(
     table: &mut Table<'_>,
     wire: &WireBody<'_>,
     bytes: &[u8],
-    device: &Device,
+    device: Option<&Device>,
     address: Option<u16>,
 ) {
     if !bytes.is_empty() {
@@ -171,11 +195,11 @@ fn data(
     start: usize,
     name: &str,
     bytes: &[u8],
-    device: &Device,
+    device: Option<&Device>,
     address: Option<u16>,
 ) {
-    let registers: Vec<_> = match (address, u16::try_from(bytes.len())) {
-        (Some(address), Ok(length)) => device.registers_in(address, length).collect(),
+    let registers: Vec<_> = match (device, address, u16::try_from(bytes.len())) {
+        (Some(device), Some(address), Ok(length)) => device.registers_in(address, length).collect(),
         _ => Vec::new(),
     };
     if registers.is_empty() {

@@ -1,0 +1,73 @@
+//! Finds the form of an input.
+//!
+//! Each form says whether the beginning of the input can be in it. A form with a mark of its own,
+//! such as `\x`, is sure. If none is and two remain that give different bytes, that is an error.
+
+use super::form::is_dump;
+use super::source::{Sampled, is_text};
+use super::{Form, Unreadable};
+
+/// The form of an input.
+///
+/// # Errors
+/// If there is none, or more than one.
+pub(super) fn form(input: &Sampled) -> Result<Form, Unreadable> {
+    let sample = input.sample();
+    if sample.iter().all(u8::is_ascii_whitespace) {
+        return Err(Unreadable::Empty);
+    }
+    if !is_text(sample) {
+        return Ok(Form::Raw);
+    }
+    let text = String::from_utf8_lossy(sample);
+    let text = if input.whole { &text } else { whole_words(&text) };
+    if text.contains("\\x") || text.contains("b'") || text.contains("b\"") {
+        return Ok(Form::Escaped);
+    }
+    if is_dump(text) {
+        return Ok(Form::Dump);
+    }
+    notation(text)
+}
+
+/// Hex or decimal.
+fn notation(text: &str) -> Result<Form, Unreadable> {
+    let hex = bytes(Form::Hex, text);
+    let decimal = bytes(Form::Decimal, text);
+    match (hex, decimal) {
+        (Ok(hex), Ok(decimal)) if hex != decimal => {
+            // In an array of a program a number without 0x is decimal.
+            let program =
+                text.contains("0x") && text.contains(',') && text.contains(['{', '[', '(']);
+            if program {
+                return Ok(Form::Decimal);
+            }
+            Err(Unreadable::Ambiguous(vec![(Form::Hex, hex), (Form::Decimal, decimal)]))
+        }
+        (Ok(_), _) => Ok(Form::Hex),
+        (Err(_), Ok(_)) => Ok(Form::Decimal),
+        (Err(hex), Err(decimal)) => {
+            // The form that gets farther is the one that is meant.
+            let line = |error: &Unreadable| match error {
+                Unreadable::Line { line, .. } => *line,
+                _ => 0,
+            };
+            Err(if line(&decimal) > line(&hex) { decimal } else { hex })
+        }
+    }
+}
+
+fn bytes(form: Form, text: &str) -> Result<Vec<u8>, Unreadable> {
+    let text = Sampled::new(std::io::Cursor::new(text.as_bytes().to_vec()))?;
+    let mut bytes = Vec::new();
+    for piece in form.pieces(text) {
+        bytes.extend(piece?.bytes);
+    }
+    if bytes.is_empty() { Err(Unreadable::Empty) } else { Ok(bytes) }
+}
+
+/// A sample without its last line, or its last word if there is one line.
+fn whole_words(text: &str) -> &str {
+    let end = text.rfind('\n').or_else(|| text.rfind(|c: char| !c.is_alphanumeric()));
+    text.get(..end.unwrap_or(text.len() & !1)).unwrap_or(text)
+}

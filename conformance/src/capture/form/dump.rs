@@ -1,0 +1,218 @@
+//! Lines that begin with an offset: xxd, `hexdump -C`, hexdump, od and Wireshark.
+
+use std::sync::LazyLock;
+
+use regex::Regex;
+
+use crate::capture::source::{Lines, Sampled};
+use crate::capture::{Piece, Pieces, Unreadable};
+
+/// The most bytes that a line stands for, with the lines that a `*` leaves out.
+const MOST: u64 = 1 << 20;
+
+static ROW: LazyLock<Regex> = LazyLock::new(|| {
+    #[allow(clippy::expect_used)] // a test uses it
+    Regex::new(r"^\s*(?P<offset>[0-9a-fA-F]{3,16})(?P<colon>:)?(?:\s+(?P<rest>\S.*)|\s*)$")
+        .expect("a pattern of this file")
+});
+
+/// A line of a dump.
+#[derive(Clone, Debug)]
+struct Row {
+    offset: String,
+    colon: bool,
+    rest: String,
+}
+
+impl Row {
+    fn of(line: &str) -> Option<Self> {
+        let found = ROW.captures(line)?;
+        let part = |name| found.name(name).map_or("", |part| part.as_str()).trim_end().to_owned();
+        let colon = found.name("colon").is_some();
+        Some(Self { offset: part("offset"), colon, rest: part("rest") })
+    }
+
+    fn offset(&self, radix: u32) -> Option<u64> {
+        u64::from_str_radix(&self.offset, radix).ok()
+    }
+
+    /// The bytes of the groups at the beginning, and where each byte ends in the text.
+    fn groups(&self) -> Vec<(u8, usize)> {
+        let mut bytes = Vec::new();
+        let mut at = 0;
+        for word in self.rest.split_inclusive(char::is_whitespace) {
+            let digits = word.trim_end();
+            let hex = digits.bytes().all(|digit| digit.is_ascii_hexdigit());
+            if !hex || !digits.len().is_multiple_of(2) {
+                break;
+            }
+            let pairs = digits.as_bytes().chunks(2).enumerate().filter_map(|(index, pair)| {
+                let pair = std::str::from_utf8(pair).ok()?;
+                Some((u8::from_str_radix(pair, 16).ok()?, at + 2 * index + 2))
+            });
+            let group: Vec<_> = pairs.collect();
+            // hexdump without -C prints numbers whose low byte comes first.
+            if let ([(low, _), (high, end)], true) = (group.as_slice(), self.has_numbers()) {
+                bytes.extend([(*high, *end), (*low, *end)]);
+            } else {
+                bytes.extend(group);
+            }
+            at += word.len();
+        }
+        bytes
+    }
+
+    fn has_numbers(&self) -> bool {
+        let words = || self.rest.split_whitespace();
+        self.offset.len() == 7 && !self.colon && words().all(|word| word.len() == 4)
+    }
+
+    /// The numbers of bytes that the line may have: those after which the rest is as many characters.
+    fn sizes(&self, bytes: &[(u8, usize)]) -> Vec<usize> {
+        let fits = |(index, (_, end)): (usize, &(u8, usize))| {
+            let rest = self.rest.get(*end..)?;
+            let column = rest.trim_start().trim_matches(['|', '>', '<']).chars().count();
+            let size = index + 1;
+            // Spaces at the end may be lost, and Wireshark has one in the middle.
+            let column_fits = rest.starts_with("  ") || rest.trim_start().starts_with(['|', '>']);
+            let last = size == bytes.len() && column == 0;
+            (last || column_fits && column > 0 && column <= size + 1 && column + 8 > size)
+                .then_some(size)
+        };
+        bytes.iter().enumerate().filter_map(fits).collect()
+    }
+
+    /// The bytes, if the next line says that there are `size`.
+    fn bytes(&self, size: Option<u64>) -> Option<Vec<u8>> {
+        let bytes = self.groups();
+        let take = |count: usize| bytes.iter().take(count).map(|(byte, _)| *byte).collect();
+        let size = size.and_then(|size| usize::try_from(size).ok());
+        match size {
+            Some(size) if size <= bytes.len() => Some(take(size)),
+            // hexdump pads the last number.
+            Some(_) => None,
+            None => self
+                .sizes(&bytes)
+                .last()
+                .copied()
+                .or((!bytes.is_empty()).then_some(bytes.len()))
+                .map(take),
+        }
+    }
+}
+
+/// Whether a text is a dump: its offsets count its bytes, or it is one line with a mark of a dump.
+pub(in crate::capture) fn is_dump(text: &str) -> bool {
+    let mut lines = text.lines().filter(|line| !line.trim().is_empty());
+    let Some(first) = lines.next().and_then(Row::of) else { return false };
+    let begins = first.offset.bytes().all(|digit| digit == b'0') && !first.rest.is_empty();
+    let next = lines.next().and_then(Row::of);
+    let count = first.groups().len() as u64;
+    let follows = |next: &Row, radix: u32| {
+        let (Some(from), Some(to)) = (first.offset(radix), next.offset(radix)) else {
+            return false;
+        };
+        to > from && to - from <= count && to - from + 1 >= count
+    };
+    if let Some(next) = next {
+        return [16, 8].into_iter().any(|radix| follows(&next, radix));
+    }
+    let groups = first.groups();
+    let sizes = first.sizes(&groups);
+    let mut ends = sizes.iter().filter_map(|size| groups.get(size - 1));
+    let column = ends.any(|(_, end)| *end < first.rest.len());
+    begins && (first.colon || column) && count > 0
+}
+
+/// The pieces of a dump.
+pub(super) fn pieces(input: Sampled) -> Pieces {
+    let radix = if is_octal(&String::from_utf8_lossy(input.sample())) { 8 } else { 16 };
+    let lines = input.into_lines();
+    Box::new(Dump { lines, radix, held: None, repeated: false, ended: false })
+}
+
+/// od counts in octal: the second offset is 20 where others have 10.
+fn is_octal(text: &str) -> bool {
+    let mut rows = text.lines().filter_map(Row::of);
+    let (Some(first), Some(second)) = (rows.next(), rows.next()) else { return false };
+    let count = first.groups().len() as u64;
+    let step = |radix| second.offset(radix)?.checked_sub(first.offset(radix)?);
+    step(16) != Some(count) && step(8).is_some_and(|step| step == count)
+}
+
+struct Dump {
+    lines: Lines,
+    radix: u32,
+    /// The row whose size the next offset tells, and its line.
+    held: Option<(Row, u64)>,
+    /// A `*` came after it.
+    repeated: bool,
+    ended: bool,
+}
+
+impl Iterator for Dump {
+    type Item = Result<Piece, Unreadable>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        while !self.ended {
+            match self.line() {
+                Ok(None) => {}
+                Ok(Some(piece)) => return Some(Ok(piece)),
+                Err(error) => {
+                    self.ended = true;
+                    return Some(Err(error));
+                }
+            }
+        }
+        None
+    }
+}
+
+impl Dump {
+    fn line(&mut self) -> Result<Option<Piece>, Unreadable> {
+        let Some(line) = self.lines.next()? else {
+            self.ended = true;
+            return self.held(None);
+        };
+        let number = self.lines.number;
+        if line.trim() == "*" {
+            self.repeated = true;
+            return Ok(None);
+        }
+        let Some(row) = Row::of(&line) else {
+            // Words between two dumps, such as the name of a file.
+            return self.held(None);
+        };
+        let piece = self.held(row.offset(self.radix))?;
+        self.held = (!row.rest.is_empty()).then_some((row, number));
+        Ok(piece)
+    }
+
+    /// The bytes of the row that is held, before a row at `next`.
+    fn held(&mut self, next: Option<u64>) -> Result<Option<Piece>, Unreadable> {
+        let Some((row, line)) = self.held.take() else { return Ok(None) };
+        let wrong = |what: String| Unreadable::Line { line, what };
+        let start = row.offset(self.radix);
+        let start = start.ok_or_else(|| wrong(format!("`{}` is no offset", row.offset)))?;
+        let repeated = std::mem::take(&mut self.repeated);
+        // A lower offset begins another dump.
+        let size = next.and_then(|next| next.checked_sub(start)).filter(|size| *size > 0);
+        let row_size = if repeated { None } else { size };
+        let mut bytes = row.bytes(row_size).filter(|bytes| !bytes.is_empty()).ok_or_else(|| {
+            let size = row_size.map_or_else(|| "some".to_owned(), |size| size.to_string());
+            wrong(format!("the next offset asks for {size} bytes in this line, which it has not"))
+        })?;
+        if let (true, Some(size)) = (repeated, size) {
+            let whole = usize::try_from(size).ok().filter(|_| size <= MOST);
+            let whole = whole.ok_or_else(|| {
+                wrong(
+                    "a * after this line leaves out more than 1 MiB; print all lines (-v)"
+                        .to_owned(),
+                )
+            })?;
+            bytes = bytes.iter().copied().cycle().take(whole).collect();
+        }
+        let ends = size.is_none();
+        Ok(Some(Piece { bytes, line: Some(line), ends, ..Piece::default() }))
+    }
+}

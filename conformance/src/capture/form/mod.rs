@@ -1,0 +1,88 @@
+//! The forms of an input, one file each.
+
+mod decimal;
+mod dump;
+mod escaped;
+mod hex;
+mod raw;
+mod text;
+
+use std::fmt;
+
+pub(super) use dump::is_dump;
+
+use super::Pieces;
+use super::source::Sampled;
+
+/// How bytes are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Form {
+    /// Hex digits with any separators.
+    Hex,
+    /// Decimal numbers, and hex ones after 0x, as in arrays of programs.
+    Decimal,
+    /// Text with `\xFF`, as Python and C have it.
+    Escaped,
+    /// Lines that begin with an offset, of xxd, hexdump, od or Wireshark.
+    Dump,
+    /// The bytes themselves.
+    Raw,
+}
+
+impl Form {
+    /// Every form.
+    pub const ALL: [Self; 5] = [Self::Hex, Self::Decimal, Self::Escaped, Self::Dump, Self::Raw];
+
+    /// Its name on the command line.
+    #[must_use]
+    pub const fn id(self) -> &'static str {
+        match self {
+            Self::Hex => "hex",
+            Self::Decimal => "decimal",
+            Self::Escaped => "escaped",
+            Self::Dump => "dump",
+            Self::Raw => "raw",
+        }
+    }
+
+    /// Its name in a sentence.
+    #[must_use]
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Hex => "hex",
+            Self::Decimal => "decimal numbers",
+            Self::Escaped => "text with \\x",
+            Self::Dump => "a hex dump",
+            Self::Raw => "plain bytes",
+        }
+    }
+
+    /// Which inputs have it.
+    #[must_use]
+    pub const fn help(self) -> &'static str {
+        match self {
+            Self::Hex => "Hex with any separators, also in a log",
+            Self::Decimal => "Decimal numbers, and hex after 0x: lists, tuples, C arrays",
+            Self::Escaped => "Text with \\xFF, as Python and C print bytes",
+            Self::Dump => "A dump of xxd, hexdump, od or Wireshark",
+            Self::Raw => "The bytes themselves",
+        }
+    }
+
+    /// The pieces of an input in this form.
+    pub(super) fn pieces(self, input: Sampled) -> Pieces {
+        match self {
+            Self::Hex => text::pieces(input, hex::Hex),
+            Self::Decimal => text::pieces(input, decimal::Decimal),
+            Self::Escaped => text::pieces(input, escaped::Escaped),
+            Self::Dump => dump::pieces(input),
+            Self::Raw => Box::new(raw::Raw::new(input)),
+        }
+    }
+}
+
+impl fmt::Display for Form {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.title())
+    }
+}

@@ -1,0 +1,79 @@
+//! The input: a sample of its beginning, and its lines.
+
+use std::io::{self, BufRead, Cursor, Read};
+
+use super::Unreadable;
+
+/// Bytes at the beginning that the form is found from.
+const SAMPLE: usize = 64 << 10;
+/// The longest line. Nothing that people paste is as long, and memory stays bounded.
+const LONGEST_LINE: usize = 1 << 20;
+
+/// An input whose beginning is known.
+pub(super) struct Sampled {
+    sample: Vec<u8>,
+    /// Whether the sample is all.
+    pub(super) whole: bool,
+    rest: Box<dyn BufRead>,
+}
+
+impl Sampled {
+    pub(super) fn new(mut input: impl BufRead + 'static) -> io::Result<Self> {
+        let mut sample = Vec::new();
+        input.by_ref().take(SAMPLE as u64).read_to_end(&mut sample)?;
+        let whole = sample.len() < SAMPLE;
+        Ok(Self { sample, whole, rest: Box::new(input) })
+    }
+
+    pub(super) fn sample(&self) -> &[u8] {
+        &self.sample
+    }
+
+    /// All of it.
+    pub(super) fn into_bytes(self) -> impl BufRead {
+        Cursor::new(self.sample).chain(self.rest)
+    }
+
+    pub(super) fn into_lines(self) -> Lines {
+        Lines { input: Box::new(self.into_bytes()), number: 0 }
+    }
+}
+
+/// The lines of a text, with their numbers.
+pub(super) struct Lines {
+    input: Box<dyn BufRead>,
+    pub(super) number: u64,
+}
+
+impl Lines {
+    /// The next line without its end; `None` at the end of the text.
+    pub(super) fn next(&mut self) -> Result<Option<String>, Unreadable> {
+        let mut bytes = Vec::new();
+        self.input.by_ref().take(LONGEST_LINE as u64 + 1).read_until(b'\n', &mut bytes)?;
+        if bytes.is_empty() {
+            return Ok(None);
+        }
+        self.number += 1;
+        let wrong = |what: &str| Unreadable::Line { line: self.number, what: what.to_owned() };
+        if bytes.len() > LONGEST_LINE {
+            return Err(wrong("longer than 1 MiB; break it into lines"));
+        }
+        if !is_text(&bytes) {
+            return Err(wrong("this is no text; for a file of plain bytes give --input raw"));
+        }
+        // A byte order mark is no part of the first line.
+        let text = String::from_utf8_lossy(&bytes);
+        Ok(Some(text.trim_start_matches('\u{feff}').trim_end_matches(['\r', '\n']).to_owned()))
+    }
+}
+
+/// Whether bytes can be text: no control characters, except white space and colours.
+pub(super) fn is_text(bytes: &[u8]) -> bool {
+    let control = |byte: &u8| *byte < b' ' && !b"\t\n\r\x0B\x0C\x1B".contains(byte);
+    let readable = match std::str::from_utf8(bytes) {
+        Ok(_) => true,
+        // A character may be cut at the end of a sample.
+        Err(error) => error.valid_up_to() + 4 > bytes.len() && error.error_len().is_none(),
+    };
+    readable && !bytes.iter().any(control)
+}
