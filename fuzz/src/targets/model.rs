@@ -7,8 +7,14 @@ use actucheck_spec::wire::dynamixel2::Packet;
 use actucheck_spec::wire::dynamixel2::reference::{Event, encode};
 
 /// The packet of a frame.
+///
+/// # Panics
+/// If its parameters are others when they are copied.
 pub(crate) fn packet(frame: &Frame<'_>) -> Packet {
     let mut params: Vec<u8> = frame.params().collect();
+    // Only with room for whole windows, and bytes behind the frame, are they moved window by window.
+    let mut buffer = vec![0; params.len() + 128];
+    assert_eq!(frame.copy_params(&mut buffer), Ok(&params[..]));
     let (id, instruction) = (frame.id(), frame.instruction().code());
     match frame.error() {
         None => Packet::Instruction { id, instruction, params: params.into() },
