@@ -16,7 +16,7 @@ use crate::verdict::Verdict;
 /// If it can't be written.
 pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let mut out = io::BufWriter::new(out);
-    Page { report }.write_into(&mut out)?;
+    Page { report, groups: groups(report) }.write_into(&mut out)?;
     out.flush()
 }
 
@@ -24,6 +24,8 @@ pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
 #[template(path = "report.html")]
 struct Page<'a> {
     report: &'a Report,
+    /// The findings, in the order of the page.
+    groups: Vec<Group<'a>>,
 }
 
 /// The sections of one document.
@@ -33,9 +35,26 @@ struct Document<'a> {
 }
 
 impl Page<'_> {
-    /// The verdicts whose evidence is shown, the most urgent first.
-    fn groups(&self) -> Vec<Group<'_>> {
-        Report::URGENT.into_iter().flat_map(|verdict| self.report.groups(verdict)).collect()
+    /// The place of the first finding on a requirement.
+    fn finding_on(&self, requirement: &str) -> Option<String> {
+        let mut groups = self.groups.iter();
+        groups.find(|group| group.requirement.id == requirement).map(Group::anchor)
+    }
+
+    fn is_cause(&self, requirement: &str) -> bool {
+        self.report.causes.iter().any(|cause| cause.requirement == requirement)
+    }
+
+    /// Where a cause leads: to its finding, or to its requirement if its failures are expected.
+    fn evidence(&self, requirement: &str) -> String {
+        let row = || words::anchor("requirement", requirement);
+        self.finding_on(requirement).unwrap_or_else(row)
+    }
+
+    /// Where a requirement is accused: a warning accuses none.
+    fn accused(&self, requirement: &str) -> String {
+        let kind = if self.is_cause(requirement) { "cause" } else { "requirement" };
+        words::anchor(kind, requirement)
     }
 
     fn documents(&self) -> Vec<Document<'_>> {
@@ -51,3 +70,17 @@ impl Page<'_> {
         documents
     }
 }
+
+/// What is accused first, the most basic first, then what follows from it, and warnings. Expected
+/// failures are shown by their reasons.
+fn groups(report: &Report) -> Vec<Group<'_>> {
+    let mut groups = report.findings();
+    let accused: Vec<_> = groups.iter().map(Group::anchor).collect();
+    let all = Report::URGENT.into_iter().filter(|verdict| *verdict != Verdict::ExpectedFailure);
+    let others = all.flat_map(|verdict| report.groups(verdict));
+    groups.extend(others.filter(|group| !accused.contains(&group.anchor())));
+    groups
+}
+
+/// How many findings are open when the page is.
+const OPEN: usize = 3;

@@ -158,6 +158,12 @@ pub struct Group<'a> {
 }
 
 impl Group<'_> {
+    /// Its place in a page.
+    #[must_use]
+    pub fn anchor(&self) -> String {
+        words::anchor(&format!("finding-{}", self.checks.verdict), &self.requirement.id)
+    }
+
     /// `65 of 23,963 checks`.
     #[must_use]
     pub fn share(&self) -> String {

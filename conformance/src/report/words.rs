@@ -30,6 +30,31 @@ pub(super) fn wires(wires: &[Wire]) -> String {
     format!("{word} {}", ids.join(", "))
 }
 
+/// A heading, and its meaning if it is not in English.
+pub(super) fn heading(section: &str) -> (&str, Option<&str>) {
+    let gloss = section.strip_suffix(')').and_then(|section| section.rsplit_once(" ("));
+    match gloss {
+        Some((heading, gloss)) if !heading.is_ascii() => (heading, Some(gloss)),
+        _ => (section, None),
+    }
+}
+
+/// The language of a text for the `lang` attribute; `None` for English.
+pub(super) fn language(text: &str) -> Option<&'static str> {
+    let hangul = '\u{ac00}'..='\u{d7a3}';
+    text.chars().any(|character| hangul.contains(&character)).then_some("ko")
+}
+
+/// The id of a place in a page. It is the same in every report.
+pub(super) fn anchor(kind: &str, id: &str) -> String {
+    let plain = |character: char| match character {
+        '.' | '/' | '_' => character,
+        _ if character.is_alphanumeric() => character,
+        _ => '-',
+    };
+    format!("{kind}-{}", id.chars().map(plain).collect::<String>())
+}
+
 /// A sign for a verdict, for readers who do not see its colour.
 pub(super) const fn mark(verdict: Verdict) -> &'static str {
     match verdict {
@@ -58,6 +83,14 @@ pub(super) fn tallies(tallies: &[Tally]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_korean_heading_has_its_language_and_its_meaning() {
+        let korean = "Packet 처리 (packet handling)";
+        assert_eq!(heading(korean), ("Packet 처리", Some("packet handling")));
+        assert_eq!((language(korean), language("Write (0x03)")), (Some("ko"), None));
+        assert_eq!(heading("Write (0x03)"), ("Write (0x03)", None));
+    }
 
     #[test]
     fn every_third_digit_has_a_comma() {
