@@ -1,105 +1,165 @@
-//! The report for a CI job's page: short, with one case per finding.
+//! The report for a CI job's page: what is at fault, then one case of each finding, folded.
 
 use std::io::{self, Write};
 
-use super::model::Report;
+use super::model::{Cause, CheckResult, ProfileEntry, Report};
 use super::view::Group;
 use super::words::{count, mark, tallies, thousands, wires};
 use crate::verdict::Verdict;
+
+/// The most bytes of a report. GitHub shows no page of more than 1 MiB, which may have several.
+const LONGEST: usize = 400_000;
+
+/// How many causes are named.
+const CAUSES: usize = 20;
 
 /// Writes the report.
 ///
 /// # Errors
 /// If it can't be written.
 pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
-    summary(report, out)?;
-    causes(report, out)?;
-    for verdict in Report::URGENT {
-        findings(verdict, &report.groups(verdict), out)?;
+    let mut page = header(report) + &causes(report) + &totals(report);
+    let findings = findings(report);
+    add(&mut page, &findings, "findings; a report in html or json has them");
+    add(&mut page, &brief(report), "rows");
+    let profile = profile(report);
+    if let Some((head, rows)) = profile.split_first() {
+        page.push_str(head);
+        add(&mut page, rows, "rows");
+        page.push_str("\n</details>\n");
     }
-    profile(report, out)
+    out.write_all(page.as_bytes())
 }
 
-fn summary(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+/// Adds as many parts as there is room for, and says how many there is no room for.
+fn add(page: &mut String, parts: &[String], what: &str) {
+    for (place, part) in parts.iter().enumerate() {
+        if page.len() + part.len() > LONGEST {
+            let more = parts.len() - place;
+            page.extend(["\n… and ", &more.to_string(), " more ", what, "\n"]);
+            return;
+        }
+        page.push_str(part);
+    }
+}
+
+fn header(report: &Report) -> String {
     let who = &report.header.implementation;
     let [name, version, language] = [&who.name, &who.version, &who.language].map(|it| prose(it));
-    writeln!(out, "## {}: {name} {version} ({language})\n", report.word())?;
     let checks = count(report.summary.totals.sum(), "check");
     let requirements = count(report.requirements.len(), "requirement");
-    writeln!(
-        out,
-        "{checks} of {requirements}, {}, seed {}\n",
+    let date = report.header.date.as_ref().map(|date| format!(", {}", prose(date)));
+    let sentence = report.cut_short().map(|sentence| format!("\n**{}**\n", prose(&sentence)));
+    format!(
+        "## {}: {name} {version} ({language})\n\n{checks} of {requirements}, {}, seed {}{}\n{}",
+        report.word(),
         wires(&report.header.wires),
-        report.header.seed
-    )?;
-    if let Some(sentence) = report.cut_short() {
-        writeln!(out, "**{}**\n", prose(&sentence))?;
-    }
-    writeln!(out, "| verdict | checks |\n|---|---:|")?;
-    for (verdict, count) in report.summary.totals.counts() {
-        writeln!(out, "| {} {verdict} | {} |", mark(verdict), thousands(count))?;
-    }
-    Ok(())
+        report.header.seed,
+        date.unwrap_or_default(),
+        sentence.unwrap_or_default()
+    )
 }
 
-fn causes(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+fn causes(report: &Report) -> String {
     if report.causes.is_empty() {
-        return Ok(());
+        return String::new();
     }
-    writeln!(out, "\n### At fault, the most basic first\n")?;
-    for cause in &report.causes {
-        writeln!(out, "1. `{}`: {}", cause.requirement, cause.effect())?;
-    }
-    Ok(())
+    let cause = |cause: &Cause| format!("1. `{}`: {}\n", cause.requirement, cause.effect());
+    let causes: String = report.causes.iter().take(CAUSES).map(cause).collect();
+    let more = match report.causes.len().saturating_sub(CAUSES) {
+        0 => String::new(),
+        more => format!("\n… and {more} more\n"),
+    };
+    format!("\n### At fault, the most basic first\n\n{causes}{more}")
 }
 
-fn findings(verdict: Verdict, groups: &[Group<'_>], out: &mut dyn Write) -> io::Result<()> {
-    if groups.is_empty() {
-        return Ok(());
-    }
-    writeln!(out, "\n### {} {verdict}", mark(verdict))?;
-    // Expected failures and warnings need no evidence here.
-    let brief = matches!(verdict, Verdict::ExpectedFailure | Verdict::Warn);
-    if brief {
-        writeln!(out)?;
-    }
-    for group in groups {
-        let requirement = group.requirement;
-        let share = group.share();
-        if brief {
-            writeln!(out, "- `{}`: {share}", requirement.id)?;
-            continue;
-        }
-        if let Some(origin) = group.origin() {
-            writeln!(out, "\n`{}`: {share}, all because of `{origin}`", requirement.id)?;
-            continue;
-        }
-        writeln!(out, "\n#### `{}`: {share}", requirement.id)?;
-        if let Some(statement) = &requirement.statement {
-            let (text, place) = (prose(&statement.text), prose(&statement.place()));
-            writeln!(out, "\n> **{}** {text} ({place})", requirement.level)?;
-        }
-        if let Some(smallest) = group.checks.smallest.first() {
-            writeln!(out, "\n{}", block(&format!("{:9} {}", "check", smallest.outcome.id)))?;
-            for (label, evidence) in smallest.evidence() {
-                writeln!(out, "{}", block(&format!("{label:9} {evidence}")))?;
-            }
-        }
-    }
-    Ok(())
+fn totals(report: &Report) -> String {
+    let row =
+        |(verdict, count)| format!("| {} {verdict} | {} |\n", mark(verdict), thousands(count));
+    let rows: String = report.summary.totals.counts().map(row).collect();
+    format!("\n| verdict | checks |\n|---|---:|\n{rows}")
 }
 
-fn profile(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+/// Each finding, folded but for the first, and what follows from others in a line.
+fn findings(report: &Report) -> Vec<String> {
+    let own = report.findings();
+    let mut parts: Vec<_> =
+        own.iter().enumerate().map(|(place, group)| finding(group, place == 0)).collect();
+    if let Some(first) = parts.first_mut() {
+        first.insert_str(0, "\n### Findings\n");
+    }
+    let follows = |group: &Group<'_>| {
+        let (id, share) = (&group.requirement.id, group.share());
+        let origin = group.origin().filter(|_| group.checks.verdict.is_failure())?;
+        Some(format!("- `{id}`: {share}, all because of `{origin}`\n"))
+    };
+    let groups = Report::URGENT.into_iter().flat_map(|verdict| report.groups(verdict));
+    let mut followers: Vec<_> = groups.filter_map(|group| follows(&group)).collect();
+    if let Some(first) = followers.first_mut() {
+        first.insert_str(0, "\n### What follows\n\n");
+    }
+    parts.extend(followers);
+    parts
+}
+
+fn finding(group: &Group<'_>, is_open: bool) -> String {
+    let Group { requirement, checks } = group;
+    let verdict = checks.verdict;
+    let open = if is_open { " open" } else { "" };
+    let (mark, id, share) = (mark(verdict), html(&requirement.id), group.share());
+    let demand = requirement.statement.as_ref().map(|statement| {
+        let (words, place) = (prose(&statement.text), prose(&statement.place()));
+        format!("\n> **{}** {words} ({place})\n", requirement.level)
+    });
+    let demand = demand.unwrap_or_default();
+    let case = checks.smallest.first().map(case).unwrap_or_default();
+    format!(
+        "\n<details{open}><summary>{mark} {verdict} <code>{id}</code>: {share}</summary>\n\
+         {demand}{case}\n</details>\n"
+    )
+}
+
+/// A check with its evidence.
+fn case(result: &CheckResult) -> String {
+    let mut lines = vec![block(&format!("{:9} {}", "check", result.outcome.id))];
+    let evidence = result.evidence();
+    lines.extend(evidence.iter().map(|(label, value)| block(&format!("{label:9} {value}"))));
+    format!("\n{}\n", lines.join("\n"))
+}
+
+/// Warnings and expected failures need no evidence here.
+fn brief(report: &Report) -> Vec<String> {
+    let mut rows = Vec::new();
+    let warned = report.groups(Verdict::Warn);
+    let warning = |group: &Group<'_>| format!("- `{}`: {}\n", group.requirement.id, group.share());
+    let known = |line: &String| format!("- {}\n", prose(line));
+    for (verdict, mut lines) in [
+        (Verdict::Warn, warned.iter().map(warning).collect::<Vec<_>>()),
+        (Verdict::ExpectedFailure, report.excused(usize::MAX).iter().map(known).collect()),
+    ] {
+        if let Some(first) = lines.first_mut() {
+            first.insert_str(0, &format!("\n### {} {verdict}\n\n", mark(verdict)));
+        }
+        rows.extend(lines);
+    }
+    rows
+}
+
+/// The beginning of a folded table, and its rows.
+fn profile(report: &Report) -> Vec<String> {
     if report.profile.is_empty() {
-        return Ok(());
+        return Vec::new();
     }
-    writeln!(out, "\n### Unspecified by the documents\n")?;
-    writeln!(out, "| question | what it does |\n|---|---|")?;
-    for question in &report.profile {
-        let answer = prose(&tallies(&question.behaviours));
-        writeln!(out, "| {} `{}` | {answer} |", prose(&question.question), question.requirement)?;
-    }
-    Ok(())
+    let many = count(report.profile.len(), "question");
+    let head = format!(
+        "\n<details><summary>{many} that the documents leave unspecified</summary>\n\n\
+         | question | what it does |\n|---|---|\n"
+    );
+    let row = |entry: &ProfileEntry| {
+        let answer = prose(&tallies(&entry.behaviours));
+        format!("| {} `{}` | {answer} |\n", prose(&entry.question), entry.requirement)
+    };
+    std::iter::once(head).chain(report.profile.iter().map(row)).collect()
 }
 
 /// Escapes a text so that Markdown shows it as it is, in a table's cell too. An empty comment keeps
@@ -125,6 +185,11 @@ pub(super) fn prose(text: &str) -> String {
     escaped
 }
 
+/// Escapes a text inside of markup, where Markdown has no rules.
+fn html(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
 /// A block of code, which is indented, as the text may contain fences.
 fn block(text: &str) -> String {
     text.lines().map(|line| format!("    {line}")).collect::<Vec<_>>().join("\n")
@@ -139,6 +204,7 @@ mod tests {
         assert_eq!(prose("a|b <script>\n`c`"), r"a\|b \<script\> \`c\`");
         assert_eq!(prose("@a #1"), r"@<!-- -->a \#<!-- -->1");
         assert_eq!(prose("https://a www.b"), "https:<!-- -->//a www<!-- -->.b");
+        assert_eq!(html("<b>&"), "&lt;b&gt;&amp;");
         assert_eq!(block("a\n```\nb"), "    a\n    ```\n    b");
     }
 }

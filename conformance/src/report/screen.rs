@@ -87,7 +87,9 @@ fn at_fault(
     let others = BRIEF + 2;
     let mut room = SCREEN.saturating_sub(fixed + others);
     for group in findings {
-        let part = finding(report, group, width);
+        let own = |other: &Group<'_>| other.requirement.id == group.requirement.id;
+        let told = findings.iter().take(parts.len() - 1).any(own);
+        let part = finding(report, group, told, width);
         let filled = rows(&part, width);
         if filled > room && parts.len() > 1 {
             break;
@@ -111,8 +113,8 @@ fn rows(part: &[String], width: usize) -> usize {
     part.iter().flat_map(|line| line.lines()).map(rows).sum::<usize>() + 1
 }
 
-/// A finding with its smallest case.
-fn finding(report: &Report, group: &Group<'_>, width: usize) -> Vec<String> {
+/// A finding with its smallest case, and its requirement unless that is told above.
+fn finding(report: &Report, group: &Group<'_>, told: bool, width: usize) -> Vec<String> {
     let mut block = vec![format!("{}  {}", text::title(group), effect(report, group))];
     let room = width.saturating_sub(LABEL);
     let mut say = |label: &str, texts: &[String]| {
@@ -121,7 +123,7 @@ fn finding(report: &Report, group: &Group<'_>, width: usize) -> Vec<String> {
             block.push(format!("  {label:9} {text}"));
         }
     };
-    if let Some(statement) = &group.requirement.statement {
+    if let Some(statement) = group.requirement.statement.as_ref().filter(|_| !told) {
         let level = group.requirement.level.to_string();
         say(&level, &lines(&statement.text, room, 2));
         say("source", &[format!("{DIM}{}{DIM:#}", cut(&statement.place(), room, 0))]);

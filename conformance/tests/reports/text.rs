@@ -142,26 +142,26 @@ fn what_follows_from_another_failure_is_told_in_a_line() {
 }
 
 #[test]
-fn a_summary_in_markdown_is_short() {
+fn a_summary_in_markdown_begins_with_the_causes_and_folds_the_rest() {
     insta::assert_snapshot!(written(Format::Markdown, &sample::interrupted()), @r#"
     ## FAILED: unstuffed 1.0 (C)
 
-    3 checks of 2 requirements, wire dynamixel2, seed 1
+    3 checks of 2 requirements, wire dynamixel2, seed 1, 2026-11-27T11:00:00Z
 
     **interrupted: 7 checks not asked**
+
+    ### At fault, the most basic first
+
+    1. `dynamixel2.stuffing.transmit`: 1 check failed
 
     | verdict | checks |
     |---|---:|
     | ✓ pass | 2 |
     | ✗ fail | 1 |
 
-    ### At fault, the most basic first
+    ### Findings
 
-    1. `dynamixel2.stuffing.transmit`: 1 check failed
-
-    ### ✗ fail
-
-    #### `dynamixel2.stuffing.transmit`: 1 of 2 checks
+    <details open><summary>✗ fail <code>dynamixel2.stuffing.transmit</code>: 1 of 2 checks</summary>
 
     > **must** A sender adds FD after every FF FF FD between the instruction and the last parameter, then sets the length and computes the CRC. (DYNAMIXEL Protocol 2.0, Packet 처리 (packet handling))
 
@@ -172,7 +172,22 @@ fn a_summary_in_markdown_is_short() {
         differs   byte 5, in the length
         because   the answer differs
         replay    actucheck replay dynamixel2.stuffing.goal-position/encode -- ./adapter 'two words'
+
+    </details>
     "#);
+}
+
+#[test]
+fn markdown_has_a_limit() {
+    let mut report = sample::every_verdict();
+    let group = report.not_passed.iter_mut().find(|row| row.verdict == Verdict::Fail).unwrap();
+    group.smallest[0].outcome.detail = "long ".repeat(200_000);
+    let text = written(Format::Markdown, &report);
+    assert!(text.len() < 500_000, "{} bytes", text.len());
+    assert!(text.contains(" more findings; a report in html or json has them\n"), "{text}");
+    let short = written(Format::Markdown, &sample::every_verdict());
+    assert!(!short.contains("more findings"), "{short}");
+    assert_eq!(short.matches("<details").count(), short.matches("</details>").count());
 }
 
 #[test]
