@@ -167,7 +167,7 @@ fn every_packet_to_encode_has_its_call() {
 }
 
 #[test]
-fn rejecting_everything_fails_all_that_is_valid_but_not_what_is_open() {
+fn rejecting_everything_fails_all_that_is_valid_but_not_what_is_unspecified() {
     let outcomes = outcomes(|op, answer| match answer {
         Answer::Ok(_) if matches!(op, Question::Decode { .. }) => {
             let detail = String::new();
@@ -176,9 +176,9 @@ fn rejecting_everything_fails_all_that_is_valid_but_not_what_is_open() {
         answer => answer,
     });
     let of = |id: &str| outcomes.iter().find(|outcome| outcome.id == id).unwrap();
-    let open = of("ja40.clear.instruction.with-parameters/decode");
-    assert_eq!(open.verdict, Verdict::Recorded);
-    assert_eq!(open.behaviour.as_ref().unwrap().answer, "rejects it (crc)");
+    let unspecified = of("ja40.clear.instruction.with-parameters/decode");
+    assert_eq!(unspecified.verdict, Verdict::Recorded);
+    assert_eq!(unspecified.behaviour.as_ref().unwrap().answer, "rejects it (crc)");
     assert_eq!(of("ja40.clear.status/decode").verdict, Verdict::Fail);
 }
 

@@ -126,7 +126,7 @@ pub struct Total {
 impl Total {
     /// Requirements that nothing checks.
     #[must_use]
-    pub const fn open(&self) -> usize {
+    pub const fn unchecked(&self) -> usize {
         self.requirements - self.checked - self.recorded - self.tested
     }
 }
@@ -180,7 +180,7 @@ mod tests {
 
         let total = total(&rows, Role::Codec, Level::Must);
         assert_eq!(total.checked, 1);
-        assert_eq!(total.open() + total.tested + 1, total.requirements);
+        assert_eq!(total.unchecked() + total.tested + 1, total.requirements);
     }
 
     #[test]

@@ -78,7 +78,7 @@ pub fn check(spec: &Spec, check: &Check, out: &mut dyn Write) -> io::Result<()> 
         Demand::Yield(output) | Demand::Near { output, .. } => (std::slice::from_ref(output), None),
         Demand::YieldOneOf(outputs) => (outputs.as_slice(), None),
         Demand::Reject(fault) => (&[][..], Some(format!("a rejection ({fault})"))),
-        Demand::Record(open) => return question(open, out),
+        Demand::Record(unspecified) => return question(unspecified, out),
     };
     for output in outputs {
         writeln!(out, "  {:9} {output}", "demanded")?;
@@ -87,9 +87,9 @@ pub fn check(spec: &Spec, check: &Check, out: &mut dyn Write) -> io::Result<()> 
 }
 
 /// A question that the documents leave unspecified, and the foreseen behaviours.
-fn question(open: &Unspecified, out: &mut dyn Write) -> io::Result<()> {
-    writeln!(out, "  {:9} {}", "recorded", open.question)?;
-    for way in &open.ways {
+fn question(unspecified: &Unspecified, out: &mut dyn Write) -> io::Result<()> {
+    writeln!(out, "  {:9} {}", "recorded", unspecified.question)?;
+    for way in &unspecified.ways {
         writeln!(out, "  {:9} {}: {}", "", way.name, way.output)?;
     }
     writeln!(out, "  {:9} or a rejection", "")

@@ -10,7 +10,7 @@ use crate::model::{Device, Document, Erratum, Requirement};
 use crate::wire::Wires;
 
 /// Version of the file's format. It changes when a field is removed or gets another meaning.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 
 /// What `actucheck spec export json` writes.
 #[derive(Clone, Debug, Serialize, JsonSchema)]

@@ -33,7 +33,7 @@ fn a_defect_of_the_protocol_is_found() {
         ("source: [innfos §Appendix B]", "source: []", "no citation"),
         ("[innfos §A.1.1]", "[innfoss §A.1.1]", "unknown document `innfoss`"),
         ("innfos.profile.scale", "innfos.profil", "unknown erratum `innfos.profil`"),
-        ("open: [0x02, 0x44]", "open: [0x03, 0x44]", "there is no command 0x03"),
+        ("optional: [0x02, 0x44]", "optional: [0x03, 0x44]", "there is no command 0x03"),
         ("check: 0x4B37", "check: 0x374B", "yield 0x4B37"),
         (
             "reply: [4], format: iq24",

@@ -138,10 +138,23 @@ fn totals(rows: &[Row<'_>], only: Option<Role>) -> String {
             if total.requirements == 0 {
                 continue;
             }
-            let counts =
-                [total.requirements, total.checked, total.recorded, total.tested, total.open()];
-            let [all, checked, recorded, tested, open] = counts.map(|count| count.to_string());
-            cells.push([role.to_string(), level.to_string(), all, checked, recorded, tested, open]);
+            let counts = [
+                total.requirements,
+                total.checked,
+                total.recorded,
+                total.tested,
+                total.unchecked(),
+            ];
+            let [all, checked, recorded, tested, unchecked] = counts.map(|count| count.to_string());
+            cells.push([
+                role.to_string(),
+                level.to_string(),
+                all,
+                checked,
+                recorded,
+                tested,
+                unchecked,
+            ]);
         }
     }
     table::lines("", &cells).join("\n") + "\n"

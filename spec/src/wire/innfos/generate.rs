@@ -38,8 +38,8 @@ fn constants_of(innfos: &Innfos) -> TokenStream {
         (constants::length(&framing.length, &framing_source), constants::crc(&innfos.crc));
     let (request, reply) = (usize::from(presence.request), usize::from(presence.reply));
     let presence_source = format!(" {}.", places(&presence.source));
-    let optional = presence.open.iter().map(|code| hex8(*code));
-    let count = presence.open.len();
+    let optional = presence.optional.iter().map(|code| hex8(*code));
+    let count = presence.optional.len();
     let (board, everyone) = (udp.address.octets(), udp.broadcast.octets());
     let port = Literal::u16_unsuffixed(udp.port);
     let udp_source = format!(" {}.", places(&udp.source));

@@ -77,7 +77,7 @@ pub struct CrcPresence {
     /// A reply with at least this many bytes of data has a CRC.
     pub reply: u16,
     /// The commands whose shorter replies may have no CRC, zeros in its place, or a CRC.
-    pub open: Vec<u8>,
+    pub optional: Vec<u8>,
     /// The sections that say so.
     pub source: Vec<Citation>,
     /// Ids of the errata that it depends on.

@@ -40,8 +40,8 @@ fn crc_from(innfos: &Innfos) -> Lua {
 
 /// The commands whose shorter replies may have one.
 fn crc_may(innfos: &Innfos) -> Lua {
-    let open = innfos.crc_presence.open.iter();
-    Lua::by_code(open.map(|code| (Lua::hex(*code), Lua::Plain("true".to_owned()))))
+    let optional = innfos.crc_presence.optional.iter();
+    Lua::by_code(optional.map(|code| (Lua::hex(*code), Lua::Plain("true".to_owned()))))
 }
 
 fn flags() -> Lua {

@@ -50,8 +50,8 @@ pub fn events(stream: &[u8], quiet: bool, max_packet: usize) -> Vec<Event> {
                     continue;
                 }
                 Look::False(fault) => fault,
-                Look::Open if quiet => Fault::Truncated,
-                Look::Open => break,
+                Look::Incomplete if quiet => Fault::Truncated,
+                Look::Incomplete => break,
             }
         } else if !quiet && HEADER.starts_with(rest) {
             break;
@@ -74,23 +74,23 @@ enum Look {
     /// Not a packet, and the reason.
     False(Fault),
     /// More bytes are needed to decide.
-    Open,
+    Incomplete,
 }
 
 /// Checks the rules in order, each as soon as its bytes are available.
 fn look(bytes: &[u8], max_packet: usize) -> Look {
-    let [_, _, _, _, id, ..] = *bytes else { return Look::Open };
+    let [_, _, _, _, id, ..] = *bytes else { return Look::Incomplete };
     if id > 252 && id != BROADCAST {
         return Look::False(Fault::Id);
     }
-    let Some(size) = size(bytes) else { return Look::Open };
+    let Some(size) = size(bytes) else { return Look::Incomplete };
     if size < PREFIX + 3 {
         return Look::False(Fault::Length);
     }
     if size > max_packet {
         return Look::False(Fault::Oversize);
     }
-    let Some(instruction) = bytes.get(PREFIX) else { return Look::Open };
+    let Some(instruction) = bytes.get(PREFIX) else { return Look::Incomplete };
     let fast = id == BROADCAST && *instruction == STATUS;
     // A status packet has an error byte; a fast status packet has an ID too.
     let shortest = if fast { 5 } else { 4 };
@@ -100,7 +100,7 @@ fn look(bytes: &[u8], max_packet: usize) -> Look {
     if !fast && lacks_stuffing(bytes, size - 2) {
         return Look::False(Fault::Stuffing);
     }
-    let Some(frame) = bytes.get(..size) else { return Look::Open };
+    let Some(frame) = bytes.get(..size) else { return Look::Incomplete };
     if fast {
         let (before, found) = frame.split_at(size - 2);
         if found != crc(before).to_le_bytes() {

@@ -14,7 +14,7 @@ use crate::wire::{Call, Direction};
 /// The first byte of a frame.
 const HEADER: u8 = 0xEE;
 /// The last byte of a frame.
-const TAIL: u8 = 0xED;
+pub const TAIL: u8 = 0xED;
 /// Bytes of header, address, command and length.
 pub const PREFIX: usize = 5;
 /// The commands whose replies of one byte may or may not have a CRC.
@@ -155,8 +155,8 @@ fn first(direction: Direction, bytes: &[u8]) -> Result<First, Fault> {
     let (data, behind) = rest.split_at_checked(length).ok_or(Fault::Truncated)?;
     let packet = || Packet { direction, address, command, data: HexBytes(data.to_vec()) };
     let without_crc = PREFIX + length + 1;
-    let open = has_optional_crc(direction, command, data);
-    let with_crc = if open { looks_like_crc(data, behind) } else { has_crc(direction, data) };
+    let optional = has_optional_crc(direction, command, data);
+    let with_crc = if optional { looks_like_crc(data, behind) } else { has_crc(direction, data) };
     if !with_crc {
         return match behind.first() {
             Some(&TAIL) => Ok(First { packet: packet(), size: without_crc, crc_matches: true }),
@@ -169,7 +169,11 @@ fn first(direction: Direction, bytes: &[u8]) -> Result<First, Fault> {
     if tail != TAIL {
         return Err(Fault::Tail);
     }
-    Ok(First { packet: packet(), size: without_crc + 2, crc_matches: open || found == crc(data) })
+    Ok(First {
+        packet: packet(),
+        size: without_crc + 2,
+        crc_matches: optional || found == crc(data),
+    })
 }
 
 /// What a packet says in words: its command with the data.

@@ -17,7 +17,7 @@ pub(in crate::wire::innfos) fn frames(innfos: &Innfos, packet: &Packet) -> Vec<V
         &[&[]]
     } else if data.len() >= usize::from(with_crc_from) {
         &[&crc]
-    } else if *direction == Direction::Reply && presence.open.contains(command) {
+    } else if *direction == Direction::Reply && presence.optional.contains(command) {
         &[&[], &[0, 0], &crc]
     } else {
         &[&[]]

@@ -32,10 +32,10 @@ pub(super) fn all(file: &File<Innfos>) -> Vec<Diagnostic> {
     defects.extend(repeated(alarms, "alarms.rows", "mask", |row| row.mask));
     let actuators = [(file, innfos.actuators.rows.as_slice())];
     defects.extend(repeated(actuators, "actuators.rows", "name", |row| &row.name));
-    for (index, code) in innfos.crc_presence.open.iter().enumerate() {
+    for (index, code) in innfos.crc_presence.optional.iter().enumerate() {
         if innfos.command(*code).is_none() {
             let message = format!("there is no command {code:#04X}");
-            defects.push(file.diagnostic(&format!("crc_presence.open[{index}]"), message));
+            defects.push(file.diagnostic(&format!("crc_presence.optional[{index}]"), message));
         }
     }
     defects.extend(crc::fault(&innfos.crc).map(|(node, text)| file.diagnostic(node, text)));
