@@ -9,18 +9,24 @@ use std::path::{Path, PathBuf};
 use actucheck_spec::Spec;
 
 /// A text in lower case that is not used, the word to use, and the files that may have it.
-const WORDS: [(&str, &str, &[&str]); 11] = [
+const WORDS: [(&str, &str, &[&str]); 10] = [
     ("testee", "subject", &[]),
     ("presume", "require", &["conformance/src/suite/check.rs"]), // reads older files of checks
     ("framekind", "direction", &[]),
-    ("golden packet", "test vector", &[]),
-    ("golden vector", "test vector", &[]),
-    ("golden_vector", "test vector", &[]),
+    ("golden", "test vector", &[]),
     ("leave open", "leave unspecified", &[]),
     ("leaves open", "leaves unspecified", &[]),
+    ("is open", "is unspecified", OPEN),
     ("bit stuffing", "byte stuffing", &[]),
     ("register map", "control table", &[]),
     ("known failure", "expected failure", &[]),
+];
+
+/// Where an erratum has the status `open`, or a file is open.
+const OPEN: &[&str] = &[
+    "conformance/src/command/shared/outputs.rs",
+    "spec/src/model/register.rs",
+    "spec/src/validate/erratum.rs",
 ];
 
 const FOLDERS: [&str; 5] = ["spec", "codec", "conformance", "fuzz", "benches"];
@@ -57,7 +63,8 @@ fn each_concept_has_one_word() {
     assert!(files.len() > 300, "{} files", files.len());
     let mut wrong = Vec::new();
     for path in &files {
-        let text = fs::read_to_string(root().join(path)).unwrap().to_lowercase();
+        let text = fs::read_to_string(root().join(path)).unwrap();
+        let text = format!("{} {text}", path.display()).to_lowercase();
         for (word, instead, allowed) in WORDS {
             let may = allowed.iter().any(|file| path == Path::new(file));
             if text.contains(word) && !may {

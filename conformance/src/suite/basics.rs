@@ -22,8 +22,8 @@ pub(crate) struct Basic {
     requirement: &'static str,
     /// An earlier check of the same packet.
     requires: Option<String>,
-    question: Question,
-    demand: Demand,
+    pub(super) question: Question,
+    pub(super) demand: Demand,
     /// Whether a check of this rests on it.
     pub(crate) concerns: Concerns,
 }
@@ -90,6 +90,10 @@ impl Basic {
         Check { requires: self.requires.clone(), ..check }
     }
 }
+
+/// Bytes that are rejected: name, requirement, bytes and fault, and what tells this fault from others
+/// of its class, if there are any.
+pub(crate) type Wrong = (&'static str, &'static str, Vec<u8>, Fault, Option<bool>);
 
 /// Writes the basic checks of a wire, the most basic first.
 pub(crate) struct Basics {
@@ -165,17 +169,16 @@ impl Basics {
         });
     }
 
-    /// The bytes are rejected.
+    /// The bytes are rejected for this fault, as the reference model does. A test compares them.
     pub(crate) fn rejected(
         &mut self,
-        name: &str,
+        (name, fault): (&str, Fault),
         requirement: &'static str,
         direction: Direction,
         bytes: Vec<u8>,
         concerns: impl Fn(&About<'_>) -> bool + Send + Sync + 'static,
     ) {
         let context = Context::from(direction);
-        let Err(fault) = self.wire.decode(&bytes, &context) else { return };
         let question = Question::Decode { wire: self.wire, bytes: bytes.into(), context };
         self.add((name, "decode"), requirement, question, Demand::Reject(fault), concerns);
     }

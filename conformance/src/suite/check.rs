@@ -76,6 +76,17 @@ pub struct Way {
     pub output: Output,
 }
 
+impl Demand {
+    /// Any answer to a question that the documents leave unspecified, with the foreseen behaviours.
+    pub(crate) fn record(
+        question: &str,
+        ways: impl IntoIterator<Item = (&'static str, Output)>,
+    ) -> Self {
+        let ways = ways.into_iter().map(|(name, output)| Way { name: name.to_owned(), output });
+        Self::Record(Unspecified { question: question.to_owned(), ways: ways.collect() })
+    }
+}
+
 impl Unspecified {
     /// The behaviour in a few words; `None` if the subject failed or was not asked.
     fn behaviour(&self, answer: &Answer) -> Option<Behaviour> {
@@ -114,12 +125,12 @@ impl Check {
     #[must_use]
     pub fn judge(self, answer: Answer) -> Outcome {
         let broken = matches!(&answer, Answer::Rejected(why) if why.class == Fault::Internal);
-        let open = match &self.demand {
-            Demand::Record(open) => open.behaviour(&answer),
+        let recorded = match &self.demand {
+            Demand::Record(unspecified) => unspecified.behaviour(&answer),
             _ => None,
         };
         let (verdict, detail, actual) = match answer {
-            _ if open.is_some() => (Verdict::Recorded, String::new(), None),
+            _ if recorded.is_some() => (Verdict::Recorded, String::new(), None),
             Answer::Ok(actual) => self.judge_output(actual),
             Answer::Rejected(rejection) => self.judge_rejection(&rejection),
             Answer::Skipped(reason) => (Verdict::Skip, reason, None),
@@ -133,7 +144,7 @@ impl Check {
             (Verdict::Fail, Level::May) if !broken => Some("does not"),
             _ => None,
         };
-        let behaviour = open.or_else(|| allowed.map(|answer| self.allowed(answer)));
+        let behaviour = recorded.or_else(|| allowed.map(|answer| self.allowed(answer)));
         let verdict = match verdict {
             _ if behaviour.is_some() => Verdict::Recorded,
             Verdict::Fail if self.level == Level::Should && !broken => Verdict::Warn,
@@ -197,11 +208,11 @@ impl Check {
         (size > limit).then_some(size)
     }
 
-    fn expected(&self) -> Option<&Output> {
+    pub(crate) fn expected(&self) -> Option<&Output> {
         match &self.demand {
             Demand::Yield(output) | Demand::Near { output, .. } => Some(output),
             Demand::YieldOneOf(outputs) => outputs.first(),
-            Demand::Record(open) => open.ways.first().map(|way| &way.output),
+            Demand::Record(unspecified) => unspecified.ways.first().map(|way| &way.output),
             Demand::Reject(_) => None,
         }
     }

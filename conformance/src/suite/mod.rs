@@ -1,6 +1,6 @@
 //! The checks: their sources, what their answers must be, and files of checks.
 //!
-//! The right answer of a golden check is printed in a document; the right answers of the other
+//! The right answer of a test vector is printed in a document; the right answers of the other
 //! checks come from the wire's reference model. Ids are permanent: an id names the question, not
 //! its place in the list.
 
@@ -129,6 +129,15 @@ impl Author<'_> {
 
 fn unknown() -> Citation {
     Citation { document: String::new(), section: String::new() }
+}
+
+/// The bytes with the one at a place changed.
+fn changed(bytes: &[u8], at: usize, change: impl FnOnce(u8) -> u8) -> Vec<u8> {
+    let mut bytes = bytes.to_vec();
+    if let Some(byte) = bytes.get_mut(at) {
+        *byte = change(*byte);
+    }
+    bytes
 }
 
 /// Bytes as hex digits for an id; `empty` for no bytes.

@@ -2,6 +2,7 @@
 
 pub(crate) mod dynamixel2;
 mod innfos;
+mod vector;
 
 use std::borrow::Cow;
 
@@ -63,4 +64,47 @@ pub(crate) fn rests_on<'a>(
     let about = About::new(question, expected);
     let concerned = basics.iter().filter(move |basic| (basic.concerns)(&about));
     concerned.map(|basic| basic.id.as_str().into()).chain(values.into_iter().map(Cow::from))
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)] // tests may stop at a surprise
+
+    use std::collections::HashSet;
+
+    use actucheck_spec::Spec;
+
+    use super::*;
+    use crate::suite::check::Demand;
+    use crate::suite::{self, Options};
+
+    #[test]
+    fn basic_checks_reject_what_the_reference_model_rejects() {
+        let mut rejected = 0;
+        for basic in WIRES.iter().flat_map(|checks| (checks.basics)()) {
+            if let (Demand::Reject(fault), Question::Decode { wire, bytes, context }) =
+                (&basic.demand, &basic.question)
+            {
+                assert_eq!(wire.decode(bytes, context).err(), Some(*fault), "{}", basic.id);
+                rejected += 1;
+            }
+        }
+        assert!(rejected > 10, "{rejected}");
+    }
+
+    #[test]
+    fn checks_rest_on_checks_of_the_plan() {
+        let spec = Spec::embedded().unwrap();
+        let options = Options { cases: 20, ..Options::new().with_bodies(2) };
+        let plan = suite::plan(&spec, &WIRES.map(|checks| checks.wire), &options);
+        let ids: HashSet<String> = plan.ids().collect();
+        let mut resting = 0;
+        for check in plan.checks() {
+            for id in rests_on(&check.question, check.expected()) {
+                assert!(ids.contains(&*id), "{} rests on {id}", check.id);
+                resting += 1;
+            }
+        }
+        assert!(resting > ids.len(), "{resting}");
+    }
 }

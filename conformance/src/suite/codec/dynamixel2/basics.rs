@@ -16,7 +16,8 @@ use actucheck_spec::wire::{self, Direction};
 use self::frames::{May, body, frames};
 use self::rows::{Has, Row, blocks, fast, fields, instructions, long, of_word, plain};
 use crate::adapter::{Output, Question};
-use crate::suite::basics::{About, Basic, Basics};
+use crate::suite::basics::{About, Basic, Basics, Wrong};
+use crate::suite::changed;
 use crate::suite::check::Demand;
 
 const TRANSMIT: &str = "dynamixel2.stuffing.transmit";
@@ -137,39 +138,37 @@ fn has_other_bytes(about: &About<'_>) -> bool {
 /// What is no packet, by each rule of the receive procedure.
 fn wrong(basics: &mut Basics, row: &Row, direction: Direction) {
     let frame = reference::encode(&row.packet).unwrap_or_default();
+    let last = frame.len().saturating_sub(1);
     let replaced = |at: usize, value: u8| {
-        let mut bytes = frame.clone();
-        bytes.get_mut(at).into_iter().for_each(|byte| *byte = value);
+        let mut bytes = changed(&frame, at, |_| value);
         reference::repair(&mut bytes);
         bytes
     };
-    let mut bad = frame.clone();
-    bad.iter_mut().last().into_iter().for_each(|byte| *byte ^= 1);
-    let short = frame.get(..frame.len().saturating_sub(1)).unwrap_or_default().to_vec();
-    let cases: [(&str, &str, Vec<u8>, Concerns); 4] = [
-        ("wrong-header", "dynamixel2.receive.header", replaced(0, 0xFE), |fault, bytes| {
-            fault == Fault::Header && !bytes.starts_with(&PATTERN)
-        }),
-        ("wrong-reserved", "dynamixel2.packet.reserved", replaced(3, 1), |fault, bytes| {
-            fault == Fault::Header && bytes.starts_with(&PATTERN)
-        }),
-        ("wrong-crc", "dynamixel2.receive.crc", bad, |fault, _| fault == Fault::Crc),
-        ("cut-short", "dynamixel2.receive.length", short, |fault, _| fault == Fault::Truncated),
+    let bad = changed(&frame, last, |byte| byte ^ 1);
+    let short = frame.get(..last).unwrap_or_default().to_vec();
+    // Of a wrong header, whether its first three bytes are right.
+    let cases: [Wrong; 4] = [
+        (
+            "wrong-header",
+            "dynamixel2.receive.header",
+            replaced(0, 0xFE),
+            Fault::Header,
+            Some(false),
+        ),
+        ("wrong-reserved", "dynamixel2.packet.reserved", replaced(3, 1), Fault::Header, Some(true)),
+        ("wrong-crc", "dynamixel2.receive.crc", bad, Fault::Crc, None),
+        ("cut-short", "dynamixel2.receive.length", short, Fault::Truncated, None),
     ];
-    for (what, requirement, bytes, concerns) in cases {
-        basics.rejected(&row.sibling(what), requirement, direction, bytes, move |about| {
-            match (about.question, about.fault) {
-                (Question::Decode { bytes, context, .. }, Some(fault)) => {
-                    context.direction == Some(direction) && concerns(fault, bytes)
-                }
-                _ => false,
-            }
+    for (what, requirement, bytes, fault, begins) in cases {
+        let name = row.sibling(what);
+        basics.rejected((&name, fault), requirement, direction, bytes, move |about| {
+            let Question::Decode { bytes, context, .. } = about.question else { return false };
+            context.direction == Some(direction)
+                && about.fault == Some(fault)
+                && begins.is_none_or(|begins| begins == bytes.starts_with(&PATTERN))
         });
     }
 }
-
-/// Whether a fault of these bytes is the one that a check is about.
-type Concerns = fn(Fault, &[u8]) -> bool;
 
 /// A packet built, read alone, and found in a stream.
 fn both_ways(basics: &mut Basics, row: &Row) {

@@ -5,7 +5,7 @@ use actucheck_spec::wire::dynamixel2::Packet;
 use actucheck_spec::wire::dynamixel2::reference::{self, PREFIX};
 
 use super::BOTH_WAYS;
-use super::lengths::Kind;
+use super::kind::Kind;
 use crate::suite::check::Check;
 use crate::suite::plan::{Family, Group};
 use crate::suite::{Author, hex};
@@ -40,7 +40,7 @@ pub(super) fn families(author: Author<'_>) -> [Family<'_>; 2] {
             let kinds = Kind::ALL.into_iter();
             kinds.flat_map(|kind| ENDS.map(|(end, crc)| (kind, end, crc))).map(
                 move |(kind, end, crc)| {
-                    let stem = format!("{PREFIX}{}.{}.{}", hex(end), hex(&crc), kind.name());
+                    let stem = format!("{PREFIX}{}.{}.{kind}", hex(end), hex(&crc));
                     Group::new(stem, &BOTH_WAYS, move |stem| {
                         let requirement = match end {
                             [] => "dynamixel2.crc.byte-order",
@@ -67,7 +67,7 @@ pub(crate) fn packets() -> Vec<Packet> {
 fn ending(kind: Kind, end: &[u8], crc: [u8; 2]) -> Packet {
     let length = kind.before_data() + 2 + end.len();
     let with = |chosen: [u8; 2]| {
-        let mut packet = kind.packet(length, None);
+        let mut packet = kind.with_body(length, None);
         let (Packet::Instruction { params, .. } | Packet::Status { params, .. }) = &mut packet
         else {
             return packet;
@@ -103,8 +103,8 @@ fn before_stuffing(author: &Author<'_>, kind: Kind) -> Check {
     let mut frame = reference::frame(1, &reference::stuff(body));
     frame.truncate(frame.len().saturating_sub(2));
     frame.extend(plain.iter().skip(plain.len().saturating_sub(2)));
-    let packet = kind.packet(kind.before_data() + 1, None).into();
-    let id = format!("dynamixel2.crc.before-stuffing.{}/decode", kind.name());
+    let packet = kind.with_body(kind.before_data() + 1, None).into();
+    let id = format!("dynamixel2.crc.before-stuffing.{kind}/decode");
     author.decoded(id, "dynamixel2.stuffing.crc", author.wire.direction(&packet), frame)
 }
 

@@ -4,7 +4,8 @@
 use actucheck_spec::wire::dynamixel2::Packet;
 use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, PATTERN, STATUS};
 
-use super::{BOTH_WAYS, recorded};
+use super::kind::REGISTER;
+use super::{BACKUP, BOTH_WAYS, CLEAR, recorded};
 use crate::adapter::{Output, Question};
 use crate::suite::check::{Check, Demand};
 use crate::suite::plan::{Family, Group};
@@ -17,9 +18,6 @@ const ALPHABET: [u8; 4] = [0xFF, 0xFD, 0x00, 0x01];
 /// byte: the length of a Write is 5 bytes more than its data, and passes 128 and 256 here.
 const LENGTHS: [usize; 17] =
     [0, 1, 2, 3, 4, 122, 123, 124, 127, 128, 129, 250, 251, 252, 255, 256, 257];
-
-/// The address of the Write: 116, as some libraries support addresses up to 255 only.
-const REGISTER: [u8; 2] = [0x74, 0x00];
 
 pub(super) fn families<'a>(author: Author<'a>, options: &Options) -> Vec<Family<'a>> {
     let body_length = options.body_length.min(Options::LONGEST_BODY);
@@ -224,8 +222,8 @@ fn instructions(author: Author<'_>) -> impl Iterator<Item = Group<'_>> {
 const FITTING: [(u8, &[u8]); 10] = [
     (0x02, &[132, 0, 4, 0]),
     (0x06, &[0x01]),
-    (0x10, &[0x01, 0x44, 0x58, 0x4C, 0x22]),
-    (0x20, &[0x01, 0x43, 0x54, 0x52, 0x4C]),
+    (0x10, &CLEAR),
+    (0x20, &BACKUP),
     (0x82, &[132, 0, 4, 0, 1]),
     (0x83, &[65, 0, 1, 0, 1, 1]),
     (0x8A, &[132, 0, 4, 0, 1]),

@@ -5,7 +5,6 @@ use actucheck_spec::wire::dynamixel2::reference::{self, HEADER, PATTERN};
 use actucheck_spec::wire::dynamixel2::{Block, Packet};
 use actucheck_spec::wire::{Direction, Fast};
 
-use super::unspecified::open;
 use crate::adapter::{Output, Question};
 use crate::suite::Author;
 use crate::suite::check::{Check, Demand};
@@ -231,7 +230,7 @@ fn in_a_stream(author: &Author<'_>, kind: Kind) -> Check {
     let fast = Packet::FastStatus { blocks: blocks(&ids(2), kind.size()) };
     let chunks =
         [&status(1), &fast, &status(2)].map(|packet| reference::encode(packet).unwrap_or_default());
-    let ways = open(
+    let demand = Demand::record(
         "What is a fast status packet in a stream?",
         [
             ("a status packet from ID 254", reference::packets(&chunks.concat())),
@@ -243,7 +242,7 @@ fn in_a_stream(author: &Author<'_>, kind: Kind) -> Check {
     let question =
         Question::Stream { wire: author.wire, chunks, direction: Some(Direction::Reply) };
     let id = format!("ja40.fast.open.{}.in-a-stream/stream", kind.name());
-    author.check(id, "dynamixel2.receive.stream", question, Demand::Record(ways))
+    author.check(id, "dynamixel2.receive.stream", question, demand)
 }
 
 /// Blocks of other devices than the request names at their places. The devices must not answer so;
@@ -268,7 +267,7 @@ fn other_devices(author: &Author<'_>) -> Vec<Check> {
         let renamed = Packet::FastStatus { blocks: renamed.collect() };
         let packet = Packet::FastStatus { blocks: found };
         let bytes = reference::encode(&packet).unwrap_or_default().into();
-        let ways = open(
+        let demand = Demand::record(
             &format!("Is a fast status packet read that has {what}?"),
             [("with the IDs of the blocks", packet), ("with the IDs of the request", renamed)]
                 .map(|(name, packet)| (name, Output::Packet(packet.into()))),
@@ -276,7 +275,7 @@ fn other_devices(author: &Author<'_>) -> Vec<Check> {
         let question =
             Question::Decode { wire: author.wire, bytes, context: asked(&asked_for).into() };
         let id = format!("ja40.fast.open.{}.{name}/decode", kind.name());
-        author.check(id, kind.status(), question, Demand::Record(ways))
+        author.check(id, kind.status(), question, demand)
     };
     Kind::ALL.into_iter().flat_map(|kind| cases.map(|case| check(kind, case))).collect()
 }

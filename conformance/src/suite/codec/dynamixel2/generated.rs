@@ -11,8 +11,8 @@ use proptest::prop_oneof;
 use proptest::sample::select;
 use proptest::strategy::{SBoxedStrategy, Union, ValueTree};
 
-use super::parameters_of;
 use super::streams::resumed;
+use super::{BACKUP, CLEAR, parameters_of};
 use crate::suite::Author;
 use crate::suite::check::Check;
 use crate::suite::plan::{Family, Group};
@@ -250,8 +250,8 @@ pub(crate) fn instruction() -> impl Strategy<Value = (&'static str, Packet)> {
     };
     let none = || Just(Vec::new()).sboxed();
     let option = prop_oneof![Just(vec![0xFF]), Just(vec![0x01]), Just(vec![0x02])];
-    let clear = Just(vec![0x01, 0x44, 0x58, 0x4C, 0x22]).sboxed();
-    let backup = Just(vec![0x01, 0x43, 0x54, 0x52, 0x4C]).sboxed();
+    let clear = Just(CLEAR.to_vec()).sboxed();
+    let backup = Just(BACKUP.to_vec()).sboxed();
     Union::new_weighted(vec![
         (1, one("Ping", 0x01, none())),
         (2, one("Read", 0x02, read.sboxed())),

@@ -6,14 +6,12 @@ use actucheck_spec::model::Fault;
 use actucheck_spec::wire::dynamixel2::Packet;
 use actucheck_spec::wire::dynamixel2::reference::{self, PATTERN, PREFIX};
 
-use super::lengths::Kind;
+use super::LARGEST;
+use super::kind::Kind;
 use crate::adapter::{Called, Limits, Output, Question};
 use crate::suite::Author;
 use crate::suite::check::{Check, Demand};
 use crate::suite::plan::{Family, Group};
-
-/// Size in bytes of the largest packet that a two-byte length allows.
-const LARGEST: usize = 65_535 + PREFIX;
 
 /// Bytes of a packet apart from its body.
 const AROUND: usize = PREFIX + 2;
@@ -50,10 +48,10 @@ pub(super) fn families(author: Author<'_>, limits: Limits) -> Vec<Family<'_>> {
 /// Packets whose length has no room in its field, one of them only with stuffing.
 fn beyond_length(author: &Author<'_>, kind: Kind) -> [Check; 2] {
     let longest = LARGEST - AROUND;
-    let plain = kind.packet(longest + 1, None);
-    let stuffed = kind.packet(longest, Some(longest - PATTERN.len()));
+    let plain = kind.with_body(longest + 1, None);
+    let stuffed = kind.with_body(longest, Some(longest - PATTERN.len()));
     [("plain", plain), ("stuffed", stuffed)].map(|(name, packet)| {
-        let id = format!("dynamixel2.limit.length-field.{}.{name}/encode", kind.name());
+        let id = format!("dynamixel2.limit.length-field.{kind}.{name}/encode");
         let packet = Called::from(packet);
         let build = Question::Encode { wire: author.wire, packet };
         author.check(id, REQUIREMENT, build, Demand::Reject(Fault::Oversize))
@@ -75,7 +73,7 @@ fn family(author: Author<'_>, end: End, limit: usize) -> Family<'_> {
             let each = kinds.flat_map(|kind| [(kind, false), (kind, true)]);
             each.map(move |(kind, is_stuffed)| {
                 let how = if is_stuffed { "stuffed" } else { "plain" };
-                let stem = format!("{prefix}{name}.{}.{how}", kind.name());
+                let stem = format!("{prefix}{name}.{kind}.{how}");
                 Group::new(stem, names, move |stem| {
                     let packet = of_size(kind, size, is_stuffed);
                     checks(&author, stem, end, &packet, size > limit)
@@ -88,7 +86,7 @@ fn family(author: Author<'_>, end: End, limit: usize) -> Family<'_> {
 /// A packet of this size, with stuffing at its end if it is stuffed.
 fn of_size(kind: Kind, size: usize, is_stuffed: bool) -> Packet {
     let length = size.saturating_sub(AROUND + usize::from(is_stuffed));
-    kind.packet(length, is_stuffed.then(|| length.saturating_sub(PATTERN.len())))
+    kind.with_body(length, is_stuffed.then(|| length.saturating_sub(PATTERN.len())))
 }
 
 fn checks(author: &Author<'_>, stem: &str, end: End, packet: &Packet, is_over: bool) -> Vec<Check> {

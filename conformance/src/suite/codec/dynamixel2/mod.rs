@@ -1,7 +1,7 @@
 //! Checks of DYNAMIXEL Protocol 2.0 and its JA dialect.
 //!
 //! - basics: single sentences, on which every other check rests;
-//! - golden: the test vectors;
+//! - vectors: the test vectors;
 //! - lengths: every length, and the pattern of byte stuffing at every place;
 //! - exhaustive: every case of small sets, such as short bodies and all instructions;
 //! - ids: every ID;
@@ -24,9 +24,9 @@ mod devices;
 mod exhaustive;
 mod fast;
 pub(crate) mod generated;
-pub(super) mod golden;
 mod ids;
 mod instructions;
+mod kind;
 mod lengths;
 mod limits;
 mod negative;
@@ -34,20 +34,29 @@ mod requests;
 mod streams;
 mod unspecified;
 pub(super) mod values;
+mod vectors;
 
 use actucheck_spec::Spec;
 use actucheck_spec::wire::dynamixel2::Packet;
+use actucheck_spec::wire::dynamixel2::reference::PREFIX;
 
 use crate::adapter::{Called, Output, Question};
 use crate::suite::check::{Check, Demand, Unspecified, Way};
 use crate::suite::plan::Family;
 use crate::suite::{Author, Options};
 
+/// Size in bytes of the largest packet that a two-byte length allows.
+const LARGEST: usize = 65_535 + PREFIX;
+
+/// Parameters of a Clear and of a Control Table Backup: what is done, and the key.
+const CLEAR: [u8; 5] = [0x01, 0x44, 0x58, 0x4C, 0x22];
+const BACKUP: [u8; 5] = [0x01, 0x43, 0x54, 0x52, 0x4C];
+
 /// What the checks of a packet are called.
 const BOTH_WAYS: [&str; 2] = ["/encode", "/decode"];
 
 pub(super) fn families<'a>(author: Author<'a>, options: &Options) -> Vec<Family<'a>> {
-    let mut families = vec![values::basics(author), golden::family(author)];
+    let mut families = vec![values::basics(author), vectors::family(author)];
     families.push(lengths::family(author, options.limits));
     families.extend(exhaustive::families(author, options));
     families.extend(ids::families(author));

@@ -6,9 +6,9 @@
 use actucheck_spec::wire::Direction;
 use actucheck_spec::wire::dynamixel2::{Packet, reference};
 
-use crate::suite::Author;
 use crate::suite::check::Check;
 use crate::suite::plan::{Family, Group};
+use crate::suite::{Author, changed};
 
 pub(super) fn family(author: Author<'_>) -> Family<'_> {
     Family::new("dynamixel2.negative.", move || broken(author))
@@ -56,25 +56,26 @@ fn packets() -> [(&'static str, Packet); 3] {
 /// A frame with each kind of damage, its name, and the requirement that it breaks.
 fn damaged(frame: &[u8]) -> Vec<(String, &'static str, Vec<u8>)> {
     let mut list = Vec::new();
+    let replaced = |at, byte| changed(frame, at, |_| byte);
     let mut add = |name: String, requirement, bytes| list.push((name, requirement, bytes));
 
     for (at, bytes) in [(0, [0xFE, 0x00]), (1, [0xFE, 0x00]), (2, [0xFC, 0xFF])] {
         for byte in bytes {
             let name = format!("header-{at}-{byte:02x}");
-            add(name, "dynamixel2.receive.header", with_crc(replaced(frame, at, byte)));
+            add(name, "dynamixel2.receive.header", with_crc(replaced(at, byte)));
         }
     }
     for byte in [0xFD, 0xFF, 0x01] {
-        let bytes = with_crc(replaced(frame, 3, byte));
+        let bytes = with_crc(replaced(3, byte));
         add(format!("reserved-{byte:02x}"), "dynamixel2.packet.reserved", bytes);
     }
     let [low, high] = [frame.get(5), frame.get(6)].map(|byte| byte.copied().unwrap_or_default());
     for byte in [0, 1, 2, low - 1, low + 1, 0xFF] {
-        let bytes = with_crc(replaced(frame, 5, byte));
+        let bytes = with_crc(replaced(5, byte));
         add(format!("length-low-{byte:02x}"), "dynamixel2.receive.length", bytes);
     }
     for byte in [high + 1, 0xFF] {
-        let bytes = with_crc(replaced(frame, 6, byte));
+        let bytes = with_crc(replaced(6, byte));
         add(format!("length-high-{byte:02x}"), "dynamixel2.receive.length", bytes);
     }
     for end in 0..frame.len() {
@@ -83,24 +84,19 @@ fn damaged(frame: &[u8]) -> Vec<(String, &'static str, Vec<u8>)> {
     }
     for at in 0..frame.len() {
         for bit in 0..8 {
-            let byte = frame.get(at).copied().unwrap_or_default() ^ 1 << bit;
             let requirement = match at {
                 0..3 => "dynamixel2.receive.header",
                 3 => "dynamixel2.packet.reserved",
                 _ => "dynamixel2.receive.crc",
             };
-            add(format!("flip-{at}-{bit}"), requirement, replaced(frame, at, byte));
+            add(
+                format!("flip-{at}-{bit}"),
+                requirement,
+                changed(frame, at, |byte| byte ^ 1 << bit),
+            );
         }
     }
     list
-}
-
-fn replaced(frame: &[u8], at: usize, byte: u8) -> Vec<u8> {
-    let mut bytes = frame.to_vec();
-    if let Some(slot) = bytes.get_mut(at) {
-        *slot = byte;
-    }
-    bytes
 }
 
 /// The same bytes with a matching CRC.

@@ -7,8 +7,8 @@ use actucheck_spec::wire::dynamixel2::Packet;
 use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, STATUS};
 
 use crate::adapter::{Output, Question};
-use crate::suite::check::{Check, Demand, Unspecified, Way};
-use crate::suite::{Author, hex};
+use crate::suite::check::{Check, Demand};
+use crate::suite::{Author, changed, hex};
 
 pub(super) fn checks(author: &Author<'_>) -> Vec<Check> {
     let mut checks = bare_patterns(author);
@@ -18,23 +18,9 @@ pub(super) fn checks(author: &Author<'_>) -> Vec<Check> {
     checks
 }
 
-fn record(
-    author: &Author<'_>,
-    id: &str,
-    requirement: &str,
-    op: Question,
-    open: Unspecified,
-) -> Check {
+fn record(author: &Author<'_>, id: &str, requirement: &str, op: Question, demand: Demand) -> Check {
     let id = format!("dynamixel2.open.{id}/{}", op.name());
-    author.check(id, requirement, op, Demand::Record(open))
-}
-
-pub(super) fn open(
-    question: &str,
-    ways: impl IntoIterator<Item = (&'static str, Output)>,
-) -> Unspecified {
-    let ways = ways.into_iter().map(|(name, output)| Way { name: name.to_owned(), output });
-    Unspecified { question: question.to_owned(), ways: ways.collect() }
+    author.check(id, requirement, op, demand)
 }
 
 /// Reads a status packet.
@@ -59,18 +45,18 @@ fn bare_patterns(author: &Author<'_>) -> Vec<Check> {
         let end = data.windows(3).position(|window| window == [0xFF, 0xFF, 0xFD]).unwrap_or(0) + 3;
         let without =
             [data.get(..end), data.get(end + 1..)].map(Option::unwrap_or_default).concat();
-        let ways = |of: &dyn Fn(&[u8]) -> Output| {
-            open(
+        let demand = |of: &dyn Fn(&[u8]) -> Output| {
+            Demand::record(
                 question,
                 [("data as it is", of(data)), ("the byte behind it is dropped", of(&without))],
             )
         };
         let name = format!("bare-pattern.{}", hex(data));
         let op = Question::Unstuff { wire: author.wire, bytes: bytes(data) };
-        let body = ways(&|data| Output::Bytes(bytes(data)));
+        let body = demand(&|data| Output::Bytes(bytes(data)));
         checks.push(record(author, &name, requirement, op, body));
         let frame = reference::frame(1, &[&[STATUS, 0], data].concat());
-        let packet = ways(&|data| Output::Packet(status(1, data).into()));
+        let packet = demand(&|data| Output::Packet(status(1, data).into()));
         checks.push(record(author, &name, requirement, decode(author, frame), packet));
     }
     checks
@@ -81,9 +67,9 @@ fn broadcast(author: &Author<'_>) -> Check {
     let question = "Is a status packet with ID 254 read where no fast one is asked for?";
     let packet = status(BROADCAST, &[0x2A]);
     let frame = reference::frame(BROADCAST, &[STATUS, 0, 0x2A]);
-    let ways = open(question, [("accepts it", Output::Packet(packet.into()))]);
+    let demand = Demand::record(question, [("accepts it", Output::Packet(packet.into()))]);
     let requirement = "dynamixel2.status-packet.layout";
-    record(author, "id.254.status", requirement, decode(author, frame), ways)
+    record(author, "id.254.status", requirement, decode(author, frame), demand)
 }
 
 fn encode(author: &Author<'_>, packet: Packet) -> Question {
@@ -103,14 +89,14 @@ fn repeated_ids(author: &Author<'_>) -> Vec<Check> {
         let packet = Packet::Instruction { id: BROADCAST, instruction, params: bytes(params) };
         let frame = reference::encode(&packet).unwrap_or_default();
         let question = "Is an instruction that names a device twice built?";
-        let ways = open(question, [("builds it", Output::Bytes(frame.into()))]);
+        let demand = Demand::record(question, [("builds it", Output::Bytes(frame.into()))]);
         let requirement = match name {
             "bulk-read" => "dynamixel2.bulk-read.no-repeat",
             "bulk-write" => "dynamixel2.bulk-write.no-repeat",
             "sync-read" => "dynamixel2.sync-read.parameters",
             _ => "dynamixel2.sync-write.parameters",
         };
-        record(author, &format!("repeated-id.{name}"), requirement, encode(author, packet), ways)
+        record(author, &format!("repeated-id.{name}"), requirement, encode(author, packet), demand)
     };
     cases.map(check).into()
 }
@@ -121,29 +107,23 @@ fn two_faults(author: &Author<'_>) -> Vec<Check> {
     let accepted = |params: &[u8]| [("accepts it", Output::Packet(status(1, params).into()))];
     let bare = reference::frame(1, &[STATUS, 0, 0xFF, 0xFF, 0xFD, 1]);
     let plain = reference::frame(1, &[STATUS, 0, 0x2A]);
-    let spoilt = |frame: &[u8], at: usize, value: u8| {
-        let mut frame = frame.to_vec();
-        if let Some(byte) = frame.get_mut(at) {
-            *byte = value;
-        }
-        frame
-    };
+    let replaced = |frame: &[u8], at: usize, value: u8| changed(frame, at, |_| value);
     let last = |frame: &[u8]| frame.len().saturating_sub(1);
     let cases = [
         (
             "crc-stuffing",
             "a wrong CRC and a bare pattern",
-            spoilt(&bare, last(&bare), 0),
+            replaced(&bare, last(&bare), 0),
             &[0xFF, 0xFF, 0xFD, 1][..],
         ),
-        ("header-crc", "a wrong header and a wrong CRC", spoilt(&plain, 0, 0), &[0x2A]),
-        ("id-crc", "ID 255 and a wrong CRC", spoilt(&plain, 4, 255), &[0x2A]),
-        ("length-crc", "too small a length and a wrong CRC", spoilt(&plain, 5, 2), &[0x2A]),
+        ("header-crc", "a wrong header and a wrong CRC", replaced(&plain, 0, 0), &[0x2A]),
+        ("id-crc", "ID 255 and a wrong CRC", replaced(&plain, 4, 255), &[0x2A]),
+        ("length-crc", "too small a length and a wrong CRC", replaced(&plain, 5, 2), &[0x2A]),
     ];
     let check = |(name, faults, frame, params): (&str, &str, Vec<u8>, &[u8])| {
-        let ways = open(&question(faults), accepted(params));
+        let demand = Demand::record(&question(faults), accepted(params));
         let id = format!("two-faults.{name}");
-        record(author, &id, "dynamixel2.receive.crc", decode(author, frame), ways)
+        record(author, &id, "dynamixel2.receive.crc", decode(author, frame), demand)
     };
     cases.map(check).into()
 }

@@ -5,17 +5,15 @@
 use std::sync::LazyLock;
 
 use actucheck_spec::model::Fault;
-use actucheck_spec::wire::innfos::{Packet, WIRE, reference};
+use actucheck_spec::wire::innfos::reference::{self, TAIL};
+use actucheck_spec::wire::innfos::{Packet, WIRE};
 use actucheck_spec::wire::{self, Direction};
 
+use super::{BEHIND, LENGTH};
 use crate::adapter::{Output, Question};
-use crate::suite::basics::{Basic, Basics};
+use crate::suite::basics::{Basic, Basics, Wrong};
+use crate::suite::changed;
 use crate::suite::check::Demand;
-
-/// Where the length is in a frame, and how many bytes follow the data.
-const LENGTH: usize = 3;
-const BEHIND: usize = 3;
-const TAIL: u8 = 0xED;
 
 /// All of them, the most basic first.
 pub(in crate::suite::codec) fn all() -> &'static [Basic] {
@@ -102,8 +100,7 @@ fn frames(packet: &wire::Packet, may: May) -> Vec<Vec<u8>> {
     if may >= May::LengthAndCrc {
         let mut turned = before.to_vec();
         turned.swap(LENGTH, LENGTH + 1);
-        let mut with_crc = before.to_vec();
-        with_crc.iter_mut().skip(LENGTH + 1).take(1).for_each(|low| *low += 2);
+        let with_crc = changed(before, LENGTH + 1, |low| low + 2);
         lengths.extend([turned, with_crc]);
     }
     let frames = lengths.into_iter().flat_map(|before| {
@@ -121,39 +118,30 @@ fn frames(packet: &wire::Packet, may: May) -> Vec<Vec<u8>> {
 /// What is no frame, by each rule.
 fn wrong(basics: &mut Basics, direction: Direction) {
     let frame = reference::encode(&packet(direction, &EVEN)).unwrap_or_default();
-    let replaced = |from_end: usize, value: u8| {
-        let mut bytes = frame.clone();
-        bytes.iter_mut().rev().nth(from_end).into_iter().for_each(|byte| *byte = value);
-        bytes
-    };
     let without =
         |bytes: usize| frame.get(..frame.len().saturating_sub(bytes)).unwrap_or_default().to_vec();
-    let header = replaced(frame.len().saturating_sub(1), 0xEF);
-    let cases: [(&str, &str, Vec<u8>, Concerns); 5] = [
-        ("wrong-header", "innfos.frame.header", header, |fault, _| fault == Fault::Header),
-        ("wrong-crc", "innfos.crc.verify", replaced(1, 0x40), |fault, _| fault == Fault::Crc),
-        ("wrong-end", "innfos.frame.tail", replaced(0, 0xEE), |fault, _| fault == Fault::Tail),
-        ("without-end", "innfos.frame.tail", without(1), |fault, would_end| {
-            fault == Fault::Truncated && would_end
-        }),
-        ("cut-short", "innfos.frame.length", without(2), |fault, would_end| {
-            fault == Fault::Truncated && !would_end
-        }),
+    let last = frame.len().saturating_sub(1);
+    let replaced = |at: usize, value: u8| changed(&frame, at, |_| value);
+    // Of bytes that are cut off, whether only the end is missing.
+    let cases: [Wrong; 5] = [
+        ("wrong-header", "innfos.frame.header", replaced(0, 0xEF), Fault::Header, None),
+        ("wrong-crc", "innfos.crc.verify", replaced(last - 1, 0x40), Fault::Crc, None),
+        ("wrong-end", "innfos.frame.tail", replaced(last, 0xEE), Fault::Tail, None),
+        ("without-end", "innfos.frame.tail", without(1), Fault::Truncated, Some(true)),
+        ("cut-short", "innfos.frame.length", without(2), Fault::Truncated, Some(false)),
     ];
-    for (what, requirement, bytes, concerns) in cases {
+    for (what, requirement, bytes, fault, lacks_end) in cases {
         let name = format!("{what}.{direction}");
-        basics.rejected(&name, requirement, direction, bytes, move |about| {
+        basics.rejected((&name, fault), requirement, direction, bytes, move |about| {
             let Question::Decode { bytes, context, .. } = about.question else { return false };
             let ended = [bytes.0.as_slice(), &[TAIL]].concat();
             let would_end = reference::decode(direction, &ended).is_ok();
             context.direction == Some(direction)
-                && about.fault.is_some_and(|fault| concerns(fault, would_end))
+                && about.fault == Some(fault)
+                && lacks_end.is_none_or(|lacks_end| lacks_end == would_end)
         });
     }
 }
-
-/// Whether a fault is the one that a check is about, given whether only the end is missing.
-type Concerns = fn(Fault, bool) -> bool;
 
 /// A packet, and which packets go wrong with it.
 struct Row {

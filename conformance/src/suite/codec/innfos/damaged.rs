@@ -1,17 +1,13 @@
 //! Frames that break one rule each.
 
 use actucheck_spec::wire::Direction;
-use actucheck_spec::wire::innfos::{Packet, reference};
+use actucheck_spec::wire::innfos::Packet;
+use actucheck_spec::wire::innfos::reference::{self, TAIL};
 
-use super::{decode, open, tables};
-use crate::suite::Author;
+use super::{LENGTH, decode, tables, unspecified};
 use crate::suite::check::Check;
 use crate::suite::plan::Family;
-
-/// Bytes before the data: header, address, command, length.
-const PREFIX: usize = 5;
-/// The place of the length's low byte.
-const LENGTH: usize = 4;
+use crate::suite::{Author, changed};
 
 /// A name, the bytes, and the requirement if it is not the one of the fault.
 type Damaged = (String, Vec<u8>, Option<&'static str>);
@@ -21,7 +17,7 @@ pub(super) fn families(author: Author<'_>, direction: Direction) -> [Family<'_>;
     let (each_bit, each_command) = (prefix.clone(), prefix.clone());
     [
         Family::of(prefix.clone(), move || {
-            checks(&author, direction, &prefix, bit_by_bit(&open::example(direction)))
+            checks(&author, direction, &prefix, bit_by_bit(&unspecified::example(direction)))
         }),
         Family::of(each_bit.clone(), move || {
             let codes = tables::of_each_size(direction).iter();
@@ -66,7 +62,7 @@ fn checks(
     damaged: Vec<Damaged>,
 ) -> Vec<Check> {
     let check = |(name, bytes, own): Damaged| {
-        let (requirement, demand) = open::reading(author, direction, &bytes);
+        let (requirement, demand) = unspecified::reading(author, direction, &bytes);
         let question = decode(author, direction, &bytes);
         let id = format!("{prefix}{name}/decode");
         author.check(id, own.unwrap_or(requirement), question, demand)
@@ -80,12 +76,12 @@ fn bit_by_bit(packet: &Packet) -> Vec<Damaged> {
     let mut damaged = Vec::new();
     for at in 0..frame.len() {
         for bit in 0..8 {
-            let flipped = with(&frame, at, |byte| byte ^ 1 << bit);
+            let flipped = changed(&frame, at, |byte| byte ^ 1 << bit);
             damaged.push((format!("flip-{at}-{bit}"), flipped, None));
         }
         damaged.push((format!("cut-at-{at}"), frame.get(..at).unwrap_or_default().to_vec(), None));
     }
-    damaged.push(("byte-more".to_owned(), [frame.as_slice(), &[0xED]].concat(), None));
+    damaged.push(("byte-more".to_owned(), [frame.as_slice(), &[TAIL]].concat(), None));
     damaged.push(("byte-before".to_owned(), [&[0x00], frame.as_slice()].concat(), None));
     damaged
 }
@@ -94,22 +90,22 @@ fn bit_by_bit(packet: &Packet) -> Vec<Damaged> {
 fn rule_by_rule(packet: &Packet) -> Vec<Damaged> {
     let frame = reference::encode(packet).unwrap_or_default();
     let last = frame.len().saturating_sub(1);
-    let start = PREFIX + packet.data.len();
+    let start = reference::PREFIX + packet.data.len();
     let crc = frame.get(start..last).unwrap_or_default();
-    let with_crc = |crc: &[u8]| [frame.get(..start).unwrap_or_default(), crc, &[0xED]].concat();
+    let with_crc = |crc: &[u8]| [frame.get(..start).unwrap_or_default(), crc, &[TAIL]].concat();
     let mut damaged = vec![
-        ("header", with(&frame, 0, |_| 0xEF), None),
-        ("length-more", with(&frame, LENGTH, |length| length + 1), None),
-        ("end", with(&frame, last, |_| 0xEE), None),
+        ("header", changed(&frame, 0, |_| 0xEF), None),
+        ("length-more", changed(&frame, LENGTH + 1, |length| length + 1), None),
+        ("end", changed(&frame, last, |_| 0xEE), None),
         ("without-end", frame.get(..last).unwrap_or_default().to_vec(), None),
     ];
     if packet.data.is_empty() {
         let rule = Some("innfos.frame.no-data");
         damaged.push(("with-crc", with_crc(&reference::crc(&[]).to_le_bytes()), rule));
     } else {
-        damaged.push(("length-less", with(&frame, LENGTH, |length| length - 1), None));
+        damaged.push(("length-less", changed(&frame, LENGTH + 1, |length| length - 1), None));
         let mut swapped = frame.clone();
-        swapped.swap(LENGTH - 1, LENGTH);
+        swapped.swap(LENGTH, LENGTH + 1);
         damaged.push(("length-low-byte-first", swapped, None));
     }
     if let [first, second] = *crc {
@@ -125,13 +121,4 @@ fn rule_by_rule(packet: &Packet) -> Vec<Damaged> {
         damaged.push(("without-crc", with_crc(&[]), Some(rule)));
     }
     damaged.into_iter().map(|(name, bytes, rule)| (name.to_owned(), bytes, rule)).collect()
-}
-
-/// The bytes with another one at a place.
-fn with(bytes: &[u8], at: usize, change: impl Fn(u8) -> u8) -> Vec<u8> {
-    let mut bytes = bytes.to_vec();
-    if let Some(byte) = bytes.get_mut(at) {
-        *byte = change(*byte);
-    }
-    bytes
 }

@@ -9,7 +9,7 @@ use actucheck_spec::wire::{Direction, Message, Number, Value};
 
 pub(super) use self::basics::family as basics;
 pub(in crate::suite::codec) use self::basics::rests_on;
-use super::{open, tables};
+use super::tables;
 use crate::adapter::{Output, Question, Told};
 use crate::suite::check::{Check, Demand};
 use crate::suite::plan::{Family, Group};
@@ -99,7 +99,7 @@ fn values(author: Author<'_>, row: &Command, format: Format) -> Vec<Vec<u8>> {
                 [&[0x01, 0x00], &[0x12, 0x34], &[0x7F, 0xFF], &[0x80, 0x00], &[0xFF, 0xFF]];
             of(&bytes)
         }
-        Format::Iq24 if is_open(author, row, Some(format)) => of(&[&[0x00, 0x80, 0, 0]]),
+        Format::Iq24 if is_unspecified(author, row, Some(format)) => of(&[&[0x00, 0x80, 0, 0]]),
         // Binary fractions of a full scale, so that no rounding matters.
         Format::Iq24 if row.full_scale.is_some() => {
             of(&[&[0x00, 0x80, 0, 0], &[0x01, 0, 0, 0], &[0xFF, 0, 0, 0], &[0xFF, 0xC0, 0, 0]])
@@ -119,7 +119,7 @@ fn values(author: Author<'_>, row: &Command, format: Format) -> Vec<Vec<u8>> {
 
 /// Whether the document leaves the scale or the unit of a command's numbers unspecified: a speed is
 /// a fraction of the model's full scale or of 6000 RPM, and some rows have no unit.
-fn is_open(author: Author<'_>, row: &Command, format: Option<Format>) -> bool {
+fn is_unspecified(author: Author<'_>, row: &Command, format: Option<Format>) -> bool {
     let is_number = matches!(format, Some(Format::Iq8 | Format::Iq24 | Format::Scaled));
     let errata = author.spec.errata.content.errata.iter();
     let mut open = errata.filter(|erratum| erratum.status == Status::Open);
@@ -176,7 +176,7 @@ impl Said<'_> {
         let Some(meaning) = self.meaning(author) else { return Vec::new() };
         let both = self.has_one_packet(author);
         let format = self.row.format_in(self.packet.direction);
-        let demands = if is_open(author, self.row, format) {
+        let demands = if is_unspecified(author, self.row, format) {
             self.recorded(author, &meaning)
         } else {
             self.demanded(&meaning)
@@ -239,7 +239,7 @@ impl Said<'_> {
             let packet = reference::packet(innfos, &meaning.message, *scale)?;
             Some((*name, Output::Bytes(reference::encode(&packet)?.into())))
         });
-        [open::record(question, read), open::record(question, built)]
+        [Demand::record(question, read), Demand::record(question, built)]
     }
 }
 

@@ -1,20 +1,20 @@
 //! Checks of the INNFOS Ethernet protocol.
 //!
 //! - basics: single sentences, on which every other check rests;
-//! - golden: the test vectors;
+//! - vectors: the test vectors;
 //! - packets: packets of the document's tables, with every address, every command and the bytes that
 //!   could be mistaken for the ends of a frame;
 //! - messages: what these packets say, by name or in the document's unit;
 //! - damaged: frames that break one rule each;
-//! - open: questions that the document leaves unspecified, such as packets that no table has.
+//! - unspecified: questions that the document leaves unspecified, such as packets that no table has.
 
 pub(super) mod basics;
 mod damaged;
-mod golden;
 pub(super) mod messages;
-mod open;
 mod packets;
 mod tables;
+mod unspecified;
+mod vectors;
 
 use actucheck_spec::wire::innfos::Packet;
 use actucheck_spec::wire::{Direction, Packet as AnyPacket};
@@ -23,15 +23,20 @@ use crate::adapter::Question;
 use crate::suite::plan::Family;
 use crate::suite::{Author, Options};
 
+/// The place of the length, high byte first.
+const LENGTH: usize = 3;
+/// Bytes of a frame after the data: CRC and last byte.
+const BEHIND: usize = 3;
+
 pub(super) fn families<'a>(author: Author<'a>, options: &Options) -> Vec<Family<'a>> {
     let limit = options.limits.receive();
     let mut families = vec![messages::basics(author)];
-    families.push(Family::of("", move || golden::checks(&author)));
+    families.push(Family::of("", move || vectors::checks(&author)));
     for direction in Direction::ALL {
         families.extend(packets::families(author, direction));
         families.push(messages::family(author, direction));
         families.extend(damaged::families(author, direction));
-        families.push(open::family(author, direction, limit));
+        families.push(unspecified::family(author, direction, limit));
     }
     families.push(damaged::replies_as_requests(author));
     families

@@ -3,6 +3,8 @@
 use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, PATTERN};
 use actucheck_spec::wire::dynamixel2::{Block, Packet};
 
+use super::super::kind::REGISTER;
+use super::super::{BACKUP, CLEAR};
 use super::{RECEIVE, TRANSMIT};
 
 /// A packet, and which packets go wrong with it.
@@ -118,7 +120,7 @@ fn errors(packet: &Packet, is: fn(u8) -> bool) -> bool {
 
 /// The word as the data of a Write and of a status packet.
 pub(super) fn of_word(what: &str, word: &[u8], has: fn(&[u8]) -> bool) -> [Row; 2] {
-    let write = instruction(1, 0x03, &[&[0x74, 0x00], word].concat());
+    let write = instruction(1, 0x03, &[&REGISTER, word].concat());
     [write, status(1, 0, word)].map(|packet| Row {
         name: format!("{what}.{}", kind(&packet)),
         packet,
@@ -131,7 +133,7 @@ pub(super) fn of_word(what: &str, word: &[u8], has: fn(&[u8]) -> bool) -> [Row; 
 
 /// Bodies of 64 and of 128 bytes: some libraries work in blocks.
 pub(super) fn blocks() -> [Row; 4] {
-    let write = |size: usize| instruction(1, 0x03, &[&[0x74, 0x00], &*vec![0x11; size]].concat());
+    let write = |size: usize| instruction(1, 0x03, &[&REGISTER, &*vec![0x11; size]].concat());
     let block = |what: &str, both, packet: Packet, has| Row {
         name: format!("{what}.{}", kind(&packet)),
         packet,
@@ -153,7 +155,7 @@ pub(super) fn blocks() -> [Row; 4] {
 /// The smallest lengths of 257, which has two equal bytes.
 pub(super) fn long() -> [Row; 2] {
     let is_long = |body: &[u8]| reference::stuff(body).len() + 2 > 255;
-    let write = instruction(1, 0x03, &[&[0x74, 0x00], [0x11; 252].as_slice()].concat());
+    let write = instruction(1, 0x03, &[&REGISTER, [0x11; 252].as_slice()].concat());
     [write, status(1, 0, &[0x11; 253])].map(|packet| Row {
         name: format!("length-257.{}", kind(&packet)),
         packet,
@@ -182,12 +184,8 @@ pub(super) fn instructions() -> Vec<Row> {
             is(it, 0x06)
         }),
         one("reboot", "dynamixel2.reboot.parameters", 0x08, &[], |it| is(it, 0x08)),
-        one("clear", "dynamixel2.clear.parameters", 0x10, &[1, 0x44, 0x58, 0x4C, 0x22], |it| {
-            is(it, 0x10)
-        }),
-        one("backup", "ja40.backup.parameters", 0x20, &[1, 0x43, 0x54, 0x52, 0x4C], |it| {
-            is(it, 0x20)
-        }),
+        one("clear", "dynamixel2.clear.parameters", 0x10, &CLEAR, |it| is(it, 0x10)),
+        one("backup", "ja40.backup.parameters", 0x20, &BACKUP, |it| is(it, 0x20)),
         all("sync-read", "dynamixel2.sync-read.parameters", 0x82, &[132, 0, 4, 0, 7], |it| {
             is(it, 0x82)
         }),

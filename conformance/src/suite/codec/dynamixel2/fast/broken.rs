@@ -4,12 +4,11 @@ use actucheck_spec::wire::Fast;
 use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, HEADER, PREFIX, STATUS};
 use actucheck_spec::wire::dynamixel2::{Block, Packet};
 
-use super::super::unspecified::open;
 use super::{Kind, asked, blocks, ids};
 use crate::adapter::{Output, Question};
-use crate::suite::Author;
 use crate::suite::check::{Check, Demand};
 use crate::suite::plan::Family;
+use crate::suite::{Author, changed};
 
 const LAST_CRC: &str = "dynamixel2.receive.crc";
 const LENGTH: &str = "dynamixel2.receive.length";
@@ -126,13 +125,13 @@ fn lengths(author: &Author<'_>) -> Vec<Check> {
 /// A good packet with bytes behind it. It is complete, and no sentence says that it is refused for them.
 fn followed(author: &Author<'_>, id: String, blocks: &[Block], bytes: Vec<u8>) -> Check {
     let packet = Packet::FastStatus { blocks: blocks.to_vec() };
-    let ways = open(
+    let demand = Demand::record(
         "Is a fast status packet read that has bytes behind it?",
         [("without them", Output::Packet(packet.into()))],
     );
     let context = asked(blocks).into();
     let question = Question::Decode { wire: author.wire, bytes: bytes.into(), context };
-    author.check(id, LENGTH, question, Demand::Record(ways))
+    author.check(id, LENGTH, question, demand)
 }
 
 /// Packets with a wrong byte whose CRCs behind it are right, or with a wrong byte that only the last
@@ -153,17 +152,14 @@ fn fields(author: &Author<'_>) -> Vec<Check> {
             ("reserved", "dynamixel2.packet.reserved", 3, 0x01),
             ("instruction", "dynamixel2.status-packet.layout", PREFIX, 0x54),
         ] {
-            let mut start = whole.clone();
-            start.iter_mut().skip(at).take(1).for_each(|slot| *slot = byte);
-            add(name, requirement, mended(&start, kind));
+            add(name, requirement, mended(&changed(&whole, at, |_| byte), kind));
         }
         let block = kind.size() + 4;
         for number in 0..2 {
             let begin = PREFIX + 1 + number * block;
             // All of the block but its ID and CRC.
             for at in (begin..begin + block - 2).filter(|at| *at != begin + 1) {
-                let mut bytes = whole.clone();
-                bytes.iter_mut().skip(at).take(1).for_each(|byte| *byte ^= 0x10);
+                let mut bytes = changed(&whole, at, |byte| byte ^ 0x10);
                 reference::repair(&mut bytes);
                 add(&format!("block-{}.byte-{}", number + 1, at - begin), kind.status(), bytes);
             }

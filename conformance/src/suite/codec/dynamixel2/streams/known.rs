@@ -3,10 +3,10 @@
 
 use actucheck_spec::wire::Direction;
 
-use super::{FOUND, Kind, frame};
-use crate::suite::Author;
+use super::{Cut, FOUND, Kind, frame};
 use crate::suite::check::Check;
 use crate::suite::plan::Family;
+use crate::suite::{Author, changed};
 
 pub(super) fn family(author: Author<'_>) -> Family<'_> {
     Family::of("dynamixel2.stream.", move || checks(&author))
@@ -15,8 +15,7 @@ pub(super) fn family(author: Author<'_>) -> Family<'_> {
 fn checks(author: &Author<'_>) -> Vec<Check> {
     let good = frame(&Kind::Status.packet(&[0xA6, 0x00, 0x00, 0x00]));
     let stuffed = frame(&Kind::Status.packet(&[0xFF, 0xFF, 0xFD, 0xFF]));
-    let mut bad = good.clone();
-    bad.last_mut().into_iter().for_each(|byte| *byte ^= 1);
+    let bad = changed(&good, good.len() - 1, |byte| byte ^ 1);
     let scenarios: [(&str, Vec<Vec<u8>>); 11] = [
         ("good-good", vec![good.clone(), stuffed.clone()]),
         ("bad-crc-good", vec![bad.clone(), good.clone()]),
@@ -32,25 +31,20 @@ fn checks(author: &Author<'_>) -> Vec<Check> {
     ];
     let mut checks = Vec::new();
     for (name, parts) in scenarios {
-        let stream = parts.concat();
         let id = format!("dynamixel2.stream.{name}");
         let requirement = match name {
             "stuffed-header-good" => "dynamixel2.receive.header.stuffed",
             _ => FOUND,
         };
-        let mut add = |name: String, chunks: &[Vec<u8>]| {
-            let requires = (name != "stream").then(|| format!("{id}/stream"));
-            let id = format!("{id}/{name}");
-            let check = author.streamed(id, requirement, Direction::Reply, chunks);
-            checks.push(Check { requires, ..check });
-        };
-        add("stream".to_owned(), &parts);
-        for split in 1..stream.len() {
-            let (head, tail) = stream.split_at(split);
-            add(format!("split-at-{split}"), &[head.to_vec(), tail.to_vec()]);
-        }
-        let bytes: Vec<_> = stream.iter().map(|byte| vec![*byte]).collect();
-        add("bytewise".to_owned(), &bytes);
+        let streamed =
+            |id, cut: Cut| author.streamed(id, requirement, Direction::Reply, &cut.chunks(&parts));
+        let first = format!("{id}/stream");
+        checks.push(streamed(first.clone(), Cut::ByPart));
+        let places = (1..parts.concat().len()).map(Cut::At);
+        checks.extend(places.chain([Cut::Every(1)]).map(|cut| Check {
+            requires: Some(first.clone()),
+            ..streamed(format!("{id}/{}", cut.name()), cut)
+        }));
     }
     checks
 }

@@ -1,9 +1,10 @@
 //! Many packets, packets of many sizes, and long packets.
 
+use actucheck_spec::wire::dynamixel2::Packet;
 use actucheck_spec::wire::dynamixel2::reference::BROADCAST;
-use actucheck_spec::wire::dynamixel2::{Packet, reference};
 
-use super::{Cut, FOUND, Kind, Part, Scenario};
+use super::{Cut, FOUND, KINDS, Kind, Part, Scenario};
+use crate::suite::codec::dynamixel2::LARGEST;
 
 /// Numbers of packets, at which buffers and counters may end.
 const NUMBERS: [u8; 13] = [3, 4, 5, 6, 8, 9, 10, 11, 12, 16, 20, 32, 40];
@@ -14,9 +15,6 @@ const SIZES: [usize; 13] = [0, 1, 2, 4, 8, 16, 31, 32, 52, 64, 150, 200, 230];
 /// Sizes in bytes of whole packets: those that every receiver should take.
 const FRAMES: [usize; 3] = [64, 128, 256];
 
-/// Size in bytes of the longest packet that a two-byte length allows.
-const LONGEST: usize = 65_535 + reference::PREFIX;
-
 /// Packets of the same size, as from one device that is asked again and again.
 pub(super) fn many() -> Vec<Scenario> {
     const CUTS: &[Cut] =
@@ -26,7 +24,7 @@ pub(super) fn many() -> Vec<Scenario> {
         let name = format!("many.{kind}.{number}");
         Scenario::new(name, FOUND, CUTS, parts).cut_everywhere(number == 3)
     };
-    Kind::ALL.into_iter().flat_map(|kind| NUMBERS.map(|number| of(kind, number))).collect()
+    KINDS.into_iter().flat_map(|kind| NUMBERS.map(|number| of(kind, number))).collect()
 }
 
 /// Bytes of data, packet after packet.
@@ -64,7 +62,7 @@ pub(super) fn mixed() -> Vec<Scenario> {
         Scenario::new(format!("mixed.{kind}.{name}"), FOUND, CUTS, parts)
     };
     let mut all: Vec<_> =
-        Kind::ALL.into_iter().flat_map(|kind| ORDERS.map(|order| of(kind, order))).collect();
+        KINDS.into_iter().flat_map(|kind| ORDERS.map(|order| of(kind, order))).collect();
     let requests = || requests().into_iter().map(Part::Packet).collect();
     all.push(
         Scenario::new("mixed.requests".to_owned(), FOUND, CUTS, requests).cut_everywhere(true),
@@ -118,15 +116,14 @@ pub(super) fn long(longest: Option<usize>) -> Vec<Scenario> {
             [kind.numbered(1), long, kind.numbered(2)].map(Part::Packet).into()
         })
     };
-    let each = |size| {
-        Kind::ALL.into_iter().flat_map(move |kind| [false, true].map(|it| of(kind, size, it)))
-    };
+    let each =
+        |size| KINDS.into_iter().flat_map(move |kind| [false, true].map(|it| of(kind, size, it)));
     frame_sizes(longest).into_iter().flat_map(each).collect()
 }
 
 /// The sizes of [`FRAMES`], every power of two, and the two sizes up to the stated limit.
 fn frame_sizes(longest: Option<usize>) -> Vec<usize> {
-    let Some(limit) = longest.map(|limit| limit.min(LONGEST)) else { return FRAMES.into() };
+    let Some(limit) = longest.map(|limit| limit.min(LARGEST)) else { return FRAMES.into() };
     let powers = (9..16).map(|exponent| 1 << exponent);
     let around = [limit.saturating_sub(1), limit];
     let mut sizes: Vec<_> = FRAMES.into_iter().chain(powers).chain(around).collect();

@@ -15,12 +15,11 @@ mod noise;
 mod patterns;
 mod resume;
 
-use std::fmt;
-
 use actucheck_spec::wire::Direction;
 use actucheck_spec::wire::dynamixel2::{Packet, reference};
 
 pub(super) use self::resume::resumed;
+use super::kind::Kind;
 use crate::adapter::{Output, Question};
 use crate::suite::check::{Check, Demand};
 use crate::suite::plan::{Family, Group};
@@ -28,9 +27,6 @@ use crate::suite::{Author, Options};
 
 /// The requirement that packets are found.
 const FOUND: &str = "dynamixel2.receive.stream";
-
-/// The address of a Write: 116, as some libraries support addresses up to 255 only.
-const REGISTER: [u8; 2] = [0x74, 0x00];
 
 pub(super) fn families<'a>(author: Author<'a>, options: &Options) -> Vec<Family<'a>> {
     let longest = options.limits.receive();
@@ -58,40 +54,7 @@ pub(super) fn families<'a>(author: Author<'a>, options: &Options) -> Vec<Family<
 }
 
 /// What a host receives, and what a device receives.
-#[derive(Clone, Copy)]
-enum Kind {
-    Status,
-    Write,
-}
-
-impl Kind {
-    const ALL: [Self; 2] = [Self::Status, Self::Write];
-
-    /// A packet from or to device 1.
-    fn packet(self, data: &[u8]) -> Packet {
-        match self {
-            Self::Status => Packet::Status { id: 1, error: 0, params: data.to_vec().into() },
-            Self::Write => {
-                let params = [&REGISTER, data].concat().into();
-                Packet::Instruction { id: 1, instruction: 0x03, params }
-            }
-        }
-    }
-
-    /// A packet with a number of four bytes.
-    fn numbered(self, number: u8) -> Packet {
-        self.packet(&[number, 0, 0, 0])
-    }
-}
-
-impl fmt::Display for Kind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            Self::Status => "status",
-            Self::Write => "write",
-        })
-    }
-}
+const KINDS: [Kind; 2] = [Kind::Status, Kind::Write];
 
 /// A part of a stream.
 enum Part {

@@ -1,7 +1,7 @@
 //! Bytes of headers, and damaged packets, between good packets.
 
-use super::{Cut, FOUND, Kind, Part, Scenario, frame};
-use crate::suite::hex;
+use super::{Cut, FOUND, KINDS, Kind, Part, Scenario, frame};
+use crate::suite::{changed, hex};
 
 const CUTS: &[Cut] = &[Cut::ByPart, Cut::Every(7), Cut::Every(1)];
 
@@ -37,7 +37,7 @@ pub(super) fn between() -> Vec<Scenario> {
         let everywhere = noise.starts_with(&[0xFF]) && rest.is_empty();
         Scenario::new(name, FOUND, CUTS, parts).cut_everywhere(everywhere)
     };
-    Kind::ALL.into_iter().flat_map(|kind| NOISE.map(|noise| of(kind, noise))).collect()
+    KINDS.into_iter().flat_map(|kind| NOISE.map(|noise| of(kind, noise))).collect()
 }
 
 /// The place of a byte in a packet of this size.
@@ -58,10 +58,8 @@ pub(super) fn damaged() -> Vec<Scenario> {
             if each % 3 != 1 {
                 return Part::Packet(packet);
             }
-            let mut bytes = frame(&packet);
-            let at = at(bytes.len());
-            bytes.iter_mut().skip(at).take(1).for_each(|byte| *byte ^= 0x20);
-            Part::Other(bytes)
+            let bytes = frame(&packet);
+            Part::Other(changed(&bytes, at(bytes.len()), |byte| byte ^ 0x20))
         };
         let name = format!("damaged.{kind}.{place}.{number}");
         Scenario::new(name, FOUND, CUTS, move || (0..number).map(part).collect())
@@ -70,5 +68,5 @@ pub(super) fn damaged() -> Vec<Scenario> {
         let places = PLACES.into_iter();
         places.flat_map(move |place| [6, 12, 40].map(|number| of(kind, number, place)))
     };
-    Kind::ALL.into_iter().flat_map(each).collect()
+    KINDS.into_iter().flat_map(each).collect()
 }

@@ -1,7 +1,7 @@
 //! Packets with byte stuffing, and what is left of one whose front is lost: FF FF FD FD, which is no
 //! header, with bytes behind it that would be an ID and a length.
 
-use super::{Cut, FOUND, Kind, Part, Scenario, frame};
+use super::{Cut, FOUND, KINDS, Kind, Part, Scenario, frame};
 
 /// The requirement that FF FF FD FD is no header.
 const NO_HEADER: &str = "dynamixel2.receive.header.stuffed";
@@ -25,7 +25,7 @@ pub(super) fn whole() -> Vec<Scenario> {
         let name = format!("pattern.{kind}.{name}");
         Scenario::new(name, FOUND, &[Cut::ByPart, Cut::Every(1)], parts).cut_everywhere(true)
     };
-    Kind::ALL.into_iter().flat_map(|kind| WORDS.map(|word| of(kind, word))).collect()
+    KINDS.into_iter().flat_map(|kind| WORDS.map(|word| of(kind, word))).collect()
 }
 
 /// A stuffed header with an ID and a length before good packets. The length ends inside the first
@@ -42,7 +42,7 @@ pub(super) fn stuffed_headers() -> Vec<Scenario> {
         Scenario::new(name, NO_HEADER, &[Cut::ByPart, Cut::Every(1)], parts)
             .cut_everywhere(length == 16)
     };
-    Kind::ALL.into_iter().flat_map(|kind| LENGTHS.map(|length| of(kind, length))).collect()
+    KINDS.into_iter().flat_map(|kind| LENGTHS.map(|length| of(kind, length))).collect()
 }
 
 /// A stuffed packet without its first bytes, before good packets. If its pattern is left, what
@@ -61,5 +61,5 @@ pub(super) fn cut_at_front() -> Vec<Scenario> {
         Scenario::new(name, requirement, &[Cut::ByPart, Cut::Every(1)], parts)
     };
     let losses = |kind: Kind| 1..frame(&kind.packet(&DATA)).len();
-    Kind::ALL.into_iter().flat_map(|kind| losses(kind).map(move |lost| of(kind, lost))).collect()
+    KINDS.into_iter().flat_map(|kind| losses(kind).map(move |lost| of(kind, lost))).collect()
 }

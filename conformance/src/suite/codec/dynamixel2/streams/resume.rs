@@ -8,12 +8,11 @@ use actucheck_spec::wire::Direction;
 use actucheck_spec::wire::dynamixel2::Packet;
 use actucheck_spec::wire::dynamixel2::reference::{self, HEADER, STATUS};
 
-use super::{Cut, Kind, Part, Scenario, frame, question};
+use super::{Cut, KINDS, Kind, Part, Scenario, frame, question};
 use crate::adapter::Output;
-use crate::suite::Author;
 use crate::suite::check::{Check, Demand};
-use crate::suite::codec::dynamixel2::unspecified::open;
 use crate::suite::plan::Family;
+use crate::suite::{Author, changed};
 
 /// The requirement that the packets inside are found.
 const RESUMED: &str = "dynamixel2.receive.resume";
@@ -30,8 +29,7 @@ fn one_by_one(author: &Author<'_>) -> Vec<Check> {
         let [low, high] = length.to_le_bytes();
         [&HEADER[..], &[1, low, high, STATUS, 0]].concat()
     };
-    let mut flipped = bad.clone();
-    flipped.iter_mut().skip(5).take(1).for_each(|byte| *byte ^= 0x10);
+    let flipped = changed(&bad, 5, |low| low ^ 0x10);
     let cut = |size: usize| bad.get(..size).unwrap_or_default().to_vec();
     let scenarios: [(&str, &str, Vec<u8>); 7] = [
         ("length-too-long", "a packet whose length, with a bit flipped, covers the next", flipped),
@@ -65,7 +63,7 @@ pub(in super::super) fn resumed(
             ("it finds none of the whole packets behind it", Vec::new()),
         ];
         let ways = ways.map(|(name, packets)| (name, Output::packets(packets)));
-        Demand::Record(open(&format!("Where does the search go on behind {what}?"), ways))
+        Demand::record(&format!("Where does the search go on behind {what}?"), ways)
     } else {
         Demand::Yield(Output::packets(packets))
     };
@@ -104,16 +102,12 @@ pub(super) fn claims() -> Vec<Scenario> {
             scenario(kind, &format!("cut-at-{end}"), 4, bytes)
         });
         let damaged = (3..7).map(move |bit| {
-            let bytes = move || {
-                let mut bytes = frame(&kind.numbered(0));
-                bytes.iter_mut().skip(5).take(1).for_each(|byte| *byte ^= 1 << bit);
-                bytes
-            };
+            let bytes = move || changed(&frame(&kind.numbered(0)), 5, |low| low ^ 1 << bit);
             scenario(kind, &format!("length-bit-{bit}"), 12, bytes)
         });
         headers.chain(cut).chain(damaged)
     };
-    Kind::ALL.into_iter().flat_map(all).collect()
+    KINDS.into_iter().flat_map(all).collect()
 }
 
 /// A good packet, the claim, and as many good packets behind it.

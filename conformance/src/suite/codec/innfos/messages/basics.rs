@@ -3,7 +3,7 @@
 use actucheck_spec::wire::Direction;
 use actucheck_spec::wire::innfos::{Format, Packet, reference};
 
-use super::{Said, is_open, of_each_model, tables};
+use super::{Said, is_unspecified, of_each_model, tables};
 use crate::adapter::{Output, Question, Told};
 use crate::suite::Author;
 use crate::suite::check::Check;
@@ -41,7 +41,7 @@ fn number(author: Author<'_>, direction: Direction, data: [u8; 4]) -> Option<Sai
         row.format_in(direction) == format
             && row.full_scale.is_none()
             && row.unit.as_deref() != Some("R")
-            && !is_open(author, row, format)
+            && !is_unspecified(author, row, format)
     });
     plain.next()
 }

@@ -5,15 +5,14 @@ use actucheck_spec::model::Fault;
 use actucheck_spec::wire::Direction;
 use actucheck_spec::wire::innfos::{Packet, reference};
 
-use super::{decode, encode, stream, tables};
+use super::{BEHIND, LENGTH, decode, encode, stream, tables};
 use crate::adapter::Output;
-use crate::suite::Author;
-use crate::suite::check::{Check, Demand, Unspecified, Way};
+use crate::suite::check::{Check, Demand};
 use crate::suite::plan::Family;
+use crate::suite::{Author, changed};
 
-/// The most data, in bytes, that a length allows, and the bytes of a frame around it.
+/// The most data, in bytes, that a length allows.
 const LARGEST: usize = 65_535;
-const AROUND: usize = 8;
 
 /// Questions about packets in this direction. `limit` is the size of the longest frame that
 /// the subject states to take.
@@ -68,15 +67,7 @@ fn requirement_of(fault: Fault) -> &'static str {
 }
 
 fn read_or_not(question: &str, packet: Packet) -> Demand {
-    record(question, [("reads it", Output::Packet(packet.into()))])
-}
-
-pub(super) fn record(
-    question: &str,
-    ways: impl IntoIterator<Item = (&'static str, Output)>,
-) -> Demand {
-    let ways = ways.into_iter().map(|(name, output)| Way { name: name.to_owned(), output });
-    Demand::Record(Unspecified { question: question.to_owned(), ways: ways.collect() })
+    Demand::record(question, [("reads it", Output::Packet(packet.into()))])
 }
 
 /// A packet with data, to be damaged or to stand behind damage.
@@ -92,18 +83,12 @@ pub(super) fn example(direction: Direction) -> Packet {
 /// A valid frame after other bytes in one datagram.
 fn behind_damage(author: &Author<'_>, direction: Direction) -> Vec<Check> {
     let good = reference::encode(&example(direction)).unwrap_or_default();
-    let flipped = |at: usize| {
-        let mut frame = good.clone();
-        if let Some(byte) = frame.get_mut(at) {
-            *byte ^= 1;
-        }
-        frame
-    };
+    let flipped = |at: usize| changed(&good, at, |byte| byte ^ 1);
     let cut = good.get(..good.len() - 1).unwrap_or_default().to_vec();
     let scenarios = [
         ("garbage", vec![0x00, 0x01]),
         ("wrong-header", flipped(0)),
-        ("wrong-length", flipped(4)),
+        ("wrong-length", flipped(LENGTH + 1)),
         ("wrong-crc", flipped(good.len() - 2)),
         ("wrong-tail", flipped(good.len() - 1)),
         ("cut", cut),
@@ -124,7 +109,7 @@ fn behind_damage(author: &Author<'_>, direction: Direction) -> Vec<Check> {
         );
         let id = format!("innfos.open.{direction}.behind-{name}/stream");
         let op = stream(author, direction, vec![datagram]);
-        author.check(id, "innfos.frame.layout", op, record(&question, ways))
+        author.check(id, "innfos.frame.layout", op, Demand::record(&question, ways))
     };
     scenarios.map(check).into()
 }
@@ -141,7 +126,7 @@ fn two_frames(author: &Author<'_>, direction: Direction) -> Vec<Check> {
         let ways = ways.map(|(name, count)| (name, times(count)));
         let id = format!("innfos.open.{direction}.two-frames.size-{}/stream", packet.data.len());
         let question = "What becomes of two good frames in a datagram?";
-        author.check(id, "innfos.frame.layout", op, record(question, ways))
+        author.check(id, "innfos.frame.layout", op, Demand::record(question, ways))
     };
     packets.map(check).collect()
 }
@@ -208,7 +193,7 @@ fn strange_replies() -> Vec<Stranger> {
 
 /// As much data as the subject takes; no row has so much.
 fn long(direction: Direction, limit: Option<usize>) -> Option<Stranger> {
-    let size = limit?.checked_sub(AROUND)?.min(LARGEST);
+    let size = limit?.checked_sub(reference::PREFIX + BEHIND)?.min(LARGEST);
     let Packet { command, .. } = example(direction);
     let name = format!("size-{size}-of-{command:02x}");
     (size > 256).then(|| Stranger::new(&name, SIZE, command, &vec![0x5A; size]))
@@ -230,7 +215,7 @@ fn strange(author: &Author<'_>, direction: Direction, stranger: &Stranger) -> [C
     asked.map(|(verb, way, op, output)| {
         let id = format!("innfos.open.{direction}.{name}/{}", op.name());
         let question = format!("A {direction} with {with}: is it {verb}?");
-        author.check(id, "innfos.frame.layout", op, record(&question, [(way, output)]))
+        author.check(id, "innfos.frame.layout", op, Demand::record(&question, [(way, output)]))
     })
 }
 

@@ -3,11 +3,11 @@
 use actucheck_spec::model::{Citation, Fault, Outcome, Vector};
 use actucheck_spec::wire::{Packet, innfos};
 
-use super::{decode, encode, messages, open};
+use super::{decode, encode, messages, unspecified};
 use crate::adapter::{Output, Question};
 use crate::suite::Author;
 use crate::suite::check::{Check, Demand, Way};
-use crate::suite::codec::dynamixel2::golden::{demand, way};
+use crate::suite::codec::vector::{demand, way};
 
 pub(super) fn checks(author: &Author<'_>) -> Vec<Check> {
     let vectors = author.spec.vectors().filter(|(file, _)| file.wire == author.wire);
@@ -40,7 +40,7 @@ fn of_vector(author: &Author<'_>, vector: &Vector, all: &[(&Citation, &Vector)])
     } else if let (Some(kind), Some(fault)) = (vector.direction, vector.fault) {
         // The document does not say what bytes behind a frame are.
         let demand = match fault {
-            Fault::Trailing => open::reading(author, kind, vector.frame()).1,
+            Fault::Trailing => unspecified::reading(author, kind, vector.frame()).1,
             fault => Demand::Reject(fault),
         };
         add("decode", own, decode(author, kind, vector.frame()), demand);

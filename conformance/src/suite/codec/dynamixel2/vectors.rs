@@ -1,16 +1,15 @@
 //! The test vectors: packets that the documents print, and packets that were worked out by hand
 //! from their rules. Each yields one check per op.
 
-use actucheck_spec::Spec;
 use actucheck_spec::model::{Citation, Fault, HexBytes, Outcome, Vector, VectorsFile};
-use actucheck_spec::wire::{Packet, dynamixel2};
-
 use actucheck_spec::wire::dynamixel2::reference::PREFIX;
+use actucheck_spec::wire::{Packet, dynamixel2};
 
 use super::{of_building, of_reading};
 use crate::adapter::{Output, Question, Wire};
 use crate::suite::Author;
-use crate::suite::check::{Check, Demand, Unspecified, Way};
+use crate::suite::check::{Check, Demand};
+use crate::suite::codec::vector::demand;
 use crate::suite::plan::{Family, by_stem};
 
 /// Bytes after the body.
@@ -21,19 +20,20 @@ pub(super) fn family(author: Author<'_>) -> Family<'_> {
     Family::new("", move || {
         spec.vectors()
             .filter(move |(file, _)| file.wire == wire)
-            .map(move |(file, vector)| Golden { author, wire, file, vector })
-            .flat_map(|golden| by_stem(golden.checks()))
+            .map(move |(file, vector)| Tested { author, wire, file, vector })
+            .flat_map(|vector| by_stem(vector.checks()))
     })
 }
 
-struct Golden<'a> {
+/// A vector to make checks of.
+struct Tested<'a> {
     author: Author<'a>,
     wire: Wire,
     file: &'a VectorsFile,
     vector: &'a Vector,
 }
 
-impl Golden<'_> {
+impl Tested<'_> {
     fn checks(&self) -> Vec<Check> {
         let of_document = format!("{}.packets", self.source().document);
         let own = self.vector.requirement.as_deref().unwrap_or(&of_document);
@@ -136,8 +136,8 @@ impl Golden<'_> {
     /// The frame as a stream, whole and byte by byte. A stream does not say which request a fast
     /// status packet answers, and a packet that may be rejected may be missing.
     fn streams(&self, packet: &Packet, frame: &[u8]) -> Vec<Check> {
-        let open = self.vector.result == Outcome::Acceptable;
-        if open || packet.context().fast.is_some() {
+        let is_unspecified = self.vector.result == Outcome::Acceptable;
+        if is_unspecified || packet.context().fast.is_some() {
             return Vec::new();
         }
         let whole = vec![frame.to_vec().into()];
@@ -166,31 +166,4 @@ impl Golden<'_> {
         };
         self.check(name, requirement, op, Demand::Reject(fault))
     }
-}
-
-/// What the vector demands, if `output` is right and each of `others` is right too.
-pub(in crate::suite::codec) fn demand(
-    spec: &Spec,
-    vector: &Vector,
-    output: Output,
-    others: Vec<Way>,
-) -> Demand {
-    if vector.result != Outcome::Acceptable {
-        return Demand::Yield(output);
-    }
-    let mut ways = vec![way(vector, output)];
-    ways.extend(others);
-    Demand::Record(Unspecified { question: question(spec, vector), ways })
-}
-
-/// The behaviour that this vector describes.
-pub(in crate::suite::codec) fn way(vector: &Vector, output: Output) -> Way {
-    Way { name: format!("as {}", vector.id), output }
-}
-
-/// What is unspecified about a vector, from the errata that it depends on.
-fn question(spec: &Spec, vector: &Vector) -> String {
-    let rows = spec.errata.content.errata.iter().filter(|row| vector.errata.contains(&row.id));
-    let open: Vec<_> = rows.map(|row| format!("{} ({})", row.held_right, row.id)).collect();
-    format!("{}: {}", vector.id, open.join("; "))
 }
