@@ -115,7 +115,7 @@ fn flags(register: &Register, text: &str) -> Result<i64, ComposeError> {
     Ok(value)
 }
 
-/// Why the spec refuses this value in this register. A range that the documents leave open, or that
+/// Why the spec refuses this value in this register. A range that the documents leave unspecified, or that
 /// depends on another register, refuses nothing.
 fn problem(spec: &Spec, register: &Register, value: i64) -> Option<String> {
     let name = &register.name;
