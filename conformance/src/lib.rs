@@ -13,6 +13,7 @@ pub mod capture;
 pub mod compose;
 pub mod explain;
 pub mod legible;
+pub mod nearest;
 pub mod report;
 pub mod run;
 pub mod subject;

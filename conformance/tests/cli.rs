@@ -239,6 +239,12 @@ fn an_unknown_name_gets_the_nearest_known_one_and_the_subcommands_help() {
     insta::assert_snapshot!(said(&["list", "--wire", "inofs"]), @"actucheck: invalid value 'inofs' for '--wire <WIRE>' [possible values: dynamixel2, innfos]; did you mean `innfos`? (see `actucheck list --help`)");
     insta::assert_snapshot!(said(&["decode", "--device", "ja4", WRITE]), @"actucheck: invalid value 'ja4' for '--device <DEVICE>' [possible values: ja40, ja-variant, xm430-w210]; did you mean `ja40`? (see `actucheck decode --help`)");
     insta::assert_snapshot!(said(&["adapter"]), @"actucheck: no subcommand; `actucheck adapter --help` lists them");
+    insta::assert_snapshot!(said(&["codec", "python3", "adapter.py"]), @"actucheck: unexpected argument 'python3' found; put `--` before an adapter's command: `actucheck codec -- python3 …` (see `actucheck codec --help`)");
+    insta::assert_snapshot!(said(&["codec", "--wire", "modbus"]), @"actucheck: invalid value 'modbus' for '--wire <WIRE>' [possible values: dynamixel2, innfos] (see `actucheck codec --help`)");
+    insta::assert_snapshot!(said(&["show", "dynamixel2.stufing.goal-position/encode"]), @"actucheck: no check has the id `dynamixel2.stufing.goal-position/encode`; did you mean `dynamixel2.stuffing.goal-position/encode`?");
+    insta::assert_snapshot!(said(&["replay", "dynamixel2.stuffing.transmit"]), @"actucheck: no check has the id `dynamixel2.stuffing.transmit`; it is a requirement's, which `actucheck spec show dynamixel2.stuffing.transmit` shows");
+    insta::assert_snapshot!(said(&["list", "--select", "goal-position/encode"]), @"actucheck: `goal-position/encode` matches no check; did you mean `*goal-position/encode*`?");
+    insta::assert_snapshot!(said(&["spec", "show", "dynamixel2.stufing.transmit"]), @"actucheck: the spec has no `dynamixel2.stufing.transmit`; did you mean dynamixel2.stuffing.transmit?");
 }
 
 #[test]

@@ -12,6 +12,7 @@ use actucheck_spec::model::Level;
 
 use super::check::Check;
 use super::select::Patterns;
+use crate::nearest::nearest;
 
 /// Every check of a run, in a fixed order.
 pub struct Plan<'a> {
@@ -112,10 +113,18 @@ impl<'a> Plan<'a> {
             if idle.is_empty() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
         match idle.first().and_then(|place| texts.get(*place)) {
-            Some(text) => Err(format!(
-                "`{text}` matches no check; `*` stands for any text, as in `*stuffing*`"
-            )),
+            Some(text) => Err(format!("`{text}` matches no check; {}", self.hint(text))),
             None => Ok(patterns),
+        }
+    }
+
+    /// What somebody means whose pattern matches no check.
+    fn hint(&self, text: &str) -> String {
+        let part = text.trim_matches('*');
+        match self.nearest(part) {
+            Some(id) if id.contains(part) => format!("did you mean `*{part}*`?"),
+            Some(id) => format!("did you mean `{id}`?"),
+            None => "`*` stands for any text, as in `*stuffing*`".to_owned(),
         }
     }
 
@@ -210,25 +219,11 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// The first id with the longest common prefix; `None` if no id has the first half of this one.
+    /// The id that is most like this one, as [`nearest`] has it. No check is built.
     #[must_use]
     pub fn nearest(&self, id: &str) -> Option<String> {
-        let alike = |other: &str| {
-            let pairs = id.bytes().zip(other.bytes());
-            pairs.take_while(|(letter, other)| letter == other).count()
-        };
-        let mut nearest = (id.len() / 2, None);
-        let half = id.get(..nearest.0).unwrap_or(id);
-        let may = |beginning: &str| beginning.starts_with(half) || half.starts_with(beginning);
-        let families = self.families.iter().filter(|family| may(&family.prefix));
-        let groups = families.flat_map(Family::named).filter(|group| may(&group.stem));
-        for other in groups.flat_map(|group| group.ids().collect::<Vec<_>>()) {
-            let alike = alike(&other);
-            if alike > nearest.0 {
-                nearest = (alike, Some(other));
-            }
-        }
-        nearest.1
+        let groups = self.families.iter().flat_map(Family::named);
+        nearest(id, groups.flat_map(|group| group.ids().collect::<Vec<_>>()))
     }
 
     /// The check with this id, even if the plan is restricted.

@@ -59,8 +59,8 @@ impl Failure {
             .collect();
         let sentence = words.join(" ");
         let sentence = sentence.strip_prefix("error: ").unwrap_or(&sentence);
-        let hint = nearest(error).map(|name| format!("; did you mean `{name}`?"));
-        let hint = hint.unwrap_or_default();
+        let nearest = nearest(error).map(|name| format!("; did you mean `{name}`?"));
+        let hint = nearest.or_else(|| behind_dashes(error, command)).unwrap_or_default();
         Self::usage(format!("{sentence}{hint} (see `{command} --help`)"))
     }
 
@@ -78,6 +78,15 @@ impl Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.message)
     }
+}
+
+/// What to type if the command of an adapter is given without `--` before it.
+fn behind_dashes(error: &clap::Error, command: &str) -> Option<String> {
+    let takes_command = ["codec", "fuzz", "replay", "check"].iter().any(|it| command.ends_with(it));
+    let ContextValue::String(word) = error.get(ContextKind::InvalidArg)? else { return None };
+    let is_word = error.kind() == ErrorKind::UnknownArgument && !word.starts_with('-');
+    (takes_command && is_word)
+        .then(|| format!("; put `--` before an adapter's command: `{command} -- {word} …`"))
 }
 
 /// The known name that is nearest to an unknown one.

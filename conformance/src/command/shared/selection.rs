@@ -113,11 +113,14 @@ impl Growth {
         let longest = Self { body_length: Some(Options::LONGEST_BODY), ..*self };
         let plan = longest.plan(spec, &Wire::ALL, hello);
         plan.find(id).ok_or_else(|| {
-            let hint = plan.nearest(id).map(|other| format!("did you mean `{other}`? "));
-            let hint = hint.unwrap_or_default();
-            let message =
-                format!("no check has the id `{id}`; {hint}`actucheck list` has them all");
-            Failure::usage(message)
+            let hint = if spec.requirement(id).is_some() {
+                format!("it is a requirement's, which `actucheck spec show {id}` shows")
+            } else if let Some(other) = self.plan(spec, &Wire::ALL, hello).nearest(id) {
+                format!("did you mean `{other}`?")
+            } else {
+                "`actucheck list` has them all".to_owned()
+            };
+            Failure::usage(format!("no check has the id `{id}`; {hint}"))
         })
     }
 }

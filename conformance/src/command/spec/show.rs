@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use actucheck::nearest::nearest;
 use actucheck_spec::Spec;
 use actucheck_spec::model::{
     Citation, Device, Erratum, Register, Requirement, Vector, VectorsFile,
@@ -80,8 +81,10 @@ fn unknown(spec: &Spec, id: &str) -> String {
     let all = rows.map(|row| row.id.clone()).chain(errata).chain(registers).chain(asks);
     let wanted = id.to_lowercase();
     let near: BTreeSet<_> =
-        all.filter(|known| known.to_lowercase().contains(&wanted)).take(8).collect();
-    if near.is_empty() {
+        all.clone().filter(|known| known.to_lowercase().contains(&wanted)).take(8).collect();
+    if let (true, Some(other)) = (near.is_empty(), nearest(&wanted, all)) {
+        format!("the spec has no `{id}`; did you mean {other}?")
+    } else if near.is_empty() {
         format!("the spec has no `{id}`; `actucheck spec coverage` and `spec errata` list ids")
     } else {
         let near: Vec<_> = near.into_iter().collect();
