@@ -90,6 +90,8 @@ pub(crate) const ROWS: &[Row] = &[
     slow("floods its log", "floods-its-log crc", FEW, 0, ""),
     slow("details of 1 MB", "long-detail always", SHORT, 1, "160 fail"),
     slow("answers 7 MB too long", "long-answer encode", TEN, 1, "10 fail"),
+    row("uppercase hex", "uppercase encode", FEW, 3, "4 adapter-fault"),
+    row("controls in every string", "controls always", FEW, 1, "3 adapter-fault, 4 fail, 15 skip"),
     row("dies on bye", "dies-on-bye never", FEW, 0, ""),
     row("late hello", "late never", FEW, 4, ""),
     row("version 99", r#"hello {"protocol": 99}"#, FEW, 4, ""),

@@ -10,8 +10,6 @@ use std::time::{Duration, Instant};
 pub(crate) struct Watched {
     /// Its exit status; `None` if a signal ended it, as happens at the time limit.
     pub(crate) status: Option<i32>,
-    pub(crate) stdout: String,
-    pub(crate) stderr: String,
     pub(crate) took: Duration,
     /// The most memory that it had, in MB; `None` where the system does not tell.
     pub(crate) megabytes: Option<u64>,
@@ -22,16 +20,17 @@ pub(crate) struct Watched {
 /// The environment variable whose value tells one run's processes from another's.
 const MARK: &str = "ILL_BEHAVED";
 
-/// Runs a program for so long at most. `folder` is the run's own.
+/// Runs a program for so long at most. `folder` is the run's own, and has what it prints in `stdout`
+/// and `stderr`.
 pub(crate) fn watch(command: &mut Command, folder: &Path, limit: Duration) -> Watched {
-    let (stdout, stderr) = (folder.join("stdout"), folder.join("stderr"));
+    let file = |name| fs::File::create(folder.join(name)).unwrap();
     let mark = format!("{MARK}={}", folder.display());
     let started = Instant::now();
     let mut child = command
         .env(MARK, folder)
         .stdin(Stdio::null())
-        .stdout(fs::File::create(&stdout).unwrap())
-        .stderr(fs::File::create(&stderr).unwrap())
+        .stdout(file("stdout"))
+        .stderr(file("stderr"))
         .spawn()
         .unwrap();
     let mut megabytes = None;
@@ -46,15 +45,7 @@ pub(crate) fn watch(command: &mut Command, folder: &Path, limit: Duration) -> Wa
         sleep(Duration::from_millis(3));
     };
     let took = started.elapsed();
-    let text = |path| String::from_utf8_lossy(&fs::read(path).unwrap()).into_owned();
-    Watched {
-        status: status.code(),
-        stdout: text(stdout),
-        stderr: text(stderr),
-        took,
-        megabytes,
-        left: left(&mark),
-    }
+    Watched { status: status.code(), took, megabytes, left: left(&mark) }
 }
 
 /// The most memory that a process had so far, in MB.
