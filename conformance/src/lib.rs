@@ -12,6 +12,7 @@ pub mod blackbox;
 pub mod capture;
 pub mod compose;
 pub mod explain;
+pub mod input;
 pub mod legible;
 pub mod nearest;
 pub mod report;

@@ -243,7 +243,8 @@ impl Totals {
 
     /// Counts a verdict that came out so often.
     pub fn add(&mut self, verdict: Verdict, count: usize) {
-        *self.0.entry(verdict).or_default() += count;
+        let counted = self.0.entry(verdict).or_default();
+        *counted = counted.saturating_add(count);
     }
 
     /// Counts as `to` what was counted as `from`, so often.
@@ -262,7 +263,8 @@ impl Totals {
     /// The count of all checks.
     #[must_use]
     pub fn sum(&self) -> usize {
-        self.0.values().sum()
+        // A file may have any number in it.
+        self.0.values().fold(0, |sum, count| sum.saturating_add(*count))
     }
 
     /// The worst verdict of all checks; `None` if there are no checks.

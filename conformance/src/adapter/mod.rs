@@ -4,6 +4,8 @@
 pub(crate) mod conversation;
 mod greeting;
 mod kept;
+#[cfg(target_os = "linux")]
+mod leftover;
 pub mod lint;
 mod message;
 mod process;

@@ -11,6 +11,8 @@ use tokio::runtime::Runtime;
 use tokio::task::JoinHandle;
 use tokio::time::timeout;
 
+#[cfg(target_os = "linux")]
+use super::leftover;
 use super::{Settings, Trace};
 use crate::legible::{LONGEST_TEXT, legible};
 
@@ -30,6 +32,9 @@ pub(crate) struct Running {
     /// Its process group, which still exists after the process ends if it has children.
     #[cfg(unix)]
     group: Option<rustix::process::Pid>,
+    /// What its environment has, and that of all that it starts.
+    #[cfg(target_os = "linux")]
+    mark: String,
     pipes: Pipes,
     /// Reads its standard error.
     logging: Option<JoinHandle<()>>,
@@ -70,6 +75,10 @@ impl Running {
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         #[cfg(unix)]
         command.process_group(0);
+        #[cfg(target_os = "linux")]
+        let mark = leftover::mark();
+        #[cfg(target_os = "linux")]
+        command.env(leftover::VARIABLE, &mark);
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         let mut child = {
             let _inside = runtime.enter();
@@ -95,6 +104,8 @@ impl Running {
             child,
             #[cfg(unix)]
             group,
+            #[cfg(target_os = "linux")]
+            mark,
             pipes,
             logging,
             log,
@@ -174,6 +185,8 @@ impl Drop for Running {
         }
         // Fails only if the process has ended.
         let _ = self.runtime.block_on(self.child.kill());
+        #[cfg(target_os = "linux")]
+        leftover::end(&self.mark);
     }
 }
 

@@ -1,10 +1,11 @@
 //! Reads saved reports.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use indexmap::IndexSet;
 use serde::Deserialize;
+use serde_json::Value;
 use thiserror::Error;
 
 use super::model::{
@@ -12,26 +13,23 @@ use super::model::{
     VERSION,
 };
 use super::smallest::Smallest;
+use crate::input::{self, InputError};
+use crate::legible::legible;
 use crate::verdict::{Totals, Verdict};
 
 /// Why a file can't be read as a report.
 #[derive(Debug, Error)]
 pub enum ReadError {
     /// It can't be read.
-    #[error("cannot read {path}: {error}")]
-    Read {
-        /// The file.
-        path: String,
-        /// What the system says.
-        error: std::io::Error,
-    },
+    #[error(transparent)]
+    Read(#[from] InputError),
     /// It is not a report.
     #[error("{path} is not a report that --report json=FILE wrote: {error}")]
     Parse {
         /// The file.
         path: String,
-        /// What is wrong, with line and column.
-        error: serde_json::Error,
+        /// What is wrong; if it is no JSON, with line and column.
+        error: String,
     },
     /// It is a report of an unknown version.
     #[error(
@@ -81,20 +79,56 @@ struct Version3 {
 /// # Errors
 /// If it can't be read, is not a report, has an unknown version, or contradicts itself.
 pub fn read(path: &Path) -> Result<Report, ReadError> {
-    let name = || path.display().to_string();
-    let text =
-        std::fs::read_to_string(path).map_err(|error| ReadError::Read { path: name(), error })?;
-    let parse = |error| ReadError::Parse { path: name(), error };
-    let Versioned { version: found } = serde_json::from_str(&text).map_err(parse)?;
-    let report: Report = match found {
-        4..=VERSION => Report { version: VERSION, ..serde_json::from_str(&text).map_err(parse)? },
-        OLDEST => serde_json::from_str::<Version3>(&text).map_err(parse)?.into(),
-        _ => return Err(ReadError::Version { path: name(), found }),
+    parse(&path.display().to_string(), &input::json_text(path)?)
+}
+
+/// Reads the text of the report `name`. What it says is made legible, as nobody knows who wrote it.
+///
+/// # Errors
+/// If it is not a report, has an unknown version, or contradicts itself.
+pub fn parse(name: &str, text: &str) -> Result<Report, ReadError> {
+    let path = || name.to_owned();
+    let parse = |error: serde_json::Error| ReadError::Parse {
+        path: path(),
+        error: clean(&error.to_string()),
     };
-    match contradiction(&report) {
-        Some(what) => Err(ReadError::Contradiction { path: name(), what }),
+    let content = cleaned(serde_json::from_str(text).map_err(parse)?);
+    let Versioned { version: found } = Versioned::deserialize(&content).map_err(parse)?;
+    let report: Report = match found {
+        4..=VERSION => {
+            Report { version: VERSION, ..serde_json::from_value(content).map_err(parse)? }
+        }
+        OLDEST => serde_json::from_value::<Version3>(content).map_err(parse)?.into(),
+        _ => return Err(ReadError::Version { path: path(), found }),
+    };
+    match contradiction(&report).or_else(|| wrong_causes(&report)) {
+        Some(what) => Err(ReadError::Contradiction { path: path(), what }),
         None => Ok(report),
     }
+}
+
+/// Every text legible, and on one line but for that of the log.
+fn cleaned(content: Value) -> Value {
+    match content {
+        Value::String(text) => Value::String(clean(&text)),
+        Value::Array(values) => values.into_iter().map(cleaned).collect(),
+        Value::Object(fields) => {
+            let field = |(name, value): (String, Value)| match value {
+                Value::String(log) if name == "log" => {
+                    let lines: Vec<_> = log.lines().map(clean).collect();
+                    (name, Value::String(lines.join("\n")))
+                }
+                value => (clean(&name), cleaned(value)),
+            };
+            fields.into_iter().map(field).collect()
+        }
+        other => other,
+    }
+}
+
+/// The size of the file limits that of its texts.
+fn clean(text: &str) -> String {
+    legible(text, usize::MAX)
 }
 
 impl From<Version3> for Report {
@@ -138,10 +172,14 @@ impl From<Version3> for Report {
     }
 }
 
-/// Finds a contradiction in a report.
+/// Finds a contradiction in a report: what can be counted is counted again.
 fn contradiction(report: &Report) -> Option<String> {
     let mut totals = Totals::default();
+    let mut ids = BTreeSet::new();
     for row in &report.requirements {
+        if !ids.insert(&row.id) {
+            return Some(format!("it has {} twice", row.id));
+        }
         if row.totals.worst() != Some(row.verdict) {
             return Some(format!("the totals of {} do not come to {}", row.id, row.verdict));
         }
@@ -150,14 +188,65 @@ fn contradiction(report: &Report) -> Option<String> {
     if totals != report.summary.totals {
         return Some("its totals are not those of its requirements".to_owned());
     }
+    let behaviours = report.profile.iter().flat_map(|question| &question.behaviours);
+    for (verdict, counted) in [
+        (Verdict::Skip, sum(report.skips.iter().map(|tally| tally.count))),
+        (Verdict::Recorded, sum(behaviours.map(|tally| tally.count))),
+    ] {
+        if counted != totals.count(verdict) {
+            let told = totals.count(verdict);
+            return Some(format!(
+                "it tells of {counted} checks with verdict {verdict}, not {told}"
+            ));
+        }
+    }
+    let mut rows = BTreeSet::new();
+    for row in &report.not_passed {
+        if !rows.insert((&row.requirement, row.verdict)) {
+            return Some(format!("it has {} with verdict {} twice", row.requirement, row.verdict));
+        }
+    }
     let wrong = |NotPassed { requirement, verdict, count, following, smallest }: &&NotPassed| {
         let row = report.requirements.iter().find(|row| row.id == *requirement);
-        row.is_none_or(|row| row.totals.count(*verdict) != *count || smallest.len() > *count)
-            || following.values().sum::<usize>() > *count
+        row.is_none_or(|row| row.totals.count(*verdict) != *count)
+            || smallest.len() > *count
+            || sum(following.values().copied()) > *count
             || smallest.iter().any(|kept| {
                 kept.outcome.requirement != *requirement || kept.outcome.verdict != *verdict
             })
     };
     let NotPassed { requirement, verdict, .. } = report.not_passed.iter().find(wrong)?;
     Some(format!("its checks of {requirement} with verdict {verdict} are not what its totals say"))
+}
+
+/// Finds a requirement that is at fault for another number of failures than the report says.
+fn wrong_causes(report: &Report) -> Option<String> {
+    // Reports of earlier versions do not say what is at fault.
+    if report.causes.is_empty() {
+        return None;
+    }
+    // Of each requirement: how many of its own checks failed, and how many of others because of it.
+    let mut counted: BTreeMap<&str, (usize, usize)> = BTreeMap::new();
+    for row in report.not_passed.iter().filter(|row| row.verdict.is_failure()) {
+        let own = row.count.saturating_sub(sum(row.following.values().copied()));
+        let (failed, _) = counted.entry(&row.requirement).or_default();
+        *failed = failed.saturating_add(own);
+        for (cause, count) in &row.following {
+            let (_, follow) = counted.entry(cause).or_default();
+            *follow = follow.saturating_add(*count);
+        }
+    }
+    counted.retain(|_, counts| *counts != (0, 0));
+    let mut told = report.causes.iter();
+    let wrong = told.find(|cause| {
+        counted.remove(cause.requirement.as_str()) != Some((cause.failed, cause.follow))
+    });
+    let requirement = wrong.map(|cause| cause.requirement.as_str());
+    let requirement = requirement.or_else(|| counted.keys().next().copied())?;
+    Some(format!("what it says {requirement} is at fault for is not what its checks say"))
+}
+
+/// A file may have any number in it.
+fn sum(counts: impl Iterator<Item = usize>) -> usize {
+    counts.fold(0, usize::saturating_add)
 }

@@ -11,19 +11,15 @@ use thiserror::Error;
 
 use super::plan::Plan;
 use super::select::Patterns;
+use crate::input::{self, InputError};
 use crate::verdict::{Outcome, Verdict};
 
 /// Why an expected-failures file can't be used.
 #[derive(Debug, Error)]
 pub enum ExpectError {
     /// It can't be read.
-    #[error("cannot read {path}: {error}")]
-    Read {
-        /// The file.
-        path: String,
-        /// What the system says.
-        error: std::io::Error,
-    },
+    #[error(transparent)]
+    Read(#[from] InputError),
     /// It is not an expected-failures file.
     #[error("{path}: {message}")]
     Parse {
@@ -113,11 +109,9 @@ impl Expectations {
     /// If it can't be read, is malformed, or has a row that matches no check of the plan.
     pub fn read(path: &Path, plan: &Plan<'_>) -> Result<Self, ExpectError> {
         let name = path.display().to_string();
-        let text = std::fs::read_to_string(path)
-            .map_err(|error| ExpectError::Read { path: name.clone(), error })?;
+        let text = input::yaml_text(path)?;
         let parse = |message| ExpectError::Parse { path: name.clone(), message };
-        let file: ExpectationsFile =
-            serde_yaml::from_str(&text).map_err(|error| parse(error.to_string()))?;
+        let file: ExpectationsFile = input::yaml(&text).map_err(parse)?;
         let texts = file.expected_failures.iter().flat_map(|row| &row.ids).map(String::as_str);
         let patterns = Patterns::new(texts).map_err(parse)?;
         let mut counts = plan.count_matches(&patterns).into_iter();

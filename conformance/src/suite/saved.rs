@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::check::Check;
+use crate::input::{self, InputError};
 
 /// Version of the file's form. It changes when a field goes or takes another meaning.
 pub const VERSION: u32 = 1;
@@ -14,20 +15,15 @@ pub const VERSION: u32 = 1;
 #[derive(Debug, Error)]
 pub enum SavedError {
     /// It can't be read.
-    #[error("cannot read {path}: {error}")]
-    Read {
-        /// The file.
-        path: String,
-        /// What the system says.
-        error: std::io::Error,
-    },
+    #[error(transparent)]
+    Read(#[from] InputError),
     /// It is not a file of checks.
     #[error("{path} is no file with checks: {error}")]
     Parse {
         /// The file.
         path: String,
         /// What is wrong, with its line where the reader knows it.
-        error: serde_yaml::Error,
+        error: String,
     },
     /// It has another version.
     #[error("{path} is of version {version}, this program reads version {VERSION}")]
@@ -59,13 +55,19 @@ pub fn write(checks: &[Check]) -> Result<String, serde_yaml::Error> {
 /// # Errors
 /// If it can't be read, is malformed or of another version.
 pub fn read(path: &Path) -> Result<Vec<Check>, SavedError> {
-    let name = path.display().to_string();
-    let text = std::fs::read_to_string(path)
-        .map_err(|error| SavedError::Read { path: name.clone(), error })?;
-    let file: File = serde_yaml::from_str(&text)
-        .map_err(|error| SavedError::Parse { path: name.clone(), error })?;
+    parse(&path.display().to_string(), &input::yaml_text(path)?)
+}
+
+/// Reads the text of the file `name`.
+///
+/// # Errors
+/// If it is malformed or of another version.
+pub fn parse(name: &str, text: &str) -> Result<Vec<Check>, SavedError> {
+    let path = || name.to_owned();
+    let file: File =
+        input::yaml(text).map_err(|error| SavedError::Parse { path: path(), error })?;
     if file.version != VERSION {
-        return Err(SavedError::Version { path: name, version: file.version });
+        return Err(SavedError::Version { path: path(), version: file.version });
     }
     Ok(file.checks)
 }

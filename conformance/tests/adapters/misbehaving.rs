@@ -166,10 +166,22 @@ fn one_that_answers_for_the_other_role_is_named() {
 
 #[test]
 fn its_children_end_with_it() {
+    end_with_it("sleep 600 & echo $! > PID; sleep 600");
+}
+
+/// One in a session of its own is in no group of the adapter's, and its parent has ended.
+#[test]
+#[cfg(target_os = "linux")]
+fn its_children_in_a_session_of_their_own_end_with_it_too() {
+    end_with_it("(setsid sh -c 'echo $$ > PID; exec sleep 600' &) ; sleep 600");
+    end_with_it("(setsid sh -c 'echo $$ > PID; exec sleep 600' &) ; sleep 0.2; exit 1");
+}
+
+/// Runs an adapter that answers so, and writes the number of a child to `PID`.
+fn end_with_it(answer: &str) {
     let folder = tempfile::tempdir().unwrap();
     let pid_file = folder.path().join("pid");
-    let answer = format!("sleep 600 & echo $! > {}; sleep 600", pid_file.display());
-    let run = answering(&answer);
+    let run = answering(&answer.replace("PID", pid_file.to_str().unwrap()));
     assert_eq!(run.exit(), 3);
     let pid = std::fs::read_to_string(pid_file).unwrap();
     // A killed process that nobody waits for stays as a zombie, which counts as ended.

@@ -252,7 +252,23 @@ fn a_report_of_version_4_has_one_wire() {
 
 #[test]
 fn what_contradicts_itself_is_refused() {
-    let small = value(&sample::small());
+    let [small, whole] = [sample::small(), sample::every_verdict()].map(|report| value(&report));
+    for (place, wrong) in [
+        ("/causes/0/failed", json!(0)),
+        ("/causes/0/follow", json!(123)),
+        ("/causes/0/requirement", json!("dynamixel2.stuffing.receive")),
+        ("/skips", json!([])),
+        ("/skips/0/count", json!(u64::MAX)),
+        ("/profile/0/behaviours/0/count", json!(u64::MAX)),
+        ("/requirements/1", whole["requirements"][0].clone()),
+        ("/totals/pass", json!(u64::MAX)),
+        ("/requirements/0/totals/pass", json!(u64::MAX)),
+    ] {
+        let mut broken = whole.clone();
+        *broken.pointer_mut(place).unwrap() = wrong;
+        let error = read(&broken.to_string()).unwrap_err();
+        assert!(matches!(error, ReadError::Contradiction { .. }), "{place}: {error}");
+    }
     for (place, wrong) in [
         ("/totals/fail", json!(2)),
         ("/requirements/0/verdict", json!("pass")),
@@ -281,5 +297,5 @@ fn what_is_no_report_or_one_of_another_version_is_refused() {
         Err(ReadError::Parse { .. })
     ));
     assert!(matches!(read("{}"), Err(ReadError::Parse { .. })));
-    assert!(matches!(read::read(Path::new("/no/such/file")), Err(ReadError::Read { .. })));
+    assert!(matches!(read::read(Path::new("/no/such/file")), Err(ReadError::Read(_))));
 }

@@ -10,6 +10,7 @@ mod junit;
 #[cfg(unix)]
 mod kept;
 mod order;
+mod outside;
 mod program;
 mod sample;
 mod text;

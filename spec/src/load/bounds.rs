@@ -8,7 +8,7 @@ use serde::de::IgnoredAny;
 
 use super::{Defect, defect};
 
-/// The longest text in bytes, about twenty times the longest file of the spec folder.
+/// The longest text of a file of the spec folder in bytes, about twenty times the longest there is.
 const MAX_SIZE: usize = 1 << 20;
 /// The deepest nesting of lists and maps, about four times the model's own.
 const MAX_DEPTH: usize = 32;
@@ -23,6 +23,14 @@ pub(super) fn check(text: &str) -> Result<(), Defect> {
             format!("{} bytes; at most {MAX_SIZE} are allowed: split the file", text.len());
         return Err(((1, 1), message));
     }
+    depth(text)
+}
+
+/// Walks through a text of any size and checks its depth.
+///
+/// # Errors
+/// As [`check`].
+pub(super) fn depth(text: &str) -> Result<(), Defect> {
     let mut depth = 0;
     for event in Parser::new_from_str(text) {
         let (event, span) = event.map_err(|error| no_yaml(text, &error))?;

@@ -101,6 +101,18 @@ impl<T: JsonSchema> JsonSchema for File<T> {
     }
 }
 
+/// The content of a YAML text that may be made to exhaust its reader. Its size is the caller's to
+/// limit.
+///
+/// # Errors
+/// What is wrong, with line and column.
+pub fn yaml<T: DeserializeOwned>(text: &str) -> Result<T, String> {
+    let told =
+        |((line, column), message): Defect| format!("{message} at line {line} column {column}");
+    bounds::depth(text).map_err(told)?;
+    serde_yaml::from_str(text).map_err(|error| error.to_string())
+}
+
 /// Line and column, both from 1, and the reader's message.
 type Defect = ((usize, usize), String);
 

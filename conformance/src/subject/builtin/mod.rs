@@ -1,14 +1,14 @@
 //! This project's own codec as a subject.
 
 mod dynamixel2;
+mod guard;
 mod innfos;
-
-use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use actucheck_codec::EncodeError;
 use actucheck_spec::model::{Fault, HexBytes, Role};
 use actucheck_spec::wire;
 
+use self::guard::guarded;
 use super::{Answer, Subject};
 use crate::adapter::{Hello, Implementation, Limits, Output, Question, Rejection, VERSION, Wire};
 
@@ -67,11 +67,9 @@ impl Subject for Builtin {
         let Some((_, ask)) = offered else {
             return Answer::Skipped(format!("the codec has no {}", question.wire()));
         };
-        // A panic is a finding among others. The buffer is written before it is read.
-        catch_unwind(AssertUnwindSafe(|| ask(question, buffer))).unwrap_or_else(|panic| {
-            let text = panic.downcast_ref::<String>().map(String::as_str);
-            let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
-            let detail = format!("panicked: {}", text.unwrap_or("it does not say why"));
+        // A panic is a finding among others.
+        guarded(|| ask(question, buffer)).unwrap_or_else(|said| {
+            let detail = format!("panicked: {said}");
             Answer::Rejected(Rejection { class: Fault::Internal, detail })
         })
     }
