@@ -756,8 +756,9 @@ local function unstuff(body, open)
   return table.concat(parts) .. body:sub(from)
 end
 
--- The packet at a place, with the rules that it breaks: `fault` is the first one.
-local function read(raw, at)
+-- The packet at a place, with the rules that it breaks: `fault` is the first one. A `quick` look
+-- computes no CRC if the stuffing is wrong.
+local function read(raw, at, quick)
   local packet = { at = at, faults = {} }
   local function broken(rule)
     packet.fault = packet.fault or rule
@@ -776,6 +777,13 @@ local function read(raw, at)
 
   packet.stop = at + PREFIX + packet.length - 2 -- the CRC's place
   local open = left < PREFIX + packet.length
+  local stuffed = raw:sub(at + PREFIX, packet.stop - 1)
+  packet.code = stuffed:byte(1)
+  packet.is_status = packet.code == STATUS.instruction
+  packet.is_fast = packet.is_status and id == ID.broadcast -- which is not stuffed
+  packet.body = packet.is_fast and stuffed or unstuff(stuffed, open)
+  if quick and not packet.body then broken("stuffing") return packet end
+
   if open then
     broken("truncated")
   else
@@ -783,11 +791,6 @@ local function read(raw, at)
     packet.right_crc = crc_of(raw:sub(at, packet.stop - 1))
     if packet.crc ~= packet.right_crc then broken("crc") end
   end
-  local stuffed = raw:sub(at + PREFIX, packet.stop - 1)
-  packet.code = stuffed:byte(1)
-  packet.is_status = packet.code == STATUS.instruction
-  packet.is_fast = packet.is_status and id == ID.broadcast -- which is not stuffed
-  packet.body = packet.is_fast and stuffed or unstuff(stuffed, open)
   if not packet.body then broken("stuffing") end
   packet.was_stuffed = packet.body and packet.body ~= stuffed
   packet.body = packet.body or stuffed
@@ -801,7 +804,7 @@ local function next_header(raw, from, open)
   local at = raw:find(START, from, true)
   while at and at + #START <= #raw do
     if raw:sub(at, at + #HEADER - 1) == HEADER then return at end
-    if #read(raw, at).faults == 1 then return at, "reserved" end
+    if #read(raw, at, true).faults == 1 then return at, "reserved" end
     at = raw:find(START, at + 1, true)
   end
   for size = open and #HEADER - 1 or 0, 1, -1 do
@@ -825,7 +828,7 @@ local function next_part(raw, at, open)
   local may_be_open = open and not is_open(packet)
   local inside = next_header(raw, at + 1, open)
   while inside < at + packet.size do
-    local other = read(raw, inside)
+    local other = read(raw, inside, true)
     if not other.fault or may_be_open and is_open(other) then
       packet.size, packet.overtaken = inside - at, true
       break

@@ -1,3 +1,4 @@
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use actucheck_spec::export;
@@ -8,7 +9,9 @@ use actucheck_spec::wire::{self, Context, Fast};
 
 use crate::pcap::{self, End};
 use crate::tshark::{self, Shown};
-use crate::{Random, damaged, differences, first_rule, spec, stream, unnoticed, vectors};
+use crate::{
+    Random, damaged, declared_experts, differences, first_rule, spec, stream, unnoticed, vectors,
+};
 
 /// A part of a record.
 #[derive(Debug, PartialEq)]
@@ -299,14 +302,6 @@ fn requests_and_replies_are_linked_and_registers_are_named_for_the_chosen_device
     assert_eq!(shown[8].bytes("register.other").0, [1, 2]);
     assert_eq!(shown[11].text("ja40.hardware_error_status.overheating_error"), Some("1"));
 
-    let experts = |shown: &Shown| -> Vec<String> {
-        let names = shown.names().filter_map(|name| name.strip_prefix("expert."));
-        names.map(str::to_owned).collect()
-    };
-    assert_eq!(experts(&shown[2]), ["alert"]);
-    assert_eq!(experts(&shown[9]), ["data"]);
-    assert_eq!(experts(&shown[12]), ["error_number"]);
-
     // No register is claimed from a table that nobody chose.
     let registers = |shown: &[Shown]| {
         let named = |name: &str| name.starts_with("ja40.") || name.starts_with("register.");
@@ -317,39 +312,72 @@ fn requests_and_replies_are_linked_and_registers_are_named_for_the_chosen_device
 }
 
 #[test]
-fn what_does_not_fit_is_remarked() {
+fn each_remark_is_made_where_it_belongs() {
     if !tshark::is_there() {
         return;
     }
-    let mut to_253 = reference::frame(253, &[0x01]);
-    reference::repair(&mut to_253);
+    let ping = instruction(1, 0x01, &[]);
+    let repaired = |at: usize, byte: u8| {
+        let mut frame = ping.clone();
+        frame[at] = byte;
+        reference::repair(&mut frame);
+        frame
+    };
+    let data = vec![1, 2].into();
+    let of_another = Packet::FastStatus { blocks: vec![Block { error: 0, id: 2, data }] };
+    let cases: [(Vec<u8>, &[&str]); 21] = [
+        (ping.clone(), &[]),
+        (vec![1, 2, 3], &["header"]),
+        (repaired(3, 0x01), &["reserved"]),
+        (repaired(4, 253), &["id"]),
+        (repaired(5, 2)[..9].to_vec(), &["length"]),
+        (ping[..9].to_vec(), &["truncated"]),
+        ([&ping[..9], &[0x00]].concat(), &["crc"]),
+        (reference::frame(1, &[0x03, 0x34, 0x02, 0xFF, 0xFF, 0xFD, 0x00]), &["stuffing"]),
+        (instruction(1, 0x77, &[]), &["instruction"]),
+        (instruction(1, 0x02, &[0x44, 0x02, 0x04]), &["parameters"]), // half a length
+        (instruction(1, 0x10, &[0x01, 0x44, 0x58, 0x4C, 0x23]), &["parameters"]), // another key
+        (instruction(1, 0x82, &[0x44, 0x02, 0x04, 0x00, 0x01]), &["to_one"]),
+        (instruction(0xFE, 0x82, &[0x44, 0x02, 0x04, 0x00]), &["parameters"]), // no device
+        (instruction(1, 0x08, &[]), &[]),
+        (status(1, 0x80, &[]), &["alert"]),
+        (status(1, 0x03, &[]), &["error"]),
+        (status(1, 0x7F, &[]), &["error_number"]),
+        (instruction(1, 0x02, &[0x44, 0x02, 0x04, 0x00]), &[]),
+        (status(1, 0, &[1]), &["data"]), // one byte where four were read
+        (instruction(0xFE, 0x8A, &[0x44, 0x02, 0x02, 0x00, 1]), &[]),
+        (reference::encode(&of_another).unwrap(), &["device"]),
+    ];
+    let (records, wanted): (Vec<_>, Vec<_>) = cases.into_iter().unzip();
+    let script = export::wireshark::export(&spec());
+    let capture = pcap::capture(pcap::USER0, &records);
+    let shown = tshark::show(&script, WIRE, &capture, &[]);
+    let experts: Vec<_> = shown.iter().map(|shown| shown.experts().collect::<Vec<_>>()).collect();
+    let wanted: Vec<_> = wanted.into_iter().map(<[&str]>::to_vec).collect();
+    assert_eq!(differences(&wanted, &experts), [""; 0]);
+    assert_eq!(
+        experts.concat().into_iter().collect::<BTreeSet<_>>(),
+        declared_experts(&script, WIRE)
+    );
+}
+
+#[test]
+fn registers_are_named_wherever_data_are_written() {
+    if !tshark::is_there() {
+        return;
+    }
+    let position = [0x34, 0x02, 0x04, 0x00];
+    let sync = [&position[..], &[1, 1, 0, 0, 0, 2, 2, 0, 0, 0]].concat();
+    let bulk = [&[1][..], &position, &[3, 0, 0, 0, 2, 0x0B, 0x00, 0x01, 0x00, 1]].concat();
     let records = [
-        instruction(1, 0x01, &[]),
-        instruction(1, 0x02, &[0x44, 0x02, 0x04]), // Read with half a length
-        instruction(1, 0x82, &[0x44, 0x02, 0x04, 0x00, 0x01]), // Sync Read to one device
-        instruction(1, 0x10, &[0x01, 0x44, 0x58, 0x4C, 0x23]), // Clear with another key
-        instruction(1, 0x77, &[]),
-        to_253,
-        reference::frame(1, &[0x03, 0x34, 0x02, 0xFF, 0xFF, 0xFD, 0x00]),
-        status(1, 0x03, &[]),
+        instruction(1, 0x03, &[0x34, 0x02, 0xFF, 0xFF, 0xFD, 0xFF]),
+        instruction(0xFE, 0x83, &sync),
+        instruction(0xFE, 0x93, &bulk),
     ];
     let capture = pcap::capture(pcap::USER0, &records);
-    let shown = tshark::show(&export::wireshark::export(&spec()), WIRE, &capture, &[]);
-    let experts: Vec<_> = shown
-        .iter()
-        .map(|shown| {
-            shown.names().filter_map(|name| name.strip_prefix("expert.")).collect::<Vec<_>>()
-        })
-        .collect();
-    let expected = [
-        &[][..],
-        &["parameters"],
-        &["to_one"],
-        &["parameters"],
-        &["instruction"],
-        &["id"],
-        &["stuffing"],
-        &["error"],
-    ];
-    assert_eq!(experts, expected);
+    let script = export::wireshark::export(&spec());
+    let shown = tshark::show(&script, WIRE, &capture, &["-o", "dynamixel2.device:ja40"]);
+    let goals = shown.iter().map(|shown| shown.texts("ja40.goal_position").collect::<Vec<_>>());
+    assert_eq!(goals.collect::<Vec<_>>(), [&["-131073"][..], &["1", "2"], &["3"]]);
+    assert_eq!(shown[2].text("ja40.operating_mode"), Some("1"));
 }

@@ -1,11 +1,15 @@
 use actucheck_spec::wire::Direction::{self, Reply, Request};
+use std::collections::BTreeSet;
+
 use actucheck_spec::wire::innfos::{Format, Packet, WIRE, reference};
 use actucheck_spec::wire::{Number, Value};
 use actucheck_spec::{Spec, export};
 
 use crate::pcap::{self, End};
 use crate::tshark::{self, Shown};
-use crate::{Random, damaged, differences, first_rule, spec, stream, unnoticed, vectors};
+use crate::{
+    Random, damaged, declared_experts, differences, first_rule, spec, stream, unnoticed, vectors,
+};
 
 const HOST: End = End(101, 40_000);
 const BOARD: End = End(30, 2000);
@@ -96,15 +100,17 @@ fn add(content: &mut Content, spec: &Spec, shown: &Shown, start: usize) {
 /// Bytes of Ethernet, IPv4 and UDP.
 const BEFORE: usize = 42;
 
+fn datagram(direction: Direction, bytes: &[u8]) -> Vec<u8> {
+    match direction {
+        Request => pcap::udp(HOST, BOARD, bytes),
+        Reply => pcap::udp(BOARD, HOST, bytes),
+    }
+}
+
 fn look(script: &str, datagrams: &[(Direction, Vec<u8>)]) -> Vec<String> {
     let spec = spec();
-    let records: Vec<_> = datagrams
-        .iter()
-        .map(|(direction, bytes)| match direction {
-            Request => pcap::udp(HOST, BOARD, bytes),
-            Reply => pcap::udp(BOARD, HOST, bytes),
-        })
-        .collect();
+    let records: Vec<_> =
+        datagrams.iter().map(|(direction, bytes)| datagram(*direction, bytes)).collect();
     let capture = pcap::capture(pcap::ETHERNET, &records);
     let mut found: Vec<_> = records.iter().map(|_| Content::default()).collect();
     for shown in tshark::show(script, WIRE, &capture, &[]) {
@@ -218,36 +224,39 @@ fn requests_and_replies_are_linked() {
 }
 
 #[test]
-fn what_does_not_fit_is_remarked() {
+fn each_remark_is_made_where_it_belongs() {
     if !tshark::is_there() {
         return;
     }
+    let speed = frame(Request, 6, 0x09, &[1, 2, 3, 4]);
+    let mut wrong_crc = speed.clone();
+    wrong_crc[9] ^= 1;
     let mut with_crc = vec![0xEE, 6, 0x07, 0, 1, 1];
     with_crc.extend(reference::crc(&[1]).to_le_bytes());
     with_crc.push(0xED);
-    let records = [
-        pcap::udp(HOST, BOARD, &frame(Request, 6, 0x0A, &[1, 2])),
-        pcap::udp(HOST, BOARD, &frame(Request, 6, 0x01, &[])),
-        pcap::udp(HOST, BOARD, &frame(Request, 6, 0x07, &[9])),
-        pcap::udp(BOARD, HOST, &frame(Reply, 6, 0x07, &[2])),
-        pcap::udp(BOARD, HOST, &frame(Reply, 6, 0xFF, &[0x08, 0x00])),
-        pcap::udp(BOARD, HOST, &with_crc),
+    let cases: [(Direction, Vec<u8>, &[&str]); 12] = [
+        (Request, speed.clone(), &[]),
+        (Request, vec![1, 2, 3], &["header"]),
+        (Request, speed[..11].to_vec(), &["truncated"]),
+        (Request, [&speed[..11], &[0xEC]].concat(), &["tail"]),
+        (Request, wrong_crc, &["crc"]),
+        (Request, frame(Request, 6, 0x0A, &[1, 2]), &["data"]),
+        (Request, frame(Request, 6, 0x01, &[]), &["command"]),
+        (Request, frame(Request, 6, 0x07, &[9]), &["value"]),
+        (Reply, frame(Reply, 6, 0x07, &[2]), &["value"]),
+        (Reply, frame(Reply, 6, 0xFF, &[0x08, 0x00]), &["alarm"]),
+        (Reply, frame(Reply, 6, 0xFF, &[0x00, 0x00]), &[]),
+        (Reply, with_crc, &["tail", "needless_crc"]),
     ];
+    let records = cases.each_ref().map(|(direction, bytes, _)| datagram(*direction, bytes));
+    let script = export::wireshark::export(&spec());
     let capture = pcap::capture(pcap::ETHERNET, &records);
-    let shown = tshark::show(&export::wireshark::export(&spec()), WIRE, &capture, &[]);
-    let experts: Vec<_> = shown
-        .iter()
-        .map(|shown| {
-            shown.names().filter_map(|name| name.strip_prefix("expert.")).collect::<Vec<_>>()
-        })
-        .collect();
-    let expected = [
-        &["data"][..],
-        &["command"],
-        &["value"],
-        &["value"],
-        &["alarm"],
-        &["tail", "needless_crc"],
-    ];
-    assert_eq!(experts, expected);
+    let shown = tshark::show(&script, WIRE, &capture, &[]);
+    let experts: Vec<_> = shown.iter().map(|shown| shown.experts().collect::<Vec<_>>()).collect();
+    let wanted = cases.map(|(_, _, names)| names.to_vec());
+    assert_eq!(differences(&wanted, &experts), [""; 0]);
+    assert_eq!(
+        experts.concat().into_iter().collect::<BTreeSet<_>>(),
+        declared_experts(&script, WIRE)
+    );
 }

@@ -8,6 +8,8 @@ mod innfos;
 mod pcap;
 mod tshark;
 
+use std::collections::BTreeSet;
+
 use actucheck_spec::model::{Fault, Vector};
 use actucheck_spec::wire::{Context, Packet, Wire};
 use actucheck_spec::{Spec, export};
@@ -95,6 +97,13 @@ fn differences<T: PartialEq + std::fmt::Debug>(expected: &[T], shown: &[T]) -> V
         all.push(format!("{} expected, {} shown", expected.len(), shown.len()));
     }
     all
+}
+
+/// The expert infos of a wire that the script declares.
+fn declared_experts(script: &str, wire: Wire) -> BTreeSet<&str> {
+    let own = script.split_once(&format!("Proto(\"{wire}\"")).unwrap().1;
+    let table = own.split_once("add_experts(proto, {\n").unwrap().1.split_once("\n})").unwrap().0;
+    table.lines().map(|line| line.split_once(" = ").unwrap().0.trim()).collect()
 }
 
 /// A bug in the script, as the text to replace.

@@ -51,6 +51,11 @@ impl Shown {
         self.all_bytes(name).into_iter().next().unwrap_or_else(|| Vec::new().into())
     }
 
+    /// The names of all expert infos.
+    pub(crate) fn experts(&self) -> impl Iterator<Item = &str> {
+        self.names().filter_map(|name| name.strip_prefix("expert."))
+    }
+
     /// The names of all fields.
     pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
         self.fields.iter().map(|field| field.0.as_str())
