@@ -115,9 +115,16 @@ local function show_columns(pinfo, protocol, summaries)
   pinfo.cols.info = table.concat(summaries, "; ")
 end
 
--- DYNAMIXEL Protocol 2.0 and its JA dialect ---------------------------------------------------
+-- DYNAMIXEL Protocol 2.0 and its JA dialect -------------------------------------------------
 
 do
+-- Found in records of the link type USER0 (147), which serial lines have, from the first header on,
+-- and in TCP conversations that begin with a packet. For another link type choose `dynamixel2` at
+-- Preferences, Protocols, DLT_USER; for a port use Decode As. A hex dump becomes a capture with
+--   text2pcap -l 147 dump.txt capture.pcap
+-- Registers have names only if their device is chosen, at Preferences, Protocols, DYNAMIXEL2, or
+--   tshark -o dynamixel2.device:ja40
+
 local TITLE = "DYNAMIXEL Protocol 2.0 and its JA dialect"
 local HEADER = "\xFF\xFF\xFD\x00"
 local ID = { min = 0, max = 252, broadcast = 254 }
@@ -173,11 +180,7 @@ local INSTRUCTIONS = {
       {
         name = "option",
         size = 1,
-        values = {
-          [255] = "Reset all",
-          [1] = "Reset all except ID",
-          [2] = "Reset all except ID and baud rate",
-        },
+        values = { [255] = "Reset all", [1] = "Reset all except ID", [2] = "Reset all except ID and baud rate" },
       },
     },
     status = {},
@@ -186,12 +189,7 @@ local INSTRUCTIONS = {
   [0x10] = {
     name = "Clear",
     parameters = {
-      {
-        name = "option",
-        size = 1,
-        optional = true,
-        values = { [1] = "Clear multi-turn information" },
-      },
+      { name = "option", size = 1, optional = true, values = { [1] = "Clear multi-turn information" } },
       { name = "key", size = "rest", fixed = "\x44\x58\x4C\x22" },
     },
     status = {},
@@ -221,10 +219,7 @@ local INSTRUCTIONS = {
     parameters = {
       { name = "address", size = 2 },
       { name = "length", size = 2 },
-      {
-        name = "devices",
-        each = { { name = "id", size = 1 }, { name = "data", size = "length" } },
-      },
+      { name = "devices", each = { { name = "id", size = 1 }, { name = "data", size = "length" } } },
     },
   },
   [0x8A] = {
@@ -250,16 +245,9 @@ local INSTRUCTIONS = {
     parameters = {
       { name = "address", size = 2 },
       { name = "length", size = 2 },
-      {
-        name = "devices",
-        each = { { name = "id", size = 1 }, { name = "data", size = "length" } },
-      },
+      { name = "devices", each = { { name = "id", size = 1 }, { name = "data", size = "length" } } },
     },
-    fast_status = {
-      { name = "error", size = 1 },
-      { name = "id", size = 1 },
-      { name = "CRC", size = 2 },
-    },
+    fast_status = { { name = "error", size = 1 }, { name = "id", size = 1 }, { name = "CRC", size = 2 } },
   },
   [0x92] = {
     name = "Bulk Read",
@@ -268,11 +256,7 @@ local INSTRUCTIONS = {
     parameters = {
       {
         name = "devices",
-        each = {
-          { name = "id", size = 1 },
-          { name = "address", size = 2 },
-          { name = "length", size = 2 },
-        },
+        each = { { name = "id", size = 1 }, { name = "address", size = 2 }, { name = "length", size = 2 } },
       },
     },
     status = { { name = "data", size = "rest" } },
@@ -307,13 +291,7 @@ local DEVICES = {
         name = "Baud Rate",
         type = "uint8",
         size = 1,
-        values = {
-          [0] = "9,600 bps",
-          [1] = "57,600 bps",
-          [2] = "115,200 bps",
-          [3] = "1 Mbps",
-          [4] = "2 Mbps",
-        },
+        values = { [0] = "9,600 bps", [1] = "57,600 bps", [2] = "115,200 bps", [3] = "1 Mbps", [4] = "2 Mbps" },
       },
       {
         address = 10,
@@ -324,16 +302,9 @@ local DEVICES = {
           {
             name = "Reverse Mode",
             mask = 0x01,
-            values = {
-              [0] = "Normal (positive is counterclockwise)",
-              [1] = "Reverse (positive is clockwise)",
-            },
+            values = { [0] = "Normal (positive is counterclockwise)", [1] = "Reverse (positive is clockwise)" },
           },
-          {
-            name = "Enable Profile",
-            mask = 0x02,
-            values = { [0] = "Profile disabled", [1] = "Profile enabled" },
-          },
+          { name = "Enable Profile", mask = 0x02, values = { [0] = "Profile disabled", [1] = "Profile enabled" } },
         },
       },
       {
@@ -346,27 +317,9 @@ local DEVICES = {
       { address = 20, name = "Homing Offset", type = "int32", size = 4, unit = { 1, "count" } },
       { address = 31, name = "Temperature Limit", type = "uint8", size = 1, unit = { 1, "°C" } },
       { address = 36, name = "PWM Limit", type = "uint16", size = 2, unit = { 0.0026, "%" } },
-      {
-        address = 44,
-        name = "Velocity Limit",
-        type = "uint32",
-        size = 4,
-        unit = { 0.01, "rev/min" },
-      },
-      {
-        address = 48,
-        name = "Max Position Limit",
-        type = "int32",
-        size = 4,
-        unit = { 1, "count" },
-      },
-      {
-        address = 52,
-        name = "Min Position Limit",
-        type = "int32",
-        size = 4,
-        unit = { 1, "count" },
-      },
+      { address = 44, name = "Velocity Limit", type = "uint32", size = 4, unit = { 0.01, "rev/min" } },
+      { address = 48, name = "Max Position Limit", type = "int32", size = 4, unit = { 1, "count" } },
+      { address = 52, name = "Min Position Limit", type = "int32", size = 4, unit = { 1, "count" } },
       {
         address = 512,
         name = "Torque Enable",
@@ -417,28 +370,10 @@ local DEVICES = {
         },
       },
       { address = 572, name = "Present PWM", type = "int16", size = 2, unit = { 0.0096, "%" } },
-      {
-        address = 576,
-        name = "Present Velocity",
-        type = "int32",
-        size = 4,
-        unit = { 0.0078125, "count/100 us" },
-      },
+      { address = 576, name = "Present Velocity", type = "int32", size = 4, unit = { 0.0078125, "count/100 us" } },
       { address = 580, name = "Present Position", type = "int32", size = 4, unit = { 1, "count" } },
-      {
-        address = 584,
-        name = "Velocity Trajectory",
-        type = "int32",
-        size = 4,
-        unit = { 0.01, "rev/min" },
-      },
-      {
-        address = 588,
-        name = "Position Trajectory",
-        type = "int32",
-        size = 4,
-        unit = { 1, "count" },
-      },
+      { address = 584, name = "Velocity Trajectory", type = "int32", size = 4, unit = { 0.01, "rev/min" } },
+      { address = 588, name = "Position Trajectory", type = "int32", size = 4, unit = { 1, "count" } },
       { address = 594, name = "Present Temperature", type = "uint8", size = 1, unit = { 1, "°C" } },
       {
         address = 878,
@@ -462,13 +397,7 @@ local DEVICES = {
         name = "Baud Rate",
         type = "uint8",
         size = 1,
-        values = {
-          [0] = "9,600 bps",
-          [1] = "57,600 bps",
-          [2] = "115,200 bps",
-          [3] = "1 Mbps",
-          [4] = "2 Mbps",
-        },
+        values = { [0] = "9,600 bps", [1] = "57,600 bps", [2] = "115,200 bps", [3] = "1 Mbps", [4] = "2 Mbps" },
       },
       {
         address = 10,
@@ -479,16 +408,9 @@ local DEVICES = {
           {
             name = "Reverse Mode",
             mask = 0x01,
-            values = {
-              [0] = "Normal (positive is counterclockwise)",
-              [1] = "Reverse (positive is clockwise)",
-            },
+            values = { [0] = "Normal (positive is counterclockwise)", [1] = "Reverse (positive is clockwise)" },
           },
-          {
-            name = "Disable Profile",
-            mask = 0x02,
-            values = { [0] = "Profile enabled", [1] = "Profile disabled" },
-          },
+          { name = "Disable Profile", mask = 0x02, values = { [0] = "Profile enabled", [1] = "Profile disabled" } },
           {
             name = "Profile Configuration",
             mask = 0x04,
@@ -513,34 +435,10 @@ local DEVICES = {
       { address = 31, name = "Temperature Limit", type = "uint8", size = 1, unit = { 1, "°C" } },
       { address = 36, name = "PWM Limit", type = "uint16", size = 2, unit = { 0.0026, "%" } },
       { address = 38, name = "Current Limit", type = "uint16", size = 2, unit = { 2.5177, "mA" } },
-      {
-        address = 40,
-        name = "Acceleration Limit",
-        type = "uint32",
-        size = 4,
-        unit = { 1, "rev/min²" },
-      },
-      {
-        address = 44,
-        name = "Velocity Limit",
-        type = "uint32",
-        size = 4,
-        unit = { 0.01, "rev/min" },
-      },
-      {
-        address = 48,
-        name = "Max Position Limit",
-        type = "int32",
-        size = 4,
-        unit = { 1, "count" },
-      },
-      {
-        address = 52,
-        name = "Min Position Limit",
-        type = "int32",
-        size = 4,
-        unit = { 1, "count" },
-      },
+      { address = 40, name = "Acceleration Limit", type = "uint32", size = 4, unit = { 1, "rev/min²" } },
+      { address = 44, name = "Velocity Limit", type = "uint32", size = 4, unit = { 0.01, "rev/min" } },
+      { address = 48, name = "Max Position Limit", type = "int32", size = 4, unit = { 1, "count" } },
+      { address = 52, name = "Min Position Limit", type = "int32", size = 4, unit = { 1, "count" } },
       {
         address = 512,
         name = "Torque Enable",
@@ -571,13 +469,7 @@ local DEVICES = {
       { address = 536, name = "Feedforward 2nd Gain", type = "uint16", size = 2 },
       { address = 538, name = "Feedforward 1st Gain", type = "uint16", size = 2 },
       { address = 550, name = "Goal Current", type = "int16", size = 2, unit = { 2.5177, "mA" } },
-      {
-        address = 552,
-        name = "Goal Velocity",
-        type = "int32",
-        size = 4,
-        unit = { 0.01, "rev/min" },
-      },
+      { address = 552, name = "Goal Velocity", type = "int32", size = 4, unit = { 0.01, "rev/min" } },
       { address = 556, name = "Profile Acceleration", type = "uint32", size = 4 },
       { address = 560, name = "Profile Velocity", type = "uint32", size = 4 },
       { address = 564, name = "Goal Position", type = "int32", size = 4, unit = { 1, "count" } },
@@ -601,35 +493,11 @@ local DEVICES = {
         },
       },
       { address = 572, name = "Present PWM", type = "int16", size = 2, unit = { 0.0096, "%" } },
-      {
-        address = 574,
-        name = "Present Current",
-        type = "int16",
-        size = 2,
-        unit = { 2.5177, "mA" },
-      },
-      {
-        address = 576,
-        name = "Present Velocity",
-        type = "int32",
-        size = 4,
-        unit = { 0.0078125, "count/100 us" },
-      },
+      { address = 574, name = "Present Current", type = "int16", size = 2, unit = { 2.5177, "mA" } },
+      { address = 576, name = "Present Velocity", type = "int32", size = 4, unit = { 0.0078125, "count/100 us" } },
       { address = 580, name = "Present Position", type = "int32", size = 4, unit = { 1, "count" } },
-      {
-        address = 584,
-        name = "Velocity Trajectory",
-        type = "int32",
-        size = 4,
-        unit = { 0.01, "rev/min" },
-      },
-      {
-        address = 588,
-        name = "Position Trajectory",
-        type = "int32",
-        size = 4,
-        unit = { 1, "count" },
-      },
+      { address = 584, name = "Velocity Trajectory", type = "int32", size = 4, unit = { 0.01, "rev/min" } },
+      { address = 588, name = "Position Trajectory", type = "int32", size = 4, unit = { 1, "count" } },
       { address = 594, name = "Present Temperature", type = "uint8", size = 1, unit = { 1, "°C" } },
       {
         address = 878,
@@ -1131,9 +999,12 @@ encapsulations:add(wtap.USER0, serial)
 
 end
 
--- The INNFOS Ethernet protocol ----------------------------------------------------------------
+-- The INNFOS Ethernet protocol --------------------------------------------------------------
 
 do
+-- Found in datagrams to and from the port of the control board, below; for another port use
+-- Decode As.
+
 local TITLE = "INNFOS Ethernet protocol"
 local HEADER = "\xEE"
 local TAIL = 0xED
@@ -1152,57 +1023,15 @@ local CRC_MAY = { [0x02] = true, [0x44] = true }
 local FLAGS = { [0] = "no (failure, disabled, off)", [1] = "yes (success, enabled, on, normal)" }
 local FRACTION_BITS = { iq8 = 8, iq24 = 24 }
 local COMMANDS = {
-  [0x44] = {
-    name = "Board handshake",
-    operation = "read",
-    request = 0,
-    reply = { 1 },
-    format = "flag",
-  },
-  [0x02] = {
-    name = "Actuator query",
-    operation = "read",
-    request = 0,
-    reply = { 4, 6 },
-    format = "mac",
-  },
+  [0x44] = { name = "Board handshake", operation = "read", request = 0, reply = { 1 }, format = "flag" },
+  [0x02] = { name = "Actuator query", operation = "read", request = 0, reply = { 4, 6 }, format = "mac" },
   [0x00] = { name = "Handshake", operation = "read", request = 0, reply = { 1 }, format = "flag" },
   [0x55] = { name = "Mode", operation = "read", request = 0, reply = { 1 }, format = "mode" },
-  [0xB0] = {
-    name = "Last shutdown state",
-    operation = "read",
-    request = 0,
-    reply = { 1 },
-    format = "flag",
-  },
-  [0x71] = {
-    name = "Current loop filter state",
-    operation = "read",
-    request = 0,
-    reply = { 1 },
-    format = "flag",
-  },
-  [0x75] = {
-    name = "Speed loop filter state",
-    operation = "read",
-    request = 0,
-    reply = { 1 },
-    format = "flag",
-  },
-  [0x79] = {
-    name = "Position loop filter state",
-    operation = "read",
-    request = 0,
-    reply = { 1 },
-    format = "flag",
-  },
-  [0x2B] = {
-    name = "Power state",
-    operation = "read",
-    request = 0,
-    reply = { 1 },
-    format = "flag",
-  },
+  [0xB0] = { name = "Last shutdown state", operation = "read", request = 0, reply = { 1 }, format = "flag" },
+  [0x71] = { name = "Current loop filter state", operation = "read", request = 0, reply = { 1 }, format = "flag" },
+  [0x75] = { name = "Speed loop filter state", operation = "read", request = 0, reply = { 1 }, format = "flag" },
+  [0x79] = { name = "Position loop filter state", operation = "read", request = 0, reply = { 1 }, format = "flag" },
+  [0x2B] = { name = "Power state", operation = "read", request = 0, reply = { 1 }, format = "flag" },
   [0x73] = {
     name = "Current loop filter bandwidth",
     operation = "read",
@@ -1278,98 +1107,19 @@ local COMMANDS = {
     unit = "RPM",
     full_scale = "motor speed",
   },
-  [0x06] = {
-    name = "Position",
-    operation = "read",
-    request = 0,
-    reply = { 4 },
-    format = "iq24",
-    unit = "R",
-  },
-  [0x15] = {
-    name = "Current loop P",
-    operation = "read",
-    request = 0,
-    reply = { 4 },
-    format = "iq24",
-  },
-  [0x16] = {
-    name = "Current loop I",
-    operation = "read",
-    request = 0,
-    reply = { 4 },
-    format = "iq24",
-  },
-  [0x17] = {
-    name = "Speed loop P",
-    operation = "read",
-    request = 0,
-    reply = { 4 },
-    format = "iq24",
-  },
-  [0x18] = {
-    name = "Speed loop I",
-    operation = "read",
-    request = 0,
-    reply = { 4 },
-    format = "iq24",
-  },
-  [0x19] = {
-    name = "Position loop P",
-    operation = "read",
-    request = 0,
-    reply = { 4 },
-    format = "iq24",
-  },
-  [0x1A] = {
-    name = "Position loop I",
-    operation = "read",
-    request = 0,
-    reply = { 4 },
-    format = "iq24",
-  },
-  [0x1C] = {
-    name = "Position profile maximum speed",
-    operation = "read",
-    request = 0,
-    reply = { 4 },
-    format = "iq24",
-  },
-  [0x1D] = {
-    name = "Position profile acceleration",
-    operation = "read",
-    request = 0,
-    reply = { 4 },
-    format = "iq24",
-  },
-  [0x1E] = {
-    name = "Position profile deceleration",
-    operation = "read",
-    request = 0,
-    reply = { 4 },
-    format = "iq24",
-  },
-  [0x22] = {
-    name = "Speed profile maximum speed",
-    operation = "read",
-    request = 0,
-    reply = { 4 },
-    format = "iq24",
-  },
-  [0x23] = {
-    name = "Speed profile acceleration",
-    operation = "read",
-    request = 0,
-    reply = { 4 },
-    format = "iq24",
-  },
-  [0x24] = {
-    name = "Speed profile deceleration",
-    operation = "read",
-    request = 0,
-    reply = { 4 },
-    format = "iq24",
-  },
+  [0x06] = { name = "Position", operation = "read", request = 0, reply = { 4 }, format = "iq24", unit = "R" },
+  [0x15] = { name = "Current loop P", operation = "read", request = 0, reply = { 4 }, format = "iq24" },
+  [0x16] = { name = "Current loop I", operation = "read", request = 0, reply = { 4 }, format = "iq24" },
+  [0x17] = { name = "Speed loop P", operation = "read", request = 0, reply = { 4 }, format = "iq24" },
+  [0x18] = { name = "Speed loop I", operation = "read", request = 0, reply = { 4 }, format = "iq24" },
+  [0x19] = { name = "Position loop P", operation = "read", request = 0, reply = { 4 }, format = "iq24" },
+  [0x1A] = { name = "Position loop I", operation = "read", request = 0, reply = { 4 }, format = "iq24" },
+  [0x1C] = { name = "Position profile maximum speed", operation = "read", request = 0, reply = { 4 }, format = "iq24" },
+  [0x1D] = { name = "Position profile acceleration", operation = "read", request = 0, reply = { 4 }, format = "iq24" },
+  [0x1E] = { name = "Position profile deceleration", operation = "read", request = 0, reply = { 4 }, format = "iq24" },
+  [0x22] = { name = "Speed profile maximum speed", operation = "read", request = 0, reply = { 4 }, format = "iq24" },
+  [0x23] = { name = "Speed profile acceleration", operation = "read", request = 0, reply = { 4 }, format = "iq24" },
+  [0x24] = { name = "Speed profile deceleration", operation = "read", request = 0, reply = { 4 }, format = "iq24" },
   [0x34] = {
     name = "Current loop output lower limit",
     operation = "read",
@@ -1384,20 +1134,8 @@ local COMMANDS = {
     reply = { 4 },
     format = "iq24",
   },
-  [0x36] = {
-    name = "Speed loop output lower limit",
-    operation = "read",
-    request = 0,
-    reply = { 4 },
-    format = "iq24",
-  },
-  [0x37] = {
-    name = "Speed loop output upper limit",
-    operation = "read",
-    request = 0,
-    reply = { 4 },
-    format = "iq24",
-  },
+  [0x36] = { name = "Speed loop output lower limit", operation = "read", request = 0, reply = { 4 }, format = "iq24" },
+  [0x37] = { name = "Speed loop output upper limit", operation = "read", request = 0, reply = { 4 }, format = "iq24" },
   [0x38] = {
     name = "Position loop output lower limit",
     operation = "read",
@@ -1417,41 +1155,11 @@ local COMMANDS = {
     full_scale = "motor speed",
   },
   [0x7D] = { name = "Inertia", operation = "read", request = 0, reply = { 4 }, format = "iq24" },
-  [0x85] = {
-    name = "Position upper limit",
-    operation = "read",
-    request = 0,
-    reply = { 4 },
-    format = "iq24",
-  },
-  [0x86] = {
-    name = "Position lower limit",
-    operation = "read",
-    request = 0,
-    reply = { 4 },
-    format = "iq24",
-  },
-  [0x8A] = {
-    name = "Position offset",
-    operation = "read",
-    request = 0,
-    reply = { 4 },
-    format = "iq24",
-  },
-  [0x92] = {
-    name = "Homing current lower limit",
-    operation = "read",
-    request = 0,
-    reply = { 4 },
-    format = "iq24",
-  },
-  [0x93] = {
-    name = "Homing current upper limit",
-    operation = "read",
-    request = 0,
-    reply = { 4 },
-    format = "iq24",
-  },
+  [0x85] = { name = "Position upper limit", operation = "read", request = 0, reply = { 4 }, format = "iq24" },
+  [0x86] = { name = "Position lower limit", operation = "read", request = 0, reply = { 4 }, format = "iq24" },
+  [0x8A] = { name = "Position offset", operation = "read", request = 0, reply = { 4 }, format = "iq24" },
+  [0x92] = { name = "Homing current lower limit", operation = "read", request = 0, reply = { 4 }, format = "iq24" },
+  [0x93] = { name = "Homing current upper limit", operation = "read", request = 0, reply = { 4 }, format = "iq24" },
   [0x7F] = {
     name = "Stall energy",
     operation = "read",
@@ -1462,34 +1170,10 @@ local COMMANDS = {
     unit = "J",
   },
   [0x07] = { name = "Mode", operation = "write", request = 1, reply = { 1 }, format = "mode" },
-  [0x70] = {
-    name = "Current loop filter state",
-    operation = "write",
-    request = 1,
-    reply = { 1 },
-    format = "flag",
-  },
-  [0x74] = {
-    name = "Speed loop filter state",
-    operation = "write",
-    request = 1,
-    reply = { 1 },
-    format = "flag",
-  },
-  [0x78] = {
-    name = "Position loop filter state",
-    operation = "write",
-    request = 1,
-    reply = { 1 },
-    format = "flag",
-  },
-  [0x2A] = {
-    name = "Power state",
-    operation = "write",
-    request = 1,
-    reply = { 1 },
-    format = "flag",
-  },
+  [0x70] = { name = "Current loop filter state", operation = "write", request = 1, reply = { 1 }, format = "flag" },
+  [0x74] = { name = "Speed loop filter state", operation = "write", request = 1, reply = { 1 }, format = "flag" },
+  [0x78] = { name = "Position loop filter state", operation = "write", request = 1, reply = { 1 }, format = "flag" },
+  [0x2A] = { name = "Power state", operation = "write", request = 1, reply = { 1 }, format = "flag" },
   [0x72] = {
     name = "Current loop filter bandwidth",
     operation = "write",
@@ -1548,56 +1232,13 @@ local COMMANDS = {
     unit = "RPM",
     full_scale = "motor speed",
   },
-  [0x0A] = {
-    name = "Position",
-    operation = "write",
-    request = 4,
-    reply = {},
-    format = "iq24",
-    unit = "R",
-  },
-  [0x0E] = {
-    name = "Current loop P",
-    operation = "write",
-    request = 4,
-    reply = { 1 },
-    format = "iq24",
-  },
-  [0x0F] = {
-    name = "Current loop I",
-    operation = "write",
-    request = 4,
-    reply = { 1 },
-    format = "iq24",
-  },
-  [0x10] = {
-    name = "Speed loop P",
-    operation = "write",
-    request = 4,
-    reply = { 1 },
-    format = "iq24",
-  },
-  [0x11] = {
-    name = "Speed loop I",
-    operation = "write",
-    request = 4,
-    reply = { 1 },
-    format = "iq24",
-  },
-  [0x12] = {
-    name = "Position loop P",
-    operation = "write",
-    request = 4,
-    reply = { 1 },
-    format = "iq24",
-  },
-  [0x13] = {
-    name = "Position loop I",
-    operation = "write",
-    request = 4,
-    reply = { 1 },
-    format = "iq24",
-  },
+  [0x0A] = { name = "Position", operation = "write", request = 4, reply = {}, format = "iq24", unit = "R" },
+  [0x0E] = { name = "Current loop P", operation = "write", request = 4, reply = { 1 }, format = "iq24" },
+  [0x0F] = { name = "Current loop I", operation = "write", request = 4, reply = { 1 }, format = "iq24" },
+  [0x10] = { name = "Speed loop P", operation = "write", request = 4, reply = { 1 }, format = "iq24" },
+  [0x11] = { name = "Speed loop I", operation = "write", request = 4, reply = { 1 }, format = "iq24" },
+  [0x12] = { name = "Position loop P", operation = "write", request = 4, reply = { 1 }, format = "iq24" },
+  [0x13] = { name = "Position loop I", operation = "write", request = 4, reply = { 1 }, format = "iq24" },
   [0x1F] = {
     name = "Position profile maximum speed",
     operation = "write",
@@ -1605,41 +1246,11 @@ local COMMANDS = {
     reply = { 1 },
     format = "iq24",
   },
-  [0x20] = {
-    name = "Position profile acceleration",
-    operation = "write",
-    request = 4,
-    reply = { 1 },
-    format = "iq24",
-  },
-  [0x21] = {
-    name = "Position profile deceleration",
-    operation = "write",
-    request = 4,
-    reply = { 1 },
-    format = "iq24",
-  },
-  [0x25] = {
-    name = "Speed profile maximum speed",
-    operation = "write",
-    request = 4,
-    reply = { 1 },
-    format = "iq24",
-  },
-  [0x26] = {
-    name = "Speed profile acceleration",
-    operation = "write",
-    request = 4,
-    reply = { 1 },
-    format = "iq24",
-  },
-  [0x27] = {
-    name = "Speed profile deceleration",
-    operation = "write",
-    request = 4,
-    reply = { 1 },
-    format = "iq24",
-  },
+  [0x20] = { name = "Position profile acceleration", operation = "write", request = 4, reply = { 1 }, format = "iq24" },
+  [0x21] = { name = "Position profile deceleration", operation = "write", request = 4, reply = { 1 }, format = "iq24" },
+  [0x25] = { name = "Speed profile maximum speed", operation = "write", request = 4, reply = { 1 }, format = "iq24" },
+  [0x26] = { name = "Speed profile acceleration", operation = "write", request = 4, reply = { 1 }, format = "iq24" },
+  [0x27] = { name = "Speed profile deceleration", operation = "write", request = 4, reply = { 1 }, format = "iq24" },
   [0x2E] = {
     name = "Current loop output lower limit",
     operation = "write",
@@ -1654,20 +1265,8 @@ local COMMANDS = {
     reply = { 1 },
     format = "iq24",
   },
-  [0x30] = {
-    name = "Speed loop output lower limit",
-    operation = "write",
-    request = 4,
-    reply = { 1 },
-    format = "iq24",
-  },
-  [0x31] = {
-    name = "Speed loop output upper limit",
-    operation = "write",
-    request = 4,
-    reply = { 1 },
-    format = "iq24",
-  },
+  [0x30] = { name = "Speed loop output lower limit", operation = "write", request = 4, reply = { 1 }, format = "iq24" },
+  [0x31] = { name = "Speed loop output upper limit", operation = "write", request = 4, reply = { 1 }, format = "iq24" },
   [0x32] = {
     name = "Position loop output lower limit",
     operation = "write",
@@ -1686,48 +1285,12 @@ local COMMANDS = {
     unit = "RPM",
     full_scale = "motor speed",
   },
-  [0x83] = {
-    name = "Position upper limit",
-    operation = "write",
-    request = 4,
-    reply = { 1 },
-    format = "iq24",
-  },
-  [0x84] = {
-    name = "Position lower limit",
-    operation = "write",
-    request = 4,
-    reply = { 1 },
-    format = "iq24",
-  },
-  [0x87] = {
-    name = "Home value",
-    operation = "write",
-    request = 4,
-    reply = { 1 },
-    format = "iq24",
-  },
-  [0x89] = {
-    name = "Position offset",
-    operation = "write",
-    request = 4,
-    reply = { 1 },
-    format = "iq24",
-  },
-  [0x90] = {
-    name = "Homing current lower limit",
-    operation = "write",
-    request = 4,
-    reply = { 1 },
-    format = "iq24",
-  },
-  [0x91] = {
-    name = "Homing current upper limit",
-    operation = "write",
-    request = 4,
-    reply = { 1 },
-    format = "iq24",
-  },
+  [0x83] = { name = "Position upper limit", operation = "write", request = 4, reply = { 1 }, format = "iq24" },
+  [0x84] = { name = "Position lower limit", operation = "write", request = 4, reply = { 1 }, format = "iq24" },
+  [0x87] = { name = "Home value", operation = "write", request = 4, reply = { 1 }, format = "iq24" },
+  [0x89] = { name = "Position offset", operation = "write", request = 4, reply = { 1 }, format = "iq24" },
+  [0x90] = { name = "Homing current lower limit", operation = "write", request = 4, reply = { 1 }, format = "iq24" },
+  [0x91] = { name = "Homing current upper limit", operation = "write", request = 4, reply = { 1 }, format = "iq24" },
   [0x7E] = {
     name = "Stall energy",
     operation = "write",
@@ -1824,8 +1387,9 @@ local function is_crc_and_end(raw, data, at)
   return low + high == 0 or low_first(low, high) == crc_of(data)
 end
 
--- The packet at a place, with the rules that it breaks: `fault` is the first one.
-local function read(raw, at, kind)
+-- The packet at a place, with the rules that it breaks: `fault` is the first one. A `quick` look
+-- computes no CRC if the end is wrong.
+local function read(raw, at, kind, quick)
   local packet = { at = at, faults = {} }
   local function broken(rule)
     packet.fault = packet.fault or rule
@@ -1855,7 +1419,7 @@ local function read(raw, at, kind)
   packet.size = tail + 1 - at
   packet.tail = raw:byte(tail)
   if packet.tail ~= TAIL then broken("tail") end
-  if packet.has_crc then
+  if packet.has_crc and not (quick and packet.fault) then
     packet.crc, packet.right_crc = low_first(raw:byte(packet.stop, packet.stop + 1)), crc_of(data)
     if has_crc and packet.crc ~= packet.right_crc then broken("crc") end
   end
@@ -1870,7 +1434,7 @@ local function next_part(raw, at, kind)
   if not packet.fault then return packet end
   local inside = raw:find(HEADER, at + 1, true)
   while inside and inside < at + packet.size do
-    if not read(raw, inside, kind).fault then
+    if not read(raw, inside, kind, true).fault then
       packet.size, packet.overtaken = inside - at, true
       break
     end

@@ -14,7 +14,7 @@ impl Script {
 
     /// Begins a part whose names are its own.
     pub(crate) fn begin(&mut self, title: &str) {
-        let dashes = "-".repeat(WIDTH.saturating_sub(title.chars().count() + 8));
+        let dashes = "-".repeat(90_usize.saturating_sub(title.chars().count()));
         self.code(&format!("\n-- {title} {dashes}\n\ndo\n"));
     }
 
@@ -41,7 +41,7 @@ impl Script {
 }
 
 /// Characters that a line should not exceed.
-const WIDTH: usize = 100;
+const WIDTH: usize = 120;
 
 /// A value in Lua.
 #[derive(Clone, Debug, PartialEq)]

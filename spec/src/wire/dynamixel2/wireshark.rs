@@ -3,6 +3,16 @@ use crate::Spec;
 use crate::export::wireshark::{Lua, Script, crc, fields, list, text};
 use crate::model::{BitField, Device, NamedValue, Register, Type};
 
+const USE: &str = "\
+-- Found in records of the link type USER0 (147), which serial lines have, from the first header on,
+-- and in TCP conversations that begin with a packet. For another link type choose `dynamixel2` at
+-- Preferences, Protocols, DLT_USER; for a port use Decode As. A hex dump becomes a capture with
+--   text2pcap -l 147 dump.txt capture.pcap
+-- Registers have names only if their device is chosen, at Preferences, Protocols, DYNAMIXEL2, or
+--   tshark -o dynamixel2.device:ja40
+
+";
+
 pub(super) fn write(spec: &Spec, script: &mut Script) {
     let wire = &spec.wires.dynamixel2.content;
     let devices: Vec<_> = spec
@@ -11,6 +21,7 @@ pub(super) fn write(spec: &Spec, script: &mut Script) {
         .map(|file| &file.content)
         .filter(|device| device.wire == WIRE)
         .collect();
+    script.code(USE);
     for (name, value) in [
         ("TITLE", text(&wire.title)),
         ("HEADER", Lua::bytes(&wire.framing.header)),

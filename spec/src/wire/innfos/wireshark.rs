@@ -1,8 +1,15 @@
 use super::{Command, FullScale, Innfos};
 use crate::export::wireshark::{Lua, Script, crc, fields, list, text};
 
+const USE: &str = "\
+-- Found in datagrams to and from the port of the control board, below; for another port use
+-- Decode As.
+
+";
+
 pub(super) fn write(innfos: &Innfos, script: &mut Script) {
     let framing = &innfos.framing;
+    script.code(USE);
     for (name, value) in [
         ("TITLE", text(&innfos.title)),
         ("HEADER", Lua::bytes(&[framing.header])),
