@@ -84,6 +84,9 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
     let out = Target::new(&options.out)?;
     let mut subjects = Subjects::start_with(&options.adapter, options.jobs, RESTARTS)?;
     let hello = subjects.hello.clone();
+    if !hello.wires.iter().any(|id| id == options.wire.id()) {
+        return Err(shared::not_offered(options.wire, &hello));
+    }
     let seed = options.seed.unwrap_or_else(|| RandomState::new().hash_one(()));
     let cases = options.cases.unwrap_or(u64::MAX);
     let time = options.time.or_else(|| options.cases.is_none().then_some(MINUTE));

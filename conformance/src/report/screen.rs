@@ -152,6 +152,13 @@ fn case(result: &CheckResult, room: usize) -> Vec<(&'static str, Vec<String>)> {
             ("expected" | "got", Evidence::Code(_)) if in_packets => continue,
             ("because", _) if text == DIFFERS => continue,
             ("follows" | "left out", _) => continue,
+            // The rows of an error output after its first few.
+            ("", _)
+                if case.iter().rev().take_while(|(label, _)| label.is_empty()).count() > BRIEF =>
+            {
+                continue;
+            }
+            ("log" | "", _) => vec![cut(&text, room, 0)],
             ("replay", _) => vec![replay(&text, room)],
             ("request", _) => lines(&plain(&text), room, 2),
             ("expected" | "got", Evidence::Code(_)) => vec![cut(&plain(&text), room, first)],

@@ -62,11 +62,7 @@ impl Selection {
         let offered = |wire: &Wire| hello.wires.iter().any(|id| id == wire.id());
         let mut wires = self.wires();
         if let Some(other) = self.wire.iter().find(|wire| !offered(wire)) {
-            let offers = Wire::ALL.iter().filter(|wire| offered(wire)).map(|wire| wire.id());
-            let offers = offers.collect::<Vec<_>>().join(" and ");
-            let offers = if offers.is_empty() { "no wire".to_owned() } else { offers };
-            let message = format!("the adapter offers no {}; it offers {offers}", other.id());
-            return Err(Failure::usage(message));
+            return Err(not_offered(*other, hello));
         }
         wires.retain(offered);
         if wires.is_empty() {
@@ -81,6 +77,15 @@ impl Selection {
     pub(crate) fn restrict(&self, plan: &mut Plan<'_>) -> Result<(), Failure> {
         plan.restrict(&self.select, &self.skip, self.level).map_err(Failure::usage)
     }
+}
+
+/// Says which wires an adapter offers instead of this one.
+pub(crate) fn not_offered(wire: Wire, hello: &Hello) -> Failure {
+    let offered = |wire: &Wire| hello.wires.iter().any(|id| id == wire.id());
+    let offers = Wire::ALL.iter().filter(|wire| offered(wire)).map(|wire| wire.id());
+    let offers = offers.collect::<Vec<_>>().join(" and ");
+    let offers = if offers.is_empty() { "no wire".to_owned() } else { offers };
+    Failure::usage(format!("the adapter offers no {}; it offers {offers}", wire.id()))
 }
 
 impl Growth {
