@@ -31,7 +31,7 @@ fn a_finding_is_shown_kept_and_asked_again() {
     let (output, text) = actucheck(folder.path(), &["replay", "findings.yaml"], WRONG);
     assert_eq!(output.status.code(), Some(1), "{text}");
     assert!(text.contains("actucheck replay findings.yaml -- sh -c"), "{text}");
-    let also = ["codec", "--also", "findings.yaml", "--select", "*.fuzz-3.*"];
+    let also = ["codec", "-v", "--also", "findings.yaml", "--select", "*.fuzz-3.*"];
     let (output, text) = actucheck(folder.path(), &also, WRONG);
     assert_eq!((output.status.code(), text.contains("1 fail")), (Some(1), true), "{text}");
     assert!(text.contains("actucheck replay findings.yaml -- sh -c"), "{text}");
