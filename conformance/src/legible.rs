@@ -65,6 +65,33 @@ fn is_seen(character: char) -> bool {
     !hidden && !character.is_control()
 }
 
+/// The limits of the beginning and of the end that [`excerpt`] keeps, in bytes.
+const HEAD: usize = 1500;
+const TAIL: usize = 2500;
+
+/// The beginning and the end of an error output, made legible line by line: the first lines say
+/// what happened, and the last ones sum it up.
+#[must_use]
+pub fn excerpt(log: &str) -> String {
+    let lines: Vec<_> = log.lines().map(|line| legible(line, LONGEST_TEXT)).collect();
+    let end_of = |limit: usize, lines: &mut dyn Iterator<Item = &String>| {
+        let mut left = limit;
+        let fits = |line: &&String| {
+            left.checked_sub(line.len() + 1).is_some_and(|less| {
+                left = less;
+                true
+            })
+        };
+        lines.take_while(fits).count()
+    };
+    let tail = end_of(TAIL, &mut lines.iter().rev());
+    let (front, tail) = lines.split_at_checked(lines.len() - tail).unwrap_or_default();
+    let head = front.get(..end_of(HEAD, &mut front.iter())).unwrap_or_default();
+    let left_out = front.len() - head.len();
+    let gap = (left_out > 0).then(|| format!("… ({left_out} lines more)"));
+    head.iter().chain(&gap).chain(tail).map(String::as_str).collect::<Vec<_>>().join("\n")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

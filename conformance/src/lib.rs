@@ -17,6 +17,7 @@ pub mod legible;
 pub mod nearest;
 pub mod report;
 pub mod run;
+mod shrink;
 pub mod subject;
 pub mod suite;
 pub mod verdict;

@@ -1,9 +1,14 @@
 //! Asks subjects the checks of a plan, and passes each outcome on at once.
 
+mod again;
 mod blame;
+mod history;
+mod ledger;
 mod merge;
+mod repeat;
 mod worker;
 
+use std::num::NonZeroU32;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -11,6 +16,7 @@ use std::thread;
 
 use actucheck_spec::model::Level;
 
+use self::again::Again;
 use self::merge::Merge;
 use self::worker::Worker;
 use crate::subject::{Answer, Subject};
@@ -24,12 +30,17 @@ pub type Sink<'s> = dyn FnMut(Outcome) -> ControlFlow<()> + Send + 's;
 /// Asks `subjects`, all of the same implementation, the checks of `plan` in parallel. A subject
 /// takes a few groups at a time. A check that requires another check of its group is skipped if the
 /// subject skipped that one. A failure that follows from an earlier failure says so. `sink` receives
-/// the same outcomes in the same order for any number of subjects. When `interrupted` is set, the
-/// run waits for the outstanding questions and passes on what was answered. If an adapter answers an op that does not exist, the first outcome reports
-/// that fault. Returns of how many checks the outcome was handed on.
+/// the same outcomes in the same order for any number of subjects.
+///
+/// Each question is asked so many `times` in a row; answers that differ are [`Verdict::Flaky`].
+/// What failed is asked again in another process of the subject, and is flaky too if it does not
+/// come again. If an adapter answers an op that does not exist, the first outcome reports that
+/// fault. When `interrupted` is set, the run waits for the outstanding questions and passes on what
+/// was answered. Returns of how many checks the outcome was handed on.
 pub fn run<'s>(
     subjects: &mut [Box<dyn Subject + Send>],
     plan: &'s Plan<'_>,
+    times: NonZeroU32,
     interrupted: &'s AtomicBool,
     sink: &'s mut Sink<'s>,
 ) -> usize {
@@ -37,25 +48,38 @@ pub fn run<'s>(
     if fault.is_some_and(|fault| sink(fault).is_break()) {
         return 0;
     }
+    let again = subjects.first().and_then(|subject| subject.another()).map(Again::new);
+    ask(subjects, plan, times, Merge::new(sink, again, interrupted))
+}
+
+/// Asks all checks of a short plan once, and keeps every outcome as it is.
+pub fn outcomes(subjects: &mut [Box<dyn Subject + Send>], plan: &Plan<'_>) -> Vec<Outcome> {
+    let (mut outcomes, interrupted) = (Vec::new(), AtomicBool::new(false));
+    let mut sink = |outcome| {
+        outcomes.push(outcome);
+        ControlFlow::Continue(())
+    };
+    ask(subjects, plan, NonZeroU32::MIN, Merge::new(&mut sink, None, &interrupted));
+    outcomes
+}
+
+/// Asks the checks of a plan. Returns of how many the outcome was handed on.
+fn ask<'s>(
+    subjects: &mut [Box<dyn Subject + Send>],
+    plan: &'s Plan<'_>,
+    times: NonZeroU32,
+    merge: Merge<'s>,
+) -> usize {
     let source = Mutex::new(Source { groups: Box::new(plan.groups()), next: 0 });
-    let work = Work { plan, source, merge: Merge::new(sink, interrupted) };
+    let work = Work { plan, source, merge };
+    let is_doubted = work.merge.asks_again();
     thread::scope(|scope| {
         for subject in subjects {
-            let worker = Worker::new(&work, subject.hello().clone());
+            let worker = Worker::new(&work, subject.hello().clone(), times, is_doubted);
             scope.spawn(|| worker.ask(subject.as_mut()));
         }
     });
     work.merge.finish()
-}
-
-/// Asks all checks of a short plan, and keeps every outcome.
-pub fn outcomes(subjects: &mut [Box<dyn Subject + Send>], plan: &Plan<'_>) -> Vec<Outcome> {
-    let mut outcomes = Vec::new();
-    run(subjects, plan, &AtomicBool::new(false), &mut |outcome| {
-        outcomes.push(outcome);
-        ControlFlow::Continue(())
-    });
-    outcomes
 }
 
 /// The state that the workers share.
@@ -105,12 +129,11 @@ fn is_set(flag: &AtomicBool) -> bool {
 
 /// A question that every adapter must skip, as it must skip unknown ops of later versions.
 fn invented_op(subject: &mut dyn Subject) -> Option<Outcome> {
-    let (verdict, detail) = match subject.ask_invented() {
+    let detail = match subject.ask_invented() {
         Answer::Skipped(_) => return None,
-        Answer::TimedOut(detail) => (Verdict::Timeout, detail),
-        Answer::Crashed(detail) => (Verdict::Crash, detail),
+        Answer::TimedOut(detail) | Answer::Crashed(detail) => detail,
         Answer::Ok(_) | Answer::Rejected(_) | Answer::Faulty(_) | Answer::NotAsked(_) => {
-            (Verdict::AdapterFault, String::new())
+            String::new()
         }
     };
     let rule = "an op that the adapter does not know must be answered with `skip`";
@@ -119,7 +142,7 @@ fn invented_op(subject: &mut dyn Subject) -> Option<Outcome> {
         id: "adapter.unknown-op".to_owned(),
         requirement: "adapter.unknown-op".to_owned(),
         level: Level::Must,
-        verdict,
+        verdict: Verdict::AdapterFault,
         detail,
         because: None,
         reason: None,
@@ -127,5 +150,7 @@ fn invented_op(subject: &mut dyn Subject) -> Option<Outcome> {
         expected: None,
         actual: None,
         behaviour: None,
+        after: None,
+        log: None,
     })
 }

@@ -20,6 +20,8 @@ pub enum Verdict {
     Pass,
     /// The answer is wrong.
     Fail,
+    /// The answer depends on what was asked before, or on time: asked again, it is another one.
+    Flaky,
     /// The answer breaks a recommendation, or rejects the input for the wrong reason.
     Warn,
     /// The documents leave it unspecified; the answer is noted, not judged.
@@ -32,7 +34,7 @@ pub enum Verdict {
     Crash,
     /// The answer violates the adapter protocol.
     AdapterFault,
-    /// The adapter could not be restarted to ask the check.
+    /// It was not asked: the adapter does not start again, or such questions cost it too often.
     NotRun,
     /// The answer is wrong, as the expected-failures file says.
     ExpectedFailure,
@@ -42,9 +44,10 @@ pub enum Verdict {
 
 impl Verdict {
     /// Every verdict, in the order of reports.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Pass,
         Self::Fail,
+        Self::Flaky,
         Self::Warn,
         Self::Recorded,
         Self::Skip,
@@ -57,11 +60,12 @@ impl Verdict {
     ];
 
     /// Every verdict, the worst one first: failures, then what could not be asked, then passes.
-    const WORST_FIRST: [Self; 11] = [
+    const WORST_FIRST: [Self; 12] = [
         Self::Fail,
         Self::UnexpectedPass,
         Self::Crash,
         Self::Timeout,
+        Self::Flaky,
         Self::AdapterFault,
         Self::NotRun,
         Self::ExpectedFailure,
@@ -86,14 +90,17 @@ impl Verdict {
     /// Whether an expected-failures file may excuse it.
     #[must_use]
     pub const fn is_failure(self) -> bool {
-        matches!(self, Self::Fail | Self::Timeout | Self::Crash | Self::AdapterFault)
+        matches!(self, Self::Fail | Self::Flaky | Self::Timeout | Self::Crash | Self::AdapterFault)
     }
 
     /// Whether a check with this verdict can be the cause of a later one's verdict. A crash has a
-    /// cause of its own, unless the earlier check crashed too.
+    /// cause of its own, unless the earlier check crashed too. What is not certain explains nothing,
+    /// and nothing explains it.
     #[must_use]
     pub fn explains(self, later: Self) -> bool {
         match later {
+            _ if self == Self::Flaky => false,
+            Self::Flaky => false,
             Self::Fail => self.is_failure(),
             Self::Warn => self.is_failure() || self == Self::Warn,
             later => self == later && self.is_failure(),
@@ -106,6 +113,7 @@ impl fmt::Display for Verdict {
         f.pad(match self {
             Self::Pass => "pass",
             Self::Fail => "fail",
+            Self::Flaky => "flaky",
             Self::Warn => "warn",
             Self::Recorded => "recorded",
             Self::Skip => "skip",
@@ -151,6 +159,40 @@ pub struct Outcome {
     /// [`Verdict::Recorded`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub behaviour: Option<Behaviour>,
+    /// What must be asked before it, so that it fails; only for [`Verdict::Flaky`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub after: Option<After>,
+    /// The end of the adapter's error output, if this question ended the adapter.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub log: Option<String>,
+}
+
+/// The fewest earlier requests that bring a failure about.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct After {
+    /// How many they are.
+    pub count: usize,
+    /// The ids of their checks in the order in which they are asked; the last 16 of more.
+    pub checks: Vec<String>,
+}
+
+impl After {
+    /// How many ids are kept.
+    const KEPT: usize = 16;
+
+    /// Keeps the ids of the last of these checks.
+    #[must_use]
+    pub fn of(ids: &[&str]) -> Self {
+        let last = ids.get(ids.len().saturating_sub(Self::KEPT)..).unwrap_or_default();
+        let checks = last.iter().map(|id| (*id).to_owned()).collect();
+        Self { count: ids.len(), checks }
+    }
+
+    /// Whether the ids of all of them are known.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        self.checks.len() == self.count
+    }
 }
 
 /// The cause of a failure: an earlier, more basic check that failed.
@@ -223,7 +265,14 @@ fn bytes_of(output: &Output) -> Vec<&HexBytes> {
 /// The count of each verdict. Every verdict has an entry, even if its count is 0.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(transparent)]
-pub struct Totals(BTreeMap<Verdict, usize>);
+pub struct Totals(#[serde(deserialize_with = "every")] BTreeMap<Verdict, usize>);
+
+/// Earlier reports know fewer verdicts.
+fn every<'de, D: Deserializer<'de>>(deserializer: D) -> Result<BTreeMap<Verdict, usize>, D::Error> {
+    let mut totals = Totals::default().0;
+    totals.extend(BTreeMap::<Verdict, usize>::deserialize(deserializer)?);
+    Ok(totals)
+}
 
 impl Default for Totals {
     fn default() -> Self {
@@ -280,17 +329,22 @@ impl Totals {
     }
 
     /// The exit status of a run with these totals: 0 all passed, 1 something failed, 3 something
-    /// could not be run.
+    /// could not be run, or the adapter itself is at fault.
     #[must_use]
     pub fn exit_status(&self) -> u8 {
         let any = |verdicts: &[Verdict]| verdicts.iter().any(|verdict| self.count(*verdict) > 0);
         let judged =
             any(&[Verdict::Pass, Verdict::Warn, Verdict::Recorded, Verdict::ExpectedFailure]);
-        if any(&[Verdict::Fail, Verdict::UnexpectedPass]) {
+        let failed = [
+            Verdict::Fail,
+            Verdict::Flaky,
+            Verdict::UnexpectedPass,
+            Verdict::Crash,
+            Verdict::Timeout,
+        ];
+        if any(&failed) {
             1
-        } else if any(&[Verdict::Timeout, Verdict::Crash, Verdict::AdapterFault, Verdict::NotRun])
-            || !judged
-        {
+        } else if any(&[Verdict::AdapterFault, Verdict::NotRun]) || !judged {
             3
         } else {
             0

@@ -59,7 +59,7 @@ fn bodies_inside_packets_are_as_long_as_asked_for() {
 fn the_json_report_counts_every_verdict() {
     let (status, stdout, _) = actucheck(&["codec", "--report", "json=-"]);
     let report: Value = serde_json::from_str(&stdout).unwrap();
-    assert_eq!((status, &report["version"]), (0, &Value::from(5)));
+    assert_eq!((status, &report["version"]), (0, &Value::from(6)));
     let sum = |totals: &Value| {
         let totals = totals.as_object().unwrap();
         assert_eq!(totals.len(), 11);

@@ -47,8 +47,9 @@ impl Default for Timeouts {
 pub struct Settings {
     /// The time limits.
     pub timeouts: Timeouts,
-    /// How often the adapter is restarted before the remaining questions are given up.
-    pub restarts: u32,
+    /// How often the adapter is restarted before the remaining questions are given up, if there is
+    /// a limit.
+    pub restarts: Option<u32>,
     /// Where the exchanged lines are written.
     pub trace: Option<Trace>,
     /// The number of this process in the trace.
@@ -57,6 +58,6 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { timeouts: Timeouts::default(), restarts: 10, trace: None, number: 1 }
+        Self { timeouts: Timeouts::default(), restarts: None, trace: None, number: 1 }
     }
 }

@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 
 use super::finding::{Failure, Finding, Kind};
 use super::probe::Probe;
-use super::shrink::shrink;
 use super::{Drawn, Scope};
+use crate::shrink::{fewest, shrink};
 use crate::subject::Subject;
 use crate::suite::check::Check;
 use crate::verdict::Outcome;
@@ -82,15 +82,9 @@ impl Examiner<'_> {
     ) -> Option<Finding> {
         let scope = self.scope;
         let steps = if kind.is_slow() { SLOW_STEPS } else { FRESH_STEPS };
-        let sizes = std::iter::successors(Some(1), |size| Some(size * 2));
-        let sizes = sizes.take_while(|size| *size < 2 * before.len() && goes_on());
-        let mut before = sizes
-            .map(|size| before.get(before.len().saturating_sub(size)..).unwrap_or_default())
-            .find(|before| self.fails_after(before, &drawn.check, kind, goes_on).is_some())?
-            .to_vec();
-        before = shrink(before, steps, goes_on, |before| {
-            Some(self.fails_after(before, &drawn.check, kind, goes_on).is_some())
-        });
+        let mut before = fewest(before, None, steps, goes_on, |before| {
+            self.fails_after(before, &drawn.check, kind, goes_on).is_some()
+        })?;
         let last = &drawn.check.id;
         let smallest = shrink(drawn.probe.clone(), steps, goes_on, |probe| {
             let check = scope.check(probe, last.clone())?;

@@ -4,57 +4,7 @@ use actucheck_spec::wire::Packet;
 
 use super::probe::{Part, Probe};
 use super::wire;
-
-/// Into how many pieces bytes are cut at most, so that long ones do not take forever.
-const PIECES: usize = 64;
-
-/// What can be shrunk.
-pub(super) trait Shrink: Sized {
-    /// The same, smaller or plainer in one way each, the largest changes first.
-    fn smaller(&self) -> Box<dyn Iterator<Item = Self> + '_>;
-}
-
-/// Shrinks something by one change after the other, until none of them leaves the failure as it
-/// is, after so many `steps`, or when it no longer `goes_on`. `fails` asks for something smaller;
-/// it returns `None` if there is nothing to ask.
-pub(super) fn shrink<T: Shrink>(
-    whole: T,
-    mut steps: usize,
-    goes_on: &dyn Fn() -> bool,
-    mut fails: impl FnMut(&T) -> Option<bool>,
-) -> T {
-    let mut smallest = whole;
-    // The place in the list of changes, and whether one succeeded since the list began.
-    let (mut place, mut succeeded) = (0, false);
-    loop {
-        let mut found = None;
-        for candidate in smallest.smaller().skip(place) {
-            if steps == 0 || !goes_on() {
-                break;
-            }
-            let failed = fails(&candidate);
-            steps -= usize::from(failed.is_some());
-            if failed == Some(true) {
-                found = Some(candidate);
-                break;
-            }
-            place += 1;
-        }
-        match found {
-            // The next change is at the same place in the new list.
-            Some(candidate) => (smallest, succeeded) = (candidate, true),
-            None if succeeded && steps > 0 && goes_on() => (place, succeeded) = (0, false),
-            None => return smallest,
-        }
-    }
-}
-
-/// Fewer in a row.
-impl<T: Clone> Shrink for Vec<T> {
-    fn smaller(&self) -> Box<dyn Iterator<Item = Self> + '_> {
-        Box::new(without(self))
-    }
-}
+use crate::shrink::{Shrink, pieces, without};
 
 impl Shrink for Packet {
     fn smaller(&self) -> Box<dyn Iterator<Item = Self> + '_> {
@@ -98,25 +48,6 @@ impl Shrink for Part {
         let packets = self.packet.smaller().map(|packet| Self { packet, ..self.clone() });
         Box::new(less.chain(quieter).chain(packets))
     }
-}
-
-/// The places of pieces: the whole, its halves, and so on.
-fn pieces(size: usize) -> impl Iterator<Item = (usize, usize)> {
-    let least = size.div_ceil(PIECES).max(1);
-    let sizes = std::iter::successors(Some(size), |piece| Some(piece / 2));
-    let whole = sizes.take_while(move |piece| *piece >= least).flat_map(move |piece| {
-        (0..size).step_by(piece).map(move |from| (from, (from + piece).min(size)))
-    });
-    let end = (least > 1).then(|| (size - 1, size));
-    whole.chain(end)
-}
-
-/// The items without some in a row.
-pub(super) fn without<T: Clone>(items: &[T]) -> impl Iterator<Item = Vec<T>> + use<'_, T> {
-    pieces(items.len()).map(move |(from, to)| {
-        let (before, behind) = (items.get(..from), items.get(to..));
-        [before.unwrap_or_default(), behind.unwrap_or_default()].concat()
-    })
 }
 
 /// The bytes without some in a row, and with zeros in their place.

@@ -1,7 +1,7 @@
 //! `actucheck codec`.
 
 use std::collections::BTreeMap;
-use std::num::NonZeroUsize;
+use std::num::{NonZeroU32, NonZeroUsize};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -50,8 +50,12 @@ A file of a report is replaced when the new report is whole. If a run cannot beg
 command, the reports of the run before stay, but a junit report says in an error why: else a CI \
 server would take the old one for the new one.
 
-Exit status: 0 all passed, 1 something failed, 2 wrong usage, 3 something could not be run or \
-written, 4 the adapter could not be started.";
+What fails is asked again in a second process. If it does not fail in the same way there, it is \
+`flaky`: it depends on what was asked before, which is then searched, or on time.
+
+Exit status: 0 all passed, 1 something failed, was flaky, crashed or gave no answer in time, \
+2 wrong usage, 3 something could not be run or written, or the adapter itself is at fault, 4 the \
+adapter could not be started.";
 
 /// Checks a codec: the built-in one, or a library behind an adapter
 #[derive(Debug, Args)]
@@ -75,6 +79,9 @@ pub(crate) struct Codec {
     /// End the run after this many unexpected failures
     #[arg(long, value_name = "N")]
     max_fail: Option<NonZeroUsize>,
+    /// Ask each check so many times in a row; answers that change are `flaky`
+    #[arg(long, value_name = "N", default_value = "1")]
+    repeat: NonZeroU32,
     #[command(flatten)]
     adapter: Adapter,
 }
@@ -107,17 +114,18 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     let mut collector = Collector::new(&run);
     let mut limit = Limit::new(options.max_fail);
     let mut handed_on = 0_u64;
-    let asked = run::run(&mut subjects.all, &plan, &interrupted, &mut |mut outcome| {
-        handed_on += 1;
-        if handed_on.is_multiple_of(64) {
-            progress.inc(64);
-        }
-        expectations.apply(&mut outcome);
-        streams.check(&run, &outcome);
-        let goes_on = limit.after(&outcome);
-        collector.add(outcome);
-        goes_on
-    });
+    let asked =
+        run::run(&mut subjects.all, &plan, options.repeat, &interrupted, &mut |mut outcome| {
+            handed_on += 1;
+            if handed_on.is_multiple_of(64) {
+                progress.inc(64);
+            }
+            expectations.apply(&mut outcome);
+            streams.check(&run, &outcome);
+            let goes_on = limit.after(&outcome);
+            collector.add(outcome);
+            goes_on
+        });
     let seconds = started.elapsed().as_secs_f64();
     progress.finish_and_clear();
 

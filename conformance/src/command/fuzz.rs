@@ -82,7 +82,7 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
     let spec = shared::spec()?;
     Target::all_differ(options.adapter.trace().into_iter().chain([options.out.as_path()]))?;
     let out = Target::new(&options.out)?;
-    let mut subjects = Subjects::start_with(&options.adapter, options.jobs, RESTARTS)?;
+    let mut subjects = Subjects::start_with(&options.adapter, options.jobs, Some(RESTARTS))?;
     let hello = subjects.hello.clone();
     if !hello.wires.iter().any(|id| id == options.wire.id()) {
         return Err(shared::not_offered(options.wire, &hello));

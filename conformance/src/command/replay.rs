@@ -20,6 +20,8 @@ Examples:
   actucheck replay dynamixel2.stuffing.goal-position/encode -- python3 my_adapter.py
   actucheck replay --seed 7 dynamixel2.seed-7.12.status/decode -- ./my-adapter
   actucheck replay findings.yaml -- ./my-adapter
+  actucheck replay dynamixel2.crc.ping/crc --after dynamixel2.crc.reboot/crc -- ./my-adapter
+      something that fails only after something else
 
 Exit status: as `actucheck codec`.";
 
@@ -31,6 +33,10 @@ pub(crate) struct Replay {
     /// fuzz` writes it
     #[arg(value_name = "ID|FILE")]
     what: String,
+    /// Ask this check first, for a failure that depends on what came before; may be given more than
+    /// once
+    #[arg(long, value_name = "ID")]
+    after: Vec<String>,
     #[command(flatten)]
     growth: Growth,
     #[command(flatten)]
@@ -43,6 +49,9 @@ pub(crate) fn run(options: &Replay) -> Result<ExitCode, Failure> {
     let mut subjects = Subjects::start(&options.adapter, 1)?;
     let hello = subjects.hello.clone();
     let checks = named(options, &spec, &hello)?;
+    let mut asked = earlier(options, &spec, &hello)?;
+    let before = asked.len();
+    asked.extend(checks.iter().cloned());
     let wires: Vec<_> = Wire::ALL.into_iter().filter(|wire| has(&checks, *wire)).collect();
     let path = Path::new(&options.what);
     let ids = checks.iter().filter(|_| path.is_file()).map(|check| check.id.clone());
@@ -58,7 +67,8 @@ pub(crate) fn run(options: &Replay) -> Result<ExitCode, Failure> {
         records,
     };
     let mut collector = Collector::new(&run);
-    collector.extend(run::outcomes(&mut subjects.all, &Plan::of(checks.clone())));
+    let outcomes = run::outcomes(&mut subjects.all, &Plan::of(asked));
+    collector.extend(outcomes.into_iter().skip(before));
     let (log, traced) = subjects.end();
     let report = collector.finish(End { log, ..End::default() });
     let mut out = anstream::stdout();
@@ -78,6 +88,15 @@ fn named(options: &Replay, spec: &Spec, hello: &Hello) -> Result<Vec<Check>, Fai
         return Ok(vec![options.growth.named(spec, &options.what, Some(hello))?]);
     }
     saved::read(path).map_err(Failure::usage)
+}
+
+/// The checks that are asked first. They are asked in any case.
+fn earlier(options: &Replay, spec: &Spec, hello: &Hello) -> Result<Vec<Check>, Failure> {
+    let check = |id: &String| {
+        let check = options.growth.named(spec, id, Some(hello))?;
+        Ok(Check { requires: None, ..check })
+    };
+    options.after.iter().map(check).collect()
 }
 
 fn has(checks: &[Check], wire: Wire) -> bool {

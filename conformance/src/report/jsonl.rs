@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::model::{CheckResult, Header, Summary};
 
 /// Version of the lines' format. It changes when a field is removed or gets another meaning.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 
 /// A line.
 #[derive(Clone, Debug, Serialize, JsonSchema)]

@@ -117,7 +117,11 @@ fn case(name: &str, class: &str, verdict: Verdict, message: &str, evidence: &str
 /// A failure of the implementation, or an error of the check.
 const fn kind(verdict: Verdict) -> NonSuccessKind {
     match verdict {
-        Verdict::Fail | Verdict::UnexpectedPass => NonSuccessKind::Failure,
+        Verdict::Fail
+        | Verdict::Flaky
+        | Verdict::UnexpectedPass
+        | Verdict::Crash
+        | Verdict::Timeout => NonSuccessKind::Failure,
         _ => NonSuccessKind::Error,
     }
 }

@@ -12,7 +12,7 @@ use crate::explain::diff::Diff;
 use crate::verdict::{Outcome, Totals, Verdict};
 
 /// Version of the report's format. It changes when a field is removed or gets another meaning.
-pub const VERSION: u32 = 5;
+pub const VERSION: u32 = 6;
 
 /// The result of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -12,7 +12,7 @@ use crate::adapter::{Implementation, Question, Wire};
 use crate::explain::diff;
 use crate::legible::{LONGEST_TEXT, legible};
 use crate::suite::Options;
-use crate::verdict::Outcome;
+use crate::verdict::{Outcome, Verdict};
 
 /// The limit of a request or output as JSON, in bytes.
 const LONGEST_PART: usize = 4000;
@@ -67,7 +67,7 @@ impl Run<'_> {
             }
             _ => None,
         };
-        let replay = outcome.request.is_some().then(|| self.replay(&outcome.id));
+        let replay = self.replay(&outcome);
         outcome.detail = legible(&outcome.detail, LONGEST_TEXT);
         outcome.reason = outcome.reason.map(|reason| legible(&reason, LONGEST_TEXT));
         let left_out = leave_out(&mut outcome.request)
@@ -77,13 +77,25 @@ impl Run<'_> {
         CheckResult { outcome, diff, differs_in, left_out, replay }
     }
 
-    /// The command that asks the check again, quoted for a shell.
-    fn replay(&self, id: &str) -> String {
+    /// The command that asks the check again, quoted for a shell; `None` if that does not bring the
+    /// failure about.
+    fn replay(&self, outcome: &Outcome) -> Option<String> {
+        outcome.request.as_ref()?;
         let Options { seed, cases, .. } = self.options;
+        let id = &outcome.id;
         let record = self.records.get(id);
-        let what = record.map_or_else(|| id.to_owned(), |path| path.display().to_string());
+        let what = record.map_or_else(|| id.clone(), |path| path.display().to_string());
         let mut words = vec!["actucheck".to_owned(), "replay".to_owned(), what];
-        if record.is_none() && id.contains(".seed-") {
+        let mut asked = vec![id];
+        if outcome.verdict == Verdict::Flaky {
+            let after = outcome.after.as_ref().filter(|after| after.is_whole())?;
+            asked.extend(&after.checks);
+            if asked.iter().any(|id| self.records.contains_key(*id)) {
+                return None;
+            }
+            words.extend(after.checks.iter().flat_map(|id| ["--after".to_owned(), id.clone()]));
+        }
+        if record.is_none() && asked.iter().any(|id| id.contains(".seed-")) {
             words.extend(["--seed".to_owned(), seed.to_string()]);
             if cases > Options::new().cases {
                 words.extend(["--cases".to_owned(), cases.to_string()]);
@@ -94,7 +106,7 @@ impl Run<'_> {
             words.extend_from_slice(self.command);
         }
         // Only a NUL can't be quoted, and a command that was started has none.
-        shlex::try_join(words.iter().map(String::as_str)).unwrap_or_default()
+        Some(shlex::try_join(words.iter().map(String::as_str)).unwrap_or_default())
     }
 }
 

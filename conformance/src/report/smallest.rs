@@ -10,13 +10,14 @@ use crate::verdict::{Outcome, Verdict};
 /// failures.
 const KEPT: usize = 5;
 
-/// The number of checks of a requirement with one verdict, and the smallest of them. Outcomes
+/// The number of checks of a requirement with one verdict, and the smallest of them, those first
+/// of which it is known what brings them about. Outcomes
 /// arrive in the order of the plan, and of two equally small ones the first is kept.
 #[derive(Debug, Default)]
 pub(super) struct Smallest {
     count: usize,
     following: BTreeMap<String, usize>,
-    kept: Vec<((bool, usize), CheckResult)>,
+    kept: Vec<((bool, bool, usize), CheckResult)>,
 }
 
 impl Smallest {
@@ -28,7 +29,8 @@ impl Smallest {
             *self.following.entry(cause.requirement.clone()).or_default() += 1;
         }
         let size = outcome.request.as_ref().map_or(0, |request| request.to_string().len());
-        let rank = (follows, size);
+        let vague = outcome.verdict == Verdict::Flaky && outcome.after.is_none();
+        let rank = (follows, vague, size);
         let at = self.kept.partition_point(|(other, _)| *other <= rank);
         if at < KEPT {
             self.kept.insert(at, (rank, result(outcome)));

@@ -13,11 +13,12 @@ use crate::verdict::{Outcome, Verdict};
 impl Report {
     /// The verdicts whose evidence is shown, the most urgent first. While the adapter itself has
     /// problems, the other verdicts say little.
-    pub const URGENT: [Verdict; 7] = [
+    pub const URGENT: [Verdict; 8] = [
         Verdict::AdapterFault,
         Verdict::Crash,
         Verdict::Timeout,
         Verdict::UnexpectedPass,
+        Verdict::Flaky,
         Verdict::Fail,
         Verdict::Warn,
         Verdict::ExpectedFailure,
@@ -230,10 +231,18 @@ impl CheckResult {
             ("because", Some(Evidence::Words(detail.clone()))),
             ("reason", reason.clone().map(Evidence::Words)),
             ("follows", self.follows().map(Evidence::Words)),
+            ("after", self.after().map(Evidence::Words)),
             ("left out", self.left_out().map(Evidence::Words)),
             ("replay", self.replay.clone().map(Evidence::Code)),
         ];
-        lines.into_iter().filter_map(|(label, evidence)| Some((label, evidence?))).collect()
+        // An error output has a row for each line.
+        let log = self.outcome.log.iter().flat_map(|log| log.lines()).enumerate();
+        let log = log.map(|(place, line)| {
+            let label = if place == 0 { "log" } else { "" };
+            (label, Some(Evidence::Code(line.to_owned())))
+        });
+        let lines = lines.into_iter().chain(log);
+        lines.filter_map(|(label, evidence)| Some((label, evidence?))).collect()
     }
 
     /// `byte 5, in the length`; `None` if the difference is not in a frame.
@@ -246,6 +255,16 @@ impl CheckResult {
     fn follows(&self) -> Option<String> {
         let cause = self.outcome.because.as_ref()?;
         Some(format!("from {} ({})", cause.check, cause.requirement))
+    }
+
+    /// The earlier checks that bring it about.
+    fn after(&self) -> Option<String> {
+        let after = self.outcome.after.as_ref()?;
+        let checks = after.checks.join(", ");
+        Some(match after.count - after.checks.len().min(after.count) {
+            0 => checks,
+            more => format!("{} more and {checks}", words::thousands(more)),
+        })
     }
 
     /// A note about cut texts, and where to see them in full.

@@ -64,6 +64,7 @@ pub(super) const fn mark(verdict: Verdict) -> &'static str {
         Verdict::Recorded => "?",
         Verdict::Skip => "–",
         Verdict::ExpectedFailure => "≈",
+        Verdict::Flaky => "↯",
         Verdict::Timeout | Verdict::Crash | Verdict::AdapterFault | Verdict::NotRun => "⚠",
     }
 }

@@ -5,7 +5,7 @@
 //! more than that one did, and is charged to it. Outcomes come in the order of the plan, which
 //! begins with the basic checks, so that their failures are known by then.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use crate::suite::basics;
 use crate::suite::codec::rests_on;
@@ -18,6 +18,8 @@ pub(super) struct Blame {
     basic: HashMap<String, Failure>,
     /// The cause of each check of the current batch that has one, by the check's id.
     charged: HashMap<String, Because>,
+    /// The checks of the current batch whose failure is no fact, so that nothing follows from it.
+    flaky: HashSet<String>,
 }
 
 #[derive(Debug)]
@@ -34,6 +36,12 @@ impl Blame {
         if outcome.verdict.is_fine() {
             return;
         }
+        if outcome.verdict == Verdict::Flaky {
+            outcome.because = None;
+            self.flaky.insert(outcome.id.clone());
+            return;
+        }
+        outcome.because.take_if(|cause| self.flaky.contains(&cause.check));
         if let Some(cause) = self.cause(outcome) {
             self.charged.insert(outcome.id.clone(), cause.clone());
             outcome.because = Some(cause);
@@ -47,6 +55,7 @@ impl Blame {
     /// Forgets the checks of a batch: no later check requires one of them.
     pub(super) fn end_batch(&mut self) {
         self.charged.clear();
+        self.flaky.clear();
     }
 
     /// The most basic failure that the outcome follows from.

@@ -5,11 +5,14 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Condvar, Mutex, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
+use super::again::{Again, Doubt};
 use super::blame::Blame;
+use super::ledger::{Ledger, Loss};
 use super::{Sink, is_set, lock};
-use crate::verdict::Outcome;
+use crate::suite::check::Check;
+use crate::verdict::{Outcome, Verdict};
 
 /// How many batches a worker may be ahead of the slowest one. Their outcomes are held back until
 /// then.
@@ -25,25 +28,39 @@ pub(super) struct Merge<'s> {
     /// The sink has ended the run.
     over: AtomicBool,
     interrupted: &'s AtomicBool,
+    ledger: Ledger,
+}
+
+/// An outcome, and what is needed to ask it again.
+pub(super) struct Judged {
+    pub(super) outcome: Outcome,
+    pub(super) doubt: Option<Box<Doubt>>,
 }
 
 struct State<'s> {
     sink: &'s mut Sink<'s>,
+    /// Asks failures again, if there is a second process.
+    again: Option<Again>,
     blame: Blame,
     /// How many outcomes the sink was given.
     count: usize,
     /// The first unfinished batch. Its outcomes go directly to the sink.
     first: u64,
     /// The outcomes of later batches, and whether these are finished.
-    held: BTreeMap<u64, (Vec<Outcome>, bool)>,
+    held: BTreeMap<u64, (Vec<Judged>, bool)>,
 }
 
 impl<'s> Merge<'s> {
-    pub(super) fn new(sink: &'s mut Sink<'s>, interrupted: &'s AtomicBool) -> Self {
+    pub(super) fn new(
+        sink: &'s mut Sink<'s>,
+        again: Option<Again>,
+        interrupted: &'s AtomicBool,
+    ) -> Self {
         let blame = Blame::default();
-        let state = State { sink, blame, count: 0, first: 0, held: BTreeMap::new() };
+        let state = State { sink, again, blame, count: 0, first: 0, held: BTreeMap::new() };
         let (moved, over) = (Condvar::new(), AtomicBool::new(false));
-        Self { state: Mutex::new(state), moved, over, interrupted }
+        let (state, ledger) = (Mutex::new(state), Ledger::default());
+        Self { state, moved, over, interrupted, ledger }
     }
 
     /// Whether to stop asking.
@@ -54,6 +71,36 @@ impl<'s> Merge<'s> {
     /// Stops the asking.
     pub(super) fn end(&self) {
         self.over.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether what failed is asked again.
+    pub(super) fn asks_again(&self) -> bool {
+        lock(&self.state).again.is_some()
+    }
+
+    /// Gives all checks up that are left.
+    pub(super) fn give_up(&self, reason: &str) {
+        self.ledger.end(reason);
+    }
+
+    /// Why this check is not asked.
+    pub(super) fn given_up(&self, check: &Check) -> Option<String> {
+        self.ledger.given_up(check)
+    }
+
+    /// Notes a question that did not cost the process.
+    pub(super) fn note_answer(&self, check: &Check) {
+        self.ledger.note(check, None);
+    }
+
+    /// Waits until the outcomes before this batch were passed on, and those of the batch that were
+    /// put so far.
+    pub(super) fn wait_for_turn(&self, number: u64) {
+        let mut state = lock(&self.state);
+        while number > state.first && !self.is_over() {
+            let waited = self.moved.wait_timeout(state, INTERRUPT);
+            (state, _) = waited.unwrap_or_else(PoisonError::into_inner);
+        }
     }
 
     /// Whether the batch with this number may start.
@@ -71,7 +118,7 @@ impl<'s> Merge<'s> {
     }
 
     /// Adds outcomes to a batch, in order; `done` marks the last ones.
-    pub(super) fn put(&self, number: u64, outcomes: Vec<Outcome>, done: bool) {
+    pub(super) fn put(&self, number: u64, outcomes: Vec<Judged>, done: bool) {
         let mut state = lock(&self.state);
         if number != state.first {
             let held = state.held.entry(number).or_default();
@@ -96,26 +143,43 @@ impl<'s> Merge<'s> {
 
     /// Passes on the outcomes that were still held back at an early end. Returns how many outcomes
     /// the sink was given.
-    pub(super) fn finish(self) -> usize {
-        let mut state = self.state.into_inner().unwrap_or_else(PoisonError::into_inner);
+    pub(super) fn finish(&self) -> usize {
+        let mut state = lock(&self.state);
         let held = std::mem::take(&mut state.held).into_values();
-        for outcome in held.flat_map(|(outcomes, _)| outcomes) {
-            if is_set(&self.over) || state.hand_on(outcome).is_break() {
-                break;
-            }
-        }
+        self.hand_on(&mut state, held.flat_map(|(outcomes, _)| outcomes));
         state.count
     }
 
-    fn hand_on(&self, state: &mut State<'_>, outcomes: Vec<Outcome>) {
-        for outcome in outcomes {
+    fn hand_on(&self, state: &mut State<'_>, outcomes: impl IntoIterator<Item = Judged>) {
+        for Judged { outcome, doubt } in outcomes {
             if is_set(&self.over) {
                 return;
             }
+            let outcome = match doubt {
+                Some(doubt) => self.settle(state, outcome, &doubt),
+                None => outcome,
+            };
             if state.hand_on(outcome).is_break() {
                 self.over.store(true, Ordering::Relaxed);
             }
         }
+    }
+}
+
+impl Merge<'_> {
+    /// The outcome after the question was asked again.
+    fn settle(&self, state: &mut State<'_>, outcome: Outcome, doubt: &Doubt) -> Outcome {
+        let started = Instant::now();
+        let outcome = match &mut state.again {
+            Some(again) if !self.is_over() => again.settle(outcome, doubt, &|| !self.is_over()),
+            _ => outcome,
+        };
+        if let Some(lost) = &doubt.lost {
+            let confirmed = outcome.verdict != Verdict::Flaky;
+            let took = lost.took + started.elapsed();
+            self.ledger.note(&doubt.check, Some(Loss { confirmed, took }));
+        }
+        outcome
     }
 }
 
@@ -131,7 +195,7 @@ impl State<'_> {
         self.blame.end_batch();
     }
 
-    fn next_held(&mut self) -> Option<(Vec<Outcome>, bool)> {
+    fn next_held(&mut self) -> Option<(Vec<Judged>, bool)> {
         self.held.remove(&self.first)
     }
 }

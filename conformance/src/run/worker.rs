@@ -1,10 +1,17 @@
 //! A worker: takes batches of checks, asks its subject, and returns the outcomes.
 
 use std::collections::{HashMap, VecDeque};
+use std::num::NonZeroU32;
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
+use super::again::{Doubt, Lost};
+use super::history::History;
+use super::merge::Judged;
+use super::repeat::{Heard, Repeated};
 use super::{Work, lock};
 use crate::adapter::{Hello, Question};
+use crate::legible::excerpt;
 use crate::subject::{Answer, Questions, Subject};
 use crate::suite::check::Check;
 use crate::verdict::{Because, Outcome, Verdict};
@@ -16,11 +23,19 @@ const PATIENCE: Duration = Duration::from_millis(50);
 pub(super) struct Worker<'r, 's, 'a> {
     work: &'r Work<'s, 'a>,
     hello: Hello,
+    /// How often each question is asked.
+    times: NonZeroU32,
+    /// What the subject was asked, if there is a second process to ask again.
+    history: Option<Arc<Mutex<History>>>,
+    /// When the last question was asked.
+    asked: Instant,
+    /// What the last loss of the subject cost; `None` if a question was asked since then.
+    lost: Option<Lost>,
     /// Batches with unanswered questions.
     batches: VecDeque<Batch>,
-    /// The number of the next question.
+    /// The number of the next question. Each place has as many numbers as it is asked.
     next: usize,
-    /// The number of the first question that is not loaded yet.
+    /// The first place that is not loaded yet.
     end: usize,
     flushed: Instant,
 }
@@ -28,7 +43,7 @@ pub(super) struct Worker<'r, 's, 'a> {
 /// Checks that were taken together: a batch.
 struct Batch {
     number: u64,
-    /// The number of its first question.
+    /// The place of its first check.
     first: usize,
     slots: Vec<Slot>,
     /// How many outcomes were returned.
@@ -44,8 +59,8 @@ struct Slot {
 }
 
 enum State {
-    Open(Check),
-    Answered(Outcome),
+    Open(Arc<Check>, Repeated),
+    Answered(Box<Judged>),
     Given(Past),
 }
 
@@ -63,9 +78,9 @@ impl Slot {
     /// Whether the subject skipped it, as far as is known.
     const fn is_skipped(&self) -> bool {
         match &self.state {
-            State::Open(_) => false,
-            State::Answered(outcome) => {
-                matches!(outcome.verdict, Verdict::Skip) && !self.not_offered
+            State::Open(..) => false,
+            State::Answered(judged) => {
+                matches!(judged.outcome.verdict, Verdict::Skip) && !self.not_offered
             }
             State::Given(past) => matches!(past, Past::Skipped),
         }
@@ -83,9 +98,26 @@ impl Past {
 }
 
 impl<'r, 's, 'a> Worker<'r, 's, 'a> {
-    pub(super) fn new(work: &'r Work<'s, 'a>, hello: Hello) -> Self {
-        let (batches, flushed) = (VecDeque::new(), Instant::now());
-        Self { work, hello, batches, next: 0, end: 0, flushed }
+    /// A worker that asks each question so many `times` and remembers what it asked if `is_doubted`.
+    pub(super) fn new(
+        work: &'r Work<'s, 'a>,
+        hello: Hello,
+        times: NonZeroU32,
+        is_doubted: bool,
+    ) -> Self {
+        let now = Instant::now();
+        Self {
+            work,
+            hello,
+            times,
+            history: is_doubted.then(Arc::default),
+            asked: now,
+            lost: None,
+            batches: VecDeque::new(),
+            next: 0,
+            end: 0,
+            flushed: now,
+        }
     }
 
     /// Asks until no check is left.
@@ -121,7 +153,7 @@ impl<'r, 's, 'a> Worker<'r, 's, 'a> {
             let checks = self.work.plan.build(group);
             let required = required(&checks, slots.len());
             let slot = |(check, requires)| Slot {
-                state: State::Open(check),
+                state: State::Open(Arc::new(check), Repeated::new(self.times)),
                 requires,
                 not_offered: false,
             };
@@ -146,38 +178,91 @@ impl<'r, 's, 'a> Worker<'r, 's, 'a> {
         self.flushed = Instant::now();
     }
 
-    fn slot(&self, number: usize) -> Option<&Slot> {
-        let batch = self.batches.iter().rev().find(|batch| batch.first <= number)?;
-        batch.slots.get(number - batch.first)
+    /// The place of the question with this number.
+    fn place(&self, number: usize) -> usize {
+        number / usize::try_from(self.times.get()).unwrap_or(usize::MAX)
     }
 
-    fn slot_mut(&mut self, number: usize) -> Option<&mut Slot> {
-        let batch = self.batches.iter_mut().rev().find(|batch| batch.first <= number)?;
-        batch.slots.get_mut(number - batch.first)
+    fn batch(&self, place: usize) -> Option<&Batch> {
+        self.batches.iter().rev().find(|batch| batch.first <= place)
     }
 
-    /// Whether the question must be asked; if not, its answer is set.
-    fn is_asked(&mut self, number: usize) -> bool {
-        let Some(Slot { state: State::Open(check), .. }) = self.slot(number) else { return false };
+    fn slot(&self, place: usize) -> Option<&Slot> {
+        let batch = self.batch(place)?;
+        batch.slots.get(place - batch.first)
+    }
+
+    fn slot_mut(&mut self, place: usize) -> Option<&mut Slot> {
+        let batch = self.batches.iter_mut().rev().find(|batch| batch.first <= place)?;
+        batch.slots.get_mut(place - batch.first)
+    }
+
+    /// Whether the check must be asked; if not, its answer is set.
+    fn is_asked(&mut self, place: usize) -> bool {
+        let Some(Slot { state: State::Open(check, _), .. }) = self.slot(place) else {
+            return false;
+        };
         let not_offered = not_offered(&self.hello, check);
         let offered = not_offered.is_none();
-        let skipped = || self.is_required_skipped(number).then(|| REQUIRED_SKIPPED.to_owned());
-        let Some(reason) = not_offered.or_else(skipped) else { return true };
-        if let Some(slot) = self.slot_mut(number) {
+        let skipped = || self.is_required_skipped(place).then(|| REQUIRED_SKIPPED.to_owned());
+        let given_up = || self.work.merge.given_up(check).map(Answer::NotAsked);
+        let answer = not_offered.or_else(skipped).map(Answer::Skipped).or_else(given_up);
+        let Some(answer) = answer else { return true };
+        if let Some(slot) = self.slot_mut(place) {
             slot.not_offered = !offered;
         }
-        self.answered(number, Answer::Skipped(reason));
+        if let Some(check) = self.close(place) {
+            let outcome = Arc::unwrap_or_clone(check).judge(answer);
+            self.set(place, Judged { outcome, doubt: None });
+        }
         false
     }
 
     /// Whether the subject skipped the check that this one requires, as far as is known.
-    fn is_required_skipped(&self, number: usize) -> bool {
-        let batch = self.batches.iter().rev().find(|batch| batch.first <= number);
-        let required = batch.and_then(|batch| {
-            let required = batch.slots.get(number - batch.first)?.requires?;
+    fn is_required_skipped(&self, place: usize) -> bool {
+        let required = self.batch(place).and_then(|batch| {
+            let required = batch.slots.get(place - batch.first)?.requires?;
             batch.slots.get(required)
         });
         required.is_some_and(Slot::is_skipped)
+    }
+
+    /// Takes an open check out of its slot.
+    fn close(&mut self, place: usize) -> Option<Arc<Check>> {
+        let slot = self.slot_mut(place)?;
+        match std::mem::replace(&mut slot.state, State::Given(Past::Other)) {
+            State::Open(check, _) => Some(check),
+            other => {
+                slot.state = other;
+                None
+            }
+        }
+    }
+
+    /// Sets the outcome of a check. A failure is passed on at once. If it cost the subject, it is
+    /// awaited that it was asked again, so that it is known what to give up.
+    fn set(&mut self, place: usize, judged: Judged) {
+        let failed = judged.outcome.verdict.is_failure();
+        let lost = judged.doubt.as_ref().is_some_and(|doubt| doubt.lost.is_some());
+        let batch = self.batch(place).map(|batch| batch.number);
+        if let Some(slot) = self.slot_mut(place) {
+            slot.state = State::Answered(Box::new(judged));
+        }
+        if failed || self.flushed.elapsed() > PATIENCE {
+            self.flush();
+        }
+        if let Some(batch) = batch.filter(|_| lost) {
+            self.work.merge.wait_for_turn(batch);
+        }
+    }
+
+    /// What is needed to ask a question again that failed.
+    fn doubt(&mut self, number: usize, check: Arc<Check>, lost: Option<Lost>) -> Doubt {
+        let asked = self.history.as_ref().and_then(|history| {
+            let mark = lock(history).mark(number)?;
+            Some((Arc::clone(history), mark))
+        });
+        Doubt { check, asked, lost }
     }
 }
 
@@ -192,19 +277,19 @@ impl Drop for Worker<'_, '_, '_> {
 
 impl Batch {
     /// Removes the outcomes that have no unanswered question before them.
-    fn take(&mut self) -> Vec<Outcome> {
+    fn take(&mut self) -> Vec<Judged> {
         let mut outcomes = Vec::new();
         while let Some((earlier, [slot, ..])) = self.slots.split_at_mut_checked(self.given)
             && matches!(slot.state, State::Answered(_))
         {
             let other = State::Given(Past::Other);
-            if let State::Answered(mut outcome) = std::mem::replace(&mut slot.state, other) {
+            if let State::Answered(mut judged) = std::mem::replace(&mut slot.state, other) {
                 let required = slot.requires.and_then(|place| earlier.get(place));
                 if let Some(Slot { state: State::Given(past), .. }) = required {
-                    follow(&mut outcome, past);
+                    follow(&mut judged, past);
                 }
-                slot.state = State::Given(Past::of(&outcome, slot.not_offered));
-                outcomes.push(outcome);
+                slot.state = State::Given(Past::of(&judged.outcome, slot.not_offered));
+                outcomes.push(*judged);
             }
             self.given += 1;
         }
@@ -214,7 +299,8 @@ impl Batch {
 
 /// Lets an outcome follow from that of the check that it requires. While that one was outstanding,
 /// this one was asked although the subject does not do such things.
-fn follow(outcome: &mut Outcome, required: &Past) {
+fn follow(judged: &mut Judged, required: &Past) {
+    let outcome = &mut judged.outcome;
     match required {
         Past::Skipped if outcome.verdict != Verdict::Skip => {
             let Outcome { id, requirement, level, .. } = outcome;
@@ -230,7 +316,10 @@ fn follow(outcome: &mut Outcome, required: &Past) {
                 expected: None,
                 actual: None,
                 behaviour: None,
+                after: None,
+                log: None,
             };
+            judged.doubt = None;
         }
         Past::Failed(verdict, cause) if verdict.explains(outcome.verdict) => {
             outcome.because = Some(cause.clone());
@@ -257,10 +346,11 @@ fn required(checks: &[Check], first: usize) -> Vec<Option<usize>> {
 impl Questions for Worker<'_, '_, '_> {
     fn next(&mut self) -> Option<usize> {
         while !self.work.merge.is_over() {
-            if self.next < self.end {
+            let place = self.place(self.next);
+            if place < self.end {
                 let number = self.next;
                 self.next += 1;
-                if self.is_asked(number) {
+                if self.is_asked(place) {
                     return Some(number);
                 }
             } else if !self.load() {
@@ -271,23 +361,60 @@ impl Questions for Worker<'_, '_, '_> {
     }
 
     fn question(&self, number: usize) -> Option<&Question> {
-        match &self.slot(number)?.state {
-            State::Open(check) => Some(&check.question),
+        match &self.slot(self.place(number))?.state {
+            State::Open(check, _) => Some(&check.question),
             _ => None,
         }
     }
 
     fn answered(&mut self, number: usize, answer: Answer) {
-        let Some(slot) = self.slot_mut(number) else { return };
-        let State::Open(check) = std::mem::replace(&mut slot.state, State::Given(Past::Other))
-        else {
-            return;
+        let place = self.place(number);
+        let mut lost = self.lost.take();
+        let is_process = self.history.is_some();
+        let slot = self.slot_mut(place);
+        let Some(Slot { state: State::Open(_, repeated), .. }) = slot else { return };
+        let heard = match answer {
+            Answer::NotAsked(ref reason) => {
+                lost = None;
+                // The other processes would not start again either.
+                if is_process {
+                    self.work.merge.give_up(reason);
+                }
+                Heard::One(answer)
+            }
+            answer if lost.is_some() => Heard::One(answer),
+            answer => match repeated.hear(answer) {
+                Some(heard) => heard,
+                None => return,
+            },
         };
-        let outcome = check.judge(answer);
-        let failed = outcome.verdict.is_failure();
-        slot.state = State::Answered(outcome);
-        if failed || self.flushed.elapsed() > PATIENCE {
-            self.flush();
+        let Some(check) = self.close(place) else { return };
+        if lost.is_none() {
+            self.work.merge.note_answer(&check);
+        }
+        let kept = (self.history.is_some() || lost.is_some()).then(|| Arc::clone(&check));
+        let mut outcome = heard.judge(Arc::unwrap_or_clone(check));
+        let is_doubtful = outcome.verdict.is_failure() && outcome.verdict != Verdict::Flaky;
+        let log = lost.as_ref().map(|lost| excerpt(&lost.log));
+        outcome.log = log.filter(|log| !log.is_empty() && is_doubtful);
+        let doubt = kept.filter(|_| is_doubtful).map(|check| self.doubt(number, check, lost));
+        self.set(place, Judged { outcome, doubt: doubt.map(Box::new) });
+    }
+
+    fn asked(&mut self, number: usize) {
+        self.lost = None;
+        self.asked = Instant::now();
+        if let Some(history) = &self.history
+            && let Some(Slot { state: State::Open(check, _), .. }) = self.slot(self.place(number))
+        {
+            lock(history).add(number, Arc::clone(check));
+        }
+    }
+
+    fn lost(&mut self, log: String) {
+        self.lost = Some(Lost { log, took: self.asked.elapsed() });
+        if let Some(history) = &self.history {
+            lock(history).begin_anew();
         }
     }
 }

@@ -51,6 +51,8 @@ pub struct Process {
     at_once: usize,
     conversation: Option<Conversation>,
     restarts: u32,
+    /// Why it can't be asked any more.
+    gone: Option<String>,
     /// The last lines of the previous process' log.
     last_log: String,
 }
@@ -71,6 +73,7 @@ impl Process {
             contradictions,
             conversation: Some(conversation),
             restarts: 0,
+            gone: None,
             last_log: String::new(),
         })
     }
@@ -83,18 +86,19 @@ impl Process {
 
     /// The conversation with the adapter, which is restarted if necessary and allowed.
     fn conversation(&mut self) -> Result<&mut Conversation, String> {
+        if let Some(gone) = &self.gone {
+            return Err(gone.clone());
+        }
         if self.conversation.is_none() {
-            let most = self.settings.restarts;
-            if self.restarts >= most {
-                return Err(format!("the adapter failed {} times", most.saturating_add(1)));
-            }
-            self.restarts += 1;
-            match start(&self.command, &self.settings) {
+            let begun = match self.settings.restarts.filter(|most| self.restarts >= *most) {
+                Some(most) => Err(format!("the adapter failed {} times", most.saturating_add(1))),
+                None => start(&self.command, &self.settings)
+                    .map_err(|error| format!("the adapter could not be restarted: {error}")),
+            };
+            self.restarts = self.restarts.saturating_add(1);
+            match begun {
                 Ok((conversation, _)) => self.conversation = Some(conversation),
-                Err(error) => {
-                    self.restarts = most;
-                    return Err(format!("the adapter could not be restarted: {error}"));
-                }
+                Err(reason) => return Err(self.gone.insert(reason).clone()),
             }
         }
         self.conversation.as_mut().ok_or_else(|| "the adapter is not running".to_owned())
@@ -123,12 +127,12 @@ impl Process {
 
     /// Keeps as many questions outstanding as the adapter takes, until none is left or the adapter
     /// fails. If it fails among several, it is unknown which one is to blame: they are asked again
-    /// one by one, and the caller goes on in the same way.
-    fn ask_together(&mut self, questions: &mut dyn Questions) {
+    /// one by one. Returns whether none is left.
+    fn ask_together(&mut self, questions: &mut dyn Questions) -> bool {
         let limit = self.settings.timeouts.request;
         // The number of each outstanding question by the id of its request.
         let mut outstanding = BTreeMap::new();
-        loop {
+        let lost = loop {
             while outstanding.len() < self.at_once
                 && let Some(number) = questions.next()
             {
@@ -137,29 +141,77 @@ impl Process {
                     Ok(conversation) => {
                         let id = conversation.send(&Request::Ask(question));
                         outstanding.insert(id, number);
+                        questions.asked(number);
                     }
                     Err(reason) => questions.answered(number, Answer::NotAsked(reason)),
                 }
             }
             if outstanding.is_empty() {
-                return;
+                return true;
             }
             // The time limit starts again with each reply: it is for the question that the adapter
             // works on.
-            let Some(conversation) = &mut self.conversation else { break };
-            let Ok((id, reply)) = conversation.receive(limit) else { break };
+            let Some(conversation) = &mut self.conversation else { return false };
+            let (id, reply) = match conversation.receive(limit) {
+                Ok(heard) => heard,
+                Err(lost) => break lost,
+            };
             let Some(number) = outstanding.remove(&id) else { continue };
             let Some(question) = questions.question(number) else { continue };
             let answer = answer(reply, |ok| Output::read(question, ok));
             questions.answered(number, answer);
-        }
+        };
         self.end();
-        self.at_once = 1;
-        for number in outstanding.into_values() {
-            let Some(question) = questions.question(number) else { continue };
+        let outstanding: Vec<_> = outstanding.into_values().collect();
+        self.ask_apart(questions, &outstanding, lost.into());
+        false
+    }
+
+    /// Asks questions one by one, after the adapter failed while all of them were outstanding. If it
+    /// does not fail again, `failure` is the answer to the first one: an adapter that works through
+    /// its requests in order was at that one. Fewer are asked together then.
+    fn ask_apart(&mut self, questions: &mut dyn Questions, numbers: &[usize], failure: Answer) {
+        let log = self.last_log.clone();
+        questions.lost(log.clone());
+        let mut held = None;
+        for (place, number) in numbers.iter().enumerate() {
+            if place > 0 {
+                questions.asked(*number);
+            }
+            let Some(question) = questions.question(*number) else { continue };
             let answer = self.ask(question);
-            questions.answered(number, answer);
+            let failed = self.conversation.is_none();
+            if place == 0 && !failed {
+                held = Some(answer);
+                continue;
+            }
+            if failed {
+                if let (Some(answer), Some(first)) = (held.take(), numbers.first()) {
+                    questions.answered(*first, answer);
+                }
+                questions.lost(self.last_log.clone());
+            }
+            questions.answered(*number, answer);
         }
+        if let (Some(_), Some(first)) = (held, numbers.first()) {
+            self.end();
+            questions.lost(log);
+            questions.answered(*first, failure);
+            if numbers.len() > 1 {
+                self.at_once = (self.at_once / 2).max(1);
+            }
+        }
+    }
+
+    /// Asks the question with this number alone.
+    fn ask_one(&mut self, questions: &mut dyn Questions, number: usize) {
+        questions.asked(number);
+        let Some(question) = questions.question(number) else { return };
+        let answer = self.ask(question);
+        if self.conversation.is_none() {
+            questions.lost(self.last_log.clone());
+        }
+        questions.answered(number, answer);
     }
 
     fn end(&mut self) {
@@ -183,19 +235,38 @@ impl Subject for Process {
     }
 
     fn ask_all(&mut self, questions: &mut dyn Questions) {
-        if self.at_once > 1 {
-            self.ask_together(questions);
+        loop {
+            if self.at_once > 1 {
+                if self.ask_together(questions) {
+                    return;
+                }
+            } else if let Some(number) = questions.next() {
+                self.ask_one(questions, number);
+            } else {
+                return;
+            }
         }
-        while let Some(number) = questions.next() {
-            let Some(question) = questions.question(number) else { continue };
-            let answer = self.ask(question);
-            questions.answered(number, answer);
-        }
+    }
+
+    fn another(&self) -> Option<Box<dyn Subject + Send>> {
+        Some(Box::new(Self {
+            command: self.command.clone(),
+            // In a trace it is number 0.
+            settings: Settings { number: 0, ..self.settings.clone() },
+            hello: self.hello.clone(),
+            contradictions: Vec::new(),
+            at_once: 1,
+            conversation: None,
+            restarts: 0,
+            gone: None,
+            last_log: String::new(),
+        }))
     }
 
     /// Counts as no failure of the adapter, unless it does not start.
     fn restart(&mut self) {
         self.end();
+        // The next question says why it does not start.
         self.conversation = start(&self.command, &self.settings).ok().map(|(started, _)| started);
     }
 

@@ -31,6 +31,12 @@ pub trait Subject {
         }
     }
 
+    /// Another process of the same subject, which starts when it is asked; `None` if there are none,
+    /// as its answers can't depend on what was asked before.
+    fn another(&self) -> Option<Box<dyn Subject + Send>> {
+        None
+    }
+
     /// Begins anew, so that nothing that was asked before affects later answers.
     fn restart(&mut self) {}
 
@@ -51,6 +57,14 @@ pub trait Questions {
 
     /// Takes the answer to the question with this number.
     fn answered(&mut self, number: usize, answer: Answer);
+
+    /// The subject is asked the question with this number. Only subjects with
+    /// [`Subject::another`] process say so.
+    fn asked(&mut self, _number: usize) {}
+
+    /// The subject ended, or was ended, and begins anew with the next question; `log` is the end of
+    /// its error output. If an answer comes before that, its question is to blame.
+    fn lost(&mut self, _log: String) {}
 }
 
 /// The answer to a question.

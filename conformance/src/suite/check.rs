@@ -170,6 +170,8 @@ impl Check {
             request: unmet.then_some(self.question),
             actual,
             behaviour,
+            after: None,
+            log: None,
         }
     }
 

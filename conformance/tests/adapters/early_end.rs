@@ -88,6 +88,12 @@ fn a_trace_has_every_line_in_both_directions() {
         r#"1< {"id":1,"#,
         r#"1> {"id":2,"#,
         r#"1< {"id":2,"#,
+        // What failed is asked again in another process.
+        r#"0> {"id":0,"#,
+        r#"0< {"id":0,"#,
+        r#"0> {"id":1,"#,
+        r#"0< {"id":1,"#,
+        r#"0> {"id":2,"#,
         r#"1> {"id":3,"#,
     ];
     assert_eq!(starts, expected);

@@ -4,6 +4,7 @@
 #![cfg(unix)]
 
 mod adapter_check;
+mod again;
 mod alike;
 mod bounded;
 mod contract;
@@ -57,6 +58,10 @@ impl Run {
     /// All checks.
     fn sum(&self) -> u64 {
         self.report["totals"].as_object().unwrap().values().filter_map(Value::as_u64).sum()
+    }
+
+    fn requirements(&self) -> u64 {
+        self.report["requirements"].as_array().unwrap().len().try_into().unwrap()
     }
 
     fn detail(&self, verdict: &str) -> String {

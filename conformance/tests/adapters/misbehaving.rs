@@ -23,8 +23,8 @@ fn a_wrong_answer_fails_with_both_values() {
 #[test]
 fn one_that_hangs_times_out_and_is_given_up() {
     let run = answering("sleep 60");
-    assert_eq!(run.exit(), 3);
-    assert_eq!(run.total("timeout"), 11, "the first try and ten restarts");
+    assert_eq!(run.exit(), 1);
+    assert_eq!(run.total("timeout"), 5 * run.requirements(), "five of each requirement");
     assert!(run.total("not-run") > 0);
     assert!(run.took < Duration::from_secs(20), "{:?}", run.took);
 }
@@ -32,10 +32,10 @@ fn one_that_hangs_times_out_and_is_given_up() {
 #[test]
 fn one_that_dies_is_a_crash_with_its_status_and_log() {
     let run = answering("echo 'out of luck' >&2; exit 7");
-    assert_eq!(run.exit(), 3);
+    assert_eq!(run.exit(), 1);
     assert_eq!(run.detail("crash"), "the adapter ended with exit status: 7");
     let text = String::from_utf8_lossy(&run.output.stdout).into_owned();
-    assert!(text.contains("out of luck"), "{text}");
+    assert!(text.contains("log       out of luck"), "{text}");
 }
 
 #[test]
@@ -89,9 +89,11 @@ fn an_empty_line_is_called_one() {
 #[test]
 fn a_flood_without_a_line_end_is_an_adapter_fault() {
     let run = answering("yes | tr -d '\\n'");
-    assert_eq!(run.exit(), 3);
-    let flooded = run.total("adapter-fault") + run.total("timeout");
-    assert_eq!(flooded, 11, "{}", run.report["totals"]);
+    // A slow machine notices the time first, and the next time the length.
+    let flooded = ["adapter-fault", "timeout", "flaky"].map(|verdict| run.total(verdict));
+    let flooded = flooded.iter().sum::<u64>();
+    assert!(flooded >= 5 && run.exit() != 0, "{}", run.report["totals"]);
+    assert_eq!(flooded + run.total("not-run"), run.sum(), "{}", run.report["totals"]);
 }
 
 #[test]
@@ -182,7 +184,7 @@ fn end_with_it(answer: &str) {
     let folder = tempfile::tempdir().unwrap();
     let pid_file = folder.path().join("pid");
     let run = answering(&answer.replace("PID", pid_file.to_str().unwrap()));
-    assert_eq!(run.exit(), 3);
+    assert_eq!(run.exit(), 1);
     let pid = std::fs::read_to_string(pid_file).unwrap();
     // A killed process that nobody waits for stays as a zombie, which counts as ended.
     let ended = || {

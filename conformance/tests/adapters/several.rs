@@ -22,14 +22,14 @@ fn questions_are_outstanding_together() {
     // Nothing is answered before four questions have arrived; the last few questions get no answer.
     let answer = r#"printf '%s\n' "$id" >>"$IDS"
         if [ "$(wc -l <"$IDS")" -ge 4 ]; then
-            while read -r id; do printf '{"id":%s,"ok":{"crc":1}}\n' "$id"; done <"$IDS"; : >"$IDS"
+            while read -r id; do printf '{"id":%s,"skip":{}}\n' "$id"; done <"$IDS"; : >"$IDS"
         fi"#;
     let folder = tempfile::tempdir().unwrap();
     let ids = folder.path().join("ids");
     let script = format!("IDS={}\n: >$IDS\n{}", ids.display(), taking_eight(answer));
     let run = check_with(&[], &script);
     let rest = run.sum() % 4;
-    assert_eq!(run.total("fail"), run.sum() - rest, "{}", run.report["totals"]);
+    assert_eq!(run.total("skip"), run.sum() - rest, "{}", run.report["totals"]);
     assert_eq!(run.total("timeout"), rest, "{}", run.report["totals"]);
 }
 
@@ -44,10 +44,12 @@ fn a_crash_among_several_is_blamed_on_the_one_that_causes_it() {
 }
 
 #[test]
-fn a_reply_twice_is_an_adapter_fault_also_among_several() {
+fn a_reply_twice_is_seen_among_several() {
     let run = check_with(&[], &taking_eight(&format!("{WRONG}; {WRONG}")));
     assert_eq!(run.exit(), 1);
-    assert!(run.total("adapter-fault") > 0, "{}", run.report["totals"]);
+    assert!(run.total("flaky") > 0, "{}", run.report["totals"]);
+    let detail = run.detail("flaky");
+    assert!(detail.contains("not the first one"), "{detail}");
 }
 
 #[test]
@@ -59,7 +61,7 @@ fn jobs_share_the_checks_and_keep_their_order() {
     let started_by_one = std::fs::read_dir(folder.path()).unwrap().count();
     let three = check_with(&["--jobs", "3"], &script);
     let started = std::fs::read_dir(folder.path()).unwrap().count();
-    assert_eq!((started_by_one, started), (1, 4), "processes that were asked something");
+    assert!(started_by_one < started && started >= 4, "{started_by_one} {started}");
     assert!(!one.outcomes.is_empty() && one.outcomes == three.outcomes);
     assert_eq!(one.report["not_passed"], three.report["not_passed"]);
     assert!(three.took < one.took, "{:?} {:?}", three.took, one.took);

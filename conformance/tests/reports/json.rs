@@ -130,6 +130,8 @@ fn failure(place: usize, size: usize, detail: &str) -> Outcome {
         expected: Some(Output::Crc(0)),
         actual: Some(Output::Bytes(vec![1; size].into())),
         behaviour: None,
+        after: None,
+        log: None,
     }
 }
 
@@ -193,7 +195,7 @@ fn lines_fit_their_schema_and_tell_of_every_check() {
     }
     let kinds: Vec<_> = lines.iter().map(|line| line["line"].as_str().unwrap()).collect();
     assert_eq!(kinds, ["header", "check", "check", "summary"]);
-    assert_eq!((&lines[0]["version"], &lines[1]["verdict"]), (&json!(2), &json!("fail")));
+    assert_eq!((&lines[0]["version"], &lines[1]["verdict"]), (&json!(3), &json!("fail")));
     assert_eq!(lines[3]["totals"]["pass"], 1);
 }
 
@@ -217,7 +219,7 @@ const VERSION_3: &str = include_str!("version-3.json");
 #[test]
 fn a_report_of_version_3_can_be_read() {
     let report = read(VERSION_3).unwrap();
-    assert_eq!(report.version, 5);
+    assert_eq!(report.version, 6);
     let [row] = report.not_passed.as_slice() else { panic!("{:?}", report.not_passed) };
     assert_eq!((row.count, row.smallest.len()), (1, 1));
     assert_eq!(row.smallest[0].outcome.id, "dynamixel2.stuffing.goal-position/encode");
@@ -246,8 +248,8 @@ fn a_report_of_version_4_has_one_wire() {
     old["wire"] = old["wires"][0].take();
     old.as_object_mut().unwrap().remove("wires");
     let report = read(&old.to_string()).unwrap();
-    assert_eq!((report.version, report.header.wires.len()), (5, 1));
-    assert_eq!(report, Report { version: 5, ..sample::small() });
+    assert_eq!((report.version, report.header.wires.len()), (6, 1));
+    assert_eq!(report, Report { version: 6, ..sample::small() });
 }
 
 #[test]
@@ -286,10 +288,10 @@ fn what_contradicts_itself_is_refused() {
 #[test]
 fn what_is_no_report_or_one_of_another_version_is_refused() {
     let text = written(&sample::small());
-    let other = text.replacen("\"version\": 5", "\"version\": 2", 1);
+    let other = text.replacen("\"version\": 6", "\"version\": 2", 1);
     let error = read(&other).unwrap_err().to_string();
     assert!(error.ends_with(
-        "report.json is a report of version 2, this program reads 3 to 5; \
+        "report.json is a report of version 2, this program reads 3 to 6; \
          run the checks again, or use the actucheck that wrote it"
     ));
     assert!(matches!(

@@ -62,11 +62,15 @@ pub(crate) struct Subjects {
 impl Subjects {
     /// Starts `jobs` processes of the adapter, or the built-in codec without one.
     pub(crate) fn start(adapter: &Adapter, jobs: u8) -> Result<Self, Failure> {
-        Self::start_with(adapter, jobs, Settings::default().restarts)
+        Self::start_with(adapter, jobs, None)
     }
 
-    /// The same, with another limit of restarts per process.
-    pub(crate) fn start_with(adapter: &Adapter, jobs: u8, restarts: u32) -> Result<Self, Failure> {
+    /// The same, with a limit of restarts per process.
+    pub(crate) fn start_with(
+        adapter: &Adapter,
+        jobs: u8,
+        restarts: Option<u32>,
+    ) -> Result<Self, Failure> {
         if adapter.command.is_empty() {
             // clap does not distinguish `--` with nothing after it from a missing `--`.
             if std::env::args_os().next_back().is_some_and(|last| last == "--") {

@@ -4,7 +4,8 @@ use actucheck_spec::wire::Target;
 use actucheck_spec::wire::dynamixel2::reference::call;
 use actucheck_spec::wire::dynamixel2::{Block, Packet};
 
-use crate::blackbox::shrink::{bytes, lower, without};
+use crate::blackbox::shrink::{bytes, lower};
+use crate::shrink::without;
 
 /// Packets that are smaller or plainer in one way each.
 pub(super) fn packets(packet: &Packet) -> Vec<Packet> {
