@@ -62,7 +62,7 @@ fn the_json_report_counts_every_verdict() {
     assert_eq!((status, &report["version"]), (0, &Value::from(6)));
     let sum = |totals: &Value| {
         let totals = totals.as_object().unwrap();
-        assert_eq!(totals.len(), 11);
+        assert_eq!(totals.len(), 12);
         totals.values().map(|count| count.as_u64().unwrap()).sum::<u64>()
     };
     let requirements = report["requirements"].as_array().unwrap().iter();
