@@ -86,15 +86,28 @@ fn what_an_adapter_says_does_not_control_the_terminal() {
 }
 
 #[test]
-fn findings_that_cannot_be_kept_are_shown() {
+fn a_place_that_cannot_be_written_is_told_before_anything_runs() {
     let folder = tempfile::tempdir().unwrap();
     let fuzz = ["fuzz", "--seed", "3", "--cases", "50", "--out", "missing/findings.yaml"];
-    let (output, text) = actucheck(folder.path(), &fuzz, WRONG);
+    let (output, text) = actucheck(folder.path(), &fuzz, "touch asked");
+    assert_eq!((output.status.code(), text.as_str()), (Some(2), ""));
+    let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(stderr.contains("cannot write missing/findings.yaml"), "{stderr}");
+    assert!(!folder.path().join("asked").exists(), "the adapter was asked");
+}
+
+/// The folder goes while the adapter is asked.
+#[test]
+fn findings_that_cannot_be_kept_are_shown() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("gone")).unwrap();
+    let fuzz = ["fuzz", "--seed", "3", "--cases", "50", "--out", "gone/findings.yaml"];
+    let (output, text) = actucheck(folder.path(), &fuzz, &format!("rm -rf gone; {WRONG}"));
     assert_eq!(output.status.code(), Some(3), "{text}");
     assert!(text.contains("crc dynamixel2.crc.value: wrong CRC"), "{text}");
     assert!(text.ends_with("seed 3: 1 kind of finding\n"), "{text}");
     let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(stderr.contains("cannot write missing/findings.yaml"), "{stderr}");
+    assert!(stderr.contains("cannot write gone/findings.yaml"), "{stderr}");
 }
 
 #[test]
