@@ -3,7 +3,7 @@
 //! Each form says whether the beginning of the input can be in it. A form with a mark of its own,
 //! such as `\x`, is sure. If none is and two remain that give different bytes, that is an error.
 
-use super::form::is_dump;
+use super::form::{is_csv, is_dump, is_pcap};
 use super::source::{Sampled, is_text};
 use super::{Form, Unreadable};
 
@@ -16,16 +16,22 @@ pub(super) fn form(input: &Sampled) -> Result<Form, Unreadable> {
     if sample.iter().all(u8::is_ascii_whitespace) {
         return Err(Unreadable::Empty);
     }
+    if is_pcap(sample) {
+        return Ok(Form::Pcap);
+    }
     if !is_text(sample) {
         return Ok(Form::Raw);
     }
     let text = String::from_utf8_lossy(sample);
     let text = if input.whole { &text } else { whole_words(&text) };
-    if text.contains("\\x") || text.contains("b'") || text.contains("b\"") {
-        return Ok(Form::Escaped);
-    }
     if is_dump(text) {
         return Ok(Form::Dump);
+    }
+    if is_csv(text) {
+        return Ok(Form::Csv);
+    }
+    if text.contains("\\x") || text.contains("b'") || text.contains("b\"") {
+        return Ok(Form::Escaped);
     }
     notation(text)
 }

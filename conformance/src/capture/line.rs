@@ -41,8 +41,13 @@ pattern!(
           (?: \s+ [a-z]+ )? \s* (?: \(\d+\) )? \s* [\])]? \s* (?: [:=] | [-=]*>+ | <+[-=]* | [\])] )"
 );
 pattern!(ARROW, r"^\s*(?:(?P<out>-+>+|=+>+|>{1,3}|→)|(?P<in><+-+|<+=+|<{1,3}|←))");
-// A number of a byte: `b0:`, `byte 3 =`, `data[3] =`, `[3]:`.
-pattern!(INDEX, r"(?i)\b(?:b|byte\s*)\d+\s*[:=]|\w*\[\d+\]\s*[:=](?:\s*[^\s{\[(]|\s*$)");
+// A number of a byte: `b0: `, `byte 3 =`, `data[3] =`, `[3]:`.
+pattern!(
+    INDEX,
+    r"(?i)\bb\d+\s*(?:=|:\s)|\bbyte\s*\d+\s*[:=]|\w*\[\d+\]\s*[:=](?:\s*[^\s{\[(]|\s*$)"
+);
+// The same without a space, which is a label only if the numbers go up: B0:01 are two bytes.
+pattern!(CLOSE_INDEX, r"(?i)\bb(?P<number>\d{1,3}):(?P<value>(?:0x)?[0-9a-f]{1,2}(?:[\s,;]|$))");
 pattern!(COUNTER, r"^\s*\[\d+\]\s+\b");
 pattern!(LABEL, r"[A-Za-z_][\w.]*\s*(?:\[\w*\])?\s*[:=]");
 pattern!(REMARK, r"(?P<before>^|[^\w\])])[\[(](?P<inner>[^\[\](){},]*)[\])]");
@@ -86,38 +91,46 @@ fn direction_of(word: &Captures<'_>) -> Direction {
     if request { Direction::Request } else { Direction::Reply }
 }
 
+/// The direction that a name such as `UART RX` tells.
+pub(super) fn direction(name: &str) -> Option<Direction> {
+    // The pattern takes a verb only with a mark behind it.
+    WORD.captures(&format!("{name}:")).map(|word| direction_of(&word))
+}
+
 /// The time at the beginning of a line, and what follows it.
-fn time(line: &str) -> (Option<Duration>, &str) {
+pub(super) fn time(line: &str) -> (Option<Duration>, &str) {
     let Some(found) = TIME.captures(line) else { return (None, line) };
     let part = |name| found.name(name).map(|part| part.as_str());
     let number = |name| part(name).and_then(|text| text.replace(',', ".").parse::<f64>().ok());
-    let clock = number("hours").zip(number("minutes")).zip(number("seconds"));
-    let seconds = if let Some(((hours, minutes), seconds)) = clock {
-        days(part("day")) * 86_400.0 + hours * 3600.0 + minutes * 60.0 + seconds
+    let whole = |name| part(name).and_then(|text| text.parse::<u64>().ok());
+    let time = if let (Some(hours), Some(minutes)) = (whole("hours"), whole("minutes")) {
+        // The day is kept apart, so that microseconds stay exact.
+        let before = days(part("day")) * 86_400 + hours * 3600 + minutes * 60;
+        let seconds = number("seconds").and_then(|text| Duration::try_from_secs_f64(text).ok());
+        seconds.and_then(|seconds| seconds.checked_add(Duration::from_secs(before)))
     } else {
         let factor = match part("unit").or(part("whole_unit")) {
             Some("ms") => 1e-3,
             Some("us" | "µs") => 1e-6,
             _ => 1.0,
         };
-        number("number").or(number("whole")).unwrap_or_default() * factor
+        let number = number("number").or(number("whole")).unwrap_or_default();
+        Duration::try_from_secs_f64(number * factor).ok()
     };
     let rest = line.get(found.get_match().end()..).unwrap_or_default();
-    (Duration::try_from_secs_f64(seconds).ok(), rest)
+    (time, rest)
 }
 
 /// Days from a fixed day to `2026-11-27`.
-fn days(date: Option<&str>) -> f64 {
-    let mut parts = date.unwrap_or_default().split(['-', '/']).filter_map(|part| part.parse().ok());
-    let mut next = || -> f64 { parts.next().unwrap_or_default() };
+fn days(date: Option<&str>) -> u64 {
+    let mut parts = date.unwrap_or_default().split(['-', '/']).map_while(|part| part.parse().ok());
+    let mut next = || -> u64 { parts.next().unwrap_or_default() };
     let (year, month, day) = (next(), next(), next());
-    if day == 0.0 {
-        return 0.0;
-    }
     // March is the first month, so that leap days are last.
-    let (year, month) = if month > 2.0 { (year, month - 3.0) } else { (year - 1.0, month + 9.0) };
-    let leap = (year / 4.0).floor() - (year / 100.0).floor() + (year / 400.0).floor();
-    year * 365.0 + leap + (month * 30.6 + 0.5).floor() + day
+    let (year, month) =
+        if month > 2 { (year, month - 3) } else { (year.saturating_sub(1), month + 9) };
+    let leap = year / 4 - year / 100 + year / 400;
+    year * 365 + leap + (month * 306 + 5) / 10 + day
 }
 
 /// A text without labels and remarks.
@@ -135,6 +148,13 @@ fn bare(text: &str) -> String {
         }
     };
     let text = REMARK.replace_all(&text, remark);
+    let numbers: Vec<_> = CLOSE_INDEX
+        .captures_iter(&text)
+        .map(|found| found.name("number").map_or("", |number| number.as_str()).parse::<usize>())
+        .collect();
+    let up =
+        numbers.len() > 1 && numbers.iter().zip(0_usize..).all(|(number, at)| *number == Ok(at));
+    let text = if up { CLOSE_INDEX.replace_all(&text, " $value") } else { text };
     let index = |found: &Captures<'_>| {
         let all = found.get_match().as_str();
         // The pattern looks one character beyond the label.
@@ -145,25 +165,32 @@ fn bare(text: &str) -> String {
     labelled(&text)
 }
 
-/// Takes labels away, and with them numbers such as `len=10`, which say something about the bytes.
+/// Numbers about the bytes, which are no bytes.
+const ABOUT: [&str; 9] = ["len", "length", "size", "count", "n", "bytes", "seq", "no", "baud"];
+
+/// Takes labels away, and with them numbers about the bytes such as `len=10`.
 fn labelled(text: &str) -> String {
     let is_label = |label: &str| {
-        label.bytes().any(|c| c.is_ascii_alphabetic() && !c.is_ascii_hexdigit())
-            && !label.starts_with("0x")
+        let name = |c: u8| c.is_ascii_alphabetic() && !c.is_ascii_hexdigit();
+        label.bytes().any(name) && !label.starts_with("0x")
+    };
+    let about = |label: &str| {
+        let name = label.trim_end_matches(|c: char| !c.is_alphanumeric());
+        ABOUT.contains(&name.to_ascii_lowercase().as_str())
     };
     let labels: Vec<_> = LABEL
         .find_iter(text)
         .filter(|label| is_label(label.as_str()))
-        .map(|label| (label.start(), label.end()))
+        .map(|label| (label.start(), label.end(), about(label.as_str())))
         .collect();
-    let Some((first, _)) = labels.first() else { return text.to_owned() };
+    let Some((first, ..)) = labels.first() else { return text.to_owned() };
     let mut bare = text.get(..*first).unwrap_or_default().to_owned();
-    let ends = labels.iter().skip(1).map(|(start, _)| *start).chain([text.len()]);
-    for ((_, start), end) in labels.iter().zip(ends) {
+    let ends = labels.iter().skip(1).map(|(start, ..)| *start).chain([text.len()]);
+    for ((_, start, about), end) in labels.iter().zip(ends) {
         let value = text.get(*start..end).unwrap_or_default();
         let word = value.trim().trim_end_matches([',', ';']);
-        let number = word.bytes().all(|digit| digit.is_ascii_digit()) && word.len() != 2;
-        if labels.len() == 1 || !number {
+        let number = word.bytes().all(|digit| digit.is_ascii_digit()) && !word.starts_with('0');
+        if !(*about && number) {
             bare.push(' ');
             bare.push_str(value);
         }

@@ -30,6 +30,8 @@ pub struct Piece {
     pub line: Option<u64>,
     /// Whether no packet goes on after them, as at the end of a datagram.
     pub ends: bool,
+    /// What the input says about them beside that, such as a framing error.
+    pub note: Option<String>,
 }
 
 /// The pieces of an input, one after the other. Nothing follows an error.
@@ -56,7 +58,10 @@ pub struct Reading {
 ///
 /// # Errors
 /// If the input can't be read, is in no known form, or has two forms that give different bytes.
-pub fn open(input: impl BufRead + 'static, form: Option<Form>) -> Result<Reading, Unreadable> {
+pub fn open(
+    input: impl BufRead + Send + 'static,
+    form: Option<Form>,
+) -> Result<Reading, Unreadable> {
     let input = source::Sampled::new(input)?;
     let form = match form {
         Some(form) => form,

@@ -14,11 +14,11 @@ pub(super) struct Sampled {
     sample: Vec<u8>,
     /// Whether the sample is all.
     pub(super) whole: bool,
-    rest: Box<dyn BufRead>,
+    rest: Box<dyn BufRead + Send>,
 }
 
 impl Sampled {
-    pub(super) fn new(mut input: impl BufRead + 'static) -> io::Result<Self> {
+    pub(super) fn new(mut input: impl BufRead + Send + 'static) -> io::Result<Self> {
         let mut sample = Vec::new();
         input.by_ref().take(SAMPLE as u64).read_to_end(&mut sample)?;
         let whole = sample.len() < SAMPLE;
@@ -30,7 +30,7 @@ impl Sampled {
     }
 
     /// All of it.
-    pub(super) fn into_bytes(self) -> impl BufRead {
+    pub(super) fn into_bytes(self) -> impl BufRead + Send {
         Cursor::new(self.sample).chain(self.rest)
     }
 
@@ -41,7 +41,7 @@ impl Sampled {
 
 /// The lines of a text, with their numbers.
 pub(super) struct Lines {
-    input: Box<dyn BufRead>,
+    input: Box<dyn BufRead + Send>,
     pub(super) number: u64,
 }
 

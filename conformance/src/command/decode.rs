@@ -2,6 +2,7 @@
 
 mod input;
 mod packet;
+mod sink;
 mod text;
 
 use std::io::{BufWriter, Write as _};
@@ -18,6 +19,7 @@ use clap::Args;
 
 use super::shared::{Failure, one_of, wire};
 use input::Input;
+use sink::{Lines, Sink, Told};
 use text::Text;
 
 const EXAMPLES: &str = "\
@@ -34,7 +36,8 @@ Examples:
       the packets of a log, one line each, and who answers what
 
 The form of the bytes is found by itself: hex with any separators, decimal lists, arrays of
-programs, text with \\xFF, dumps of xxd, hexdump or Wireshark, and plain bytes. Lines of a log may
+programs, text with \\xFF, dumps of xxd, hexdump or Wireshark, tables of logic analysers, pcap and
+pcapng, and plain bytes. Lines of a log may
 have times, and directions such as TX: and RX:. What has two readings is refused.
 
 Exit status: 0 valid packets only, 1 no valid packet, or bytes that are none, 2 wrong usage.";
@@ -43,7 +46,7 @@ Exit status: 0 valid packets only, 1 no valid packet, or bytes that are none, 2 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Decode {
-    /// Print the packet object of the adapter protocol
+    /// Print the packet object of the adapter protocol; of a stream, an object on each line
     #[arg(long)]
     json: bool,
     /// The form of the bytes, if it is not to be found
@@ -154,20 +157,15 @@ fn packet(
 fn stream(options: &Decode, wire: Wire, input: Input) -> Result<ExitCode, Failure> {
     let mut follower = Follower::new(wire, options.device)
         .ok_or_else(|| Failure::usage(format!("streams of {wire} are not followed")))?;
-    if options.json {
-        return Err(Failure::usage("--json takes one packet, and here are several"));
-    }
+    let out = BufWriter::new(anstream::stdout().lock());
     let show = options.show.unwrap_or(Show::Fields);
-    let mut out = BufWriter::new(anstream::stdout().lock());
-    let mut written = writeln!(out, "read as {}, wire {wire}", input.form);
-    let mut text = Text { out, wire, show, begin: None };
-    let mut summary = Summary::default();
-    let mut take = |event: Event<'_>| {
-        summary.add(&event);
-        if written.is_ok() {
-            written = text.event(&event);
-        }
+    let sink: Box<dyn Sink> = if options.json {
+        Box::new(Lines { out, wire, show })
+    } else {
+        Box::new(Text { out, wire, show, begin: None })
     };
+    let mut told = Told { sink, summary: Summary::default(), written: Ok(()) };
+    told.write(|sink| sink.begin(input.form));
     let mut failed = None;
     for piece in input.into_pieces() {
         let piece = match piece {
@@ -177,15 +175,18 @@ fn stream(options: &Decode, wire: Wire, input: Input) -> Result<ExitCode, Failur
                 break;
             }
         };
+        if let Some(note) = &piece.note {
+            told.write(|sink| sink.note(follower.fed(), note));
+        }
         let direction = piece.direction.or(options.direction);
-        follower.feed(&piece.bytes, direction, piece.line, piece.time, &mut take);
+        let (line, time) = (piece.line, piece.time);
+        follower.feed(&piece.bytes, direction, line, time, &mut |event| told.event(&event));
         if piece.ends {
-            follower.pause(&mut take);
+            follower.pause(&mut |event| told.event(&event));
         }
     }
-    follower.end(&mut take);
-    // A closed pipe, as of `| head`, is not an error.
-    let _ = written.and_then(|()| text.end(&summary));
+    follower.end(&mut |event| told.event(&event));
+    let summary = told.end();
     match failed {
         Some(failure) => Err(failure),
         None if summary.total() == 0 || !summary.skipped.is_empty() => {

@@ -3,6 +3,7 @@
 //! A wire has two parts here. [`Split`] finds its frames, and [`Converse`] knows what a frame is in
 //! the conversation. [`Follower`] knows where and when each byte was.
 
+pub mod lines;
 mod summary;
 
 use std::collections::VecDeque;
@@ -206,6 +207,12 @@ impl Follower {
         parts.fed += bytes.len() as u64;
         parts.pieces.push_back((parts.fed, line, time));
         split.feed(bytes, direction, &mut |cut| parts.next(cut, direction, take));
+    }
+
+    /// How many bytes were fed.
+    #[must_use]
+    pub const fn fed(&self) -> u64 {
+        self.parts.fed
     }
 
     /// No packet goes on after the bytes so far.

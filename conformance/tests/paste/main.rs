@@ -1,8 +1,13 @@
 //! What people paste: a folder of `cases` for each, with `input`, the arguments if they are not `-`,
 //! and what the program says. `ACCEPT=1` writes the latter anew; then every line of it is compared with
 //! the documents by eye.
+//!
+//! `forms` writes bytes in every form and reads them again.
 
-#![allow(clippy::unwrap_used)] // tests may stop at a surprise
+#![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
+
+mod bad;
+mod forms;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -52,4 +57,31 @@ fn what_people_paste_is_explained() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// The lines of `--json` have the shape that their schema says.
+#[test]
+fn objects_fit_their_schema() {
+    let (name, schema) = actucheck::explain::stream::lines::schema();
+    let file = format!("{}/schema/{name}.schema.json", env!("CARGO_MANIFEST_DIR"));
+    if std::env::var_os("ACCEPT").is_some() {
+        fs::write(&file, &schema).unwrap();
+    }
+    assert!(fs::read_to_string(&file).unwrap() == schema, "ACCEPT=1 cargo test --test paste");
+    let schema = jsonschema::validator_for(&serde_json::from_str(&schema).unwrap()).unwrap();
+    let mut seen = 0;
+    for folder in folders() {
+        let expected = fs::read_to_string(folder.join("expected")).unwrap();
+        for line in expected.lines().filter(|line| line.starts_with("{\"line\"")) {
+            let value: serde_json::Value = serde_json::from_str(line).unwrap();
+            let faults: Vec<_> =
+                schema.iter_errors(&value).map(|fault| fault.to_string()).collect();
+            assert!(faults.is_empty(), "{line}: {faults:?}");
+            let mut broken = value;
+            broken.as_object_mut().unwrap().remove("line");
+            assert!(!schema.is_valid(&broken));
+            seen += 1;
+        }
+    }
+    assert!(seen > 5, "{seen} lines");
 }

@@ -82,6 +82,21 @@ impl Row {
         bytes.iter().enumerate().filter_map(fits).collect()
     }
 
+    /// The number of bytes of the last line, which no offset tells.
+    fn size(&self, bytes: &[(u8, usize)]) -> Option<usize> {
+        // Characters may look like bytes. They are as many as the bytes, and behind a wider gap than
+        // the one in the middle of some lines.
+        let exact = |(index, (_, end)): (usize, &(u8, usize))| {
+            let rest = self.rest.get(*end..)?;
+            let (size, column) = (index + 1, rest.trim_start());
+            let gap = rest.len() - column.len();
+            let fits = column.chars().count() == size && gap > 1 && (gap > 2 || size != 8);
+            fits.then_some(size)
+        };
+        let exact = bytes.iter().enumerate().find_map(exact);
+        exact.or_else(|| self.sizes(bytes).last().copied()).or(Some(bytes.len()).filter(|n| *n > 0))
+    }
+
     /// The bytes, if the next line says that there are `size`.
     fn bytes(&self, size: Option<u64>) -> Option<Vec<u8>> {
         let bytes = self.groups();
@@ -91,12 +106,7 @@ impl Row {
             Some(size) if size <= bytes.len() => Some(take(size)),
             // hexdump pads the last number.
             Some(_) => None,
-            None => self
-                .sizes(&bytes)
-                .last()
-                .copied()
-                .or((!bytes.is_empty()).then_some(bytes.len()))
-                .map(take),
+            None => self.size(&bytes).map(take),
         }
     }
 }

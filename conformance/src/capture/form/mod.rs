@@ -1,15 +1,19 @@
 //! The forms of an input, one file each.
 
+mod csv;
 mod decimal;
 mod dump;
 mod escaped;
 mod hex;
+mod pcap;
 mod raw;
 mod text;
 
 use std::fmt;
 
+pub(super) use csv::is_csv;
 pub(super) use dump::is_dump;
+pub(super) use pcap::is_pcap;
 
 use super::Pieces;
 use super::source::Sampled;
@@ -25,13 +29,18 @@ pub enum Form {
     Escaped,
     /// Lines that begin with an offset, of xxd, hexdump, od or Wireshark.
     Dump,
+    /// A table of a logic analyser, with a row for each byte.
+    Csv,
+    /// A capture of a network or of USB.
+    Pcap,
     /// The bytes themselves.
     Raw,
 }
 
 impl Form {
     /// Every form.
-    pub const ALL: [Self; 5] = [Self::Hex, Self::Decimal, Self::Escaped, Self::Dump, Self::Raw];
+    pub const ALL: [Self; 7] =
+        [Self::Hex, Self::Decimal, Self::Escaped, Self::Dump, Self::Csv, Self::Pcap, Self::Raw];
 
     /// Its name on the command line.
     #[must_use]
@@ -41,6 +50,8 @@ impl Form {
             Self::Decimal => "decimal",
             Self::Escaped => "escaped",
             Self::Dump => "dump",
+            Self::Csv => "csv",
+            Self::Pcap => "pcap",
             Self::Raw => "raw",
         }
     }
@@ -53,6 +64,8 @@ impl Form {
             Self::Decimal => "decimal numbers",
             Self::Escaped => "text with \\x",
             Self::Dump => "a hex dump",
+            Self::Csv => "a table in CSV",
+            Self::Pcap => "a capture of a network or USB",
             Self::Raw => "plain bytes",
         }
     }
@@ -65,6 +78,8 @@ impl Form {
             Self::Decimal => "Decimal numbers, and hex after 0x: lists, tuples, C arrays",
             Self::Escaped => "Text with \\xFF, as Python and C print bytes",
             Self::Dump => "A dump of xxd, hexdump, od or Wireshark",
+            Self::Csv => "CSV of a logic analyser, with columns for time and data",
+            Self::Pcap => "pcap or pcapng: payload of UDP, TCP and USB bulk transfers",
             Self::Raw => "The bytes themselves",
         }
     }
@@ -76,6 +91,8 @@ impl Form {
             Self::Decimal => text::pieces(input, decimal::Decimal),
             Self::Escaped => text::pieces(input, escaped::Escaped),
             Self::Dump => dump::pieces(input),
+            Self::Csv => csv::pieces(input),
+            Self::Pcap => pcap::pieces(input),
             Self::Raw => Box::new(raw::Raw::new(input)),
         }
     }

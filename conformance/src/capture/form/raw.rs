@@ -13,7 +13,7 @@ pub(super) struct Raw<R> {
     ended: bool,
 }
 
-impl Raw<Box<dyn BufRead>> {
+impl Raw<Box<dyn BufRead + Send>> {
     pub(super) fn new(input: Sampled) -> Self {
         Self { input: Box::new(input.into_bytes()), ended: false }
     }

@@ -82,7 +82,7 @@ impl<N: Notation> Text<N> {
                 found = true;
                 self.standing = None;
                 let line = Some(number);
-                self.ready.push_back(Piece { bytes, direction, time, line, ends: false });
+                self.ready.push_back(Piece { bytes, direction, time, line, ..Piece::default() });
             }
         }
         // What stands before a direction is a name or a number, unless no bytes follow.
@@ -90,7 +90,7 @@ impl<N: Notation> Text<N> {
             let bytes = bytes.map_err(wrong)?;
             if !bytes.is_empty() {
                 let (direction, line) = (self.standing, Some(number));
-                self.ready.push_back(Piece { bytes, direction, time, line, ends: false });
+                self.ready.push_back(Piece { bytes, direction, time, line, ..Piece::default() });
             }
         }
         Ok(())

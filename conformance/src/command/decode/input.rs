@@ -31,7 +31,7 @@ impl Input {
             [one] if Path::new(one).is_file() => Some(one),
             _ => None,
         };
-        let input: Box<dyn BufRead> = match (arguments, file) {
+        let input: Box<dyn BufRead + Send> = match (arguments, file) {
             (_, Some(name)) => Box::new(BufReader::new(
                 File::open(name)
                     .map_err(|error| Failure::usage(format!("cannot read {name}: {error}")))?,
@@ -54,11 +54,23 @@ impl Input {
                 self.whole = true;
                 break;
             };
-            let piece = piece.map_err(Failure::usage)?;
-            bytes += piece.bytes.len();
-            self.beginning.push(piece);
+            match piece {
+                Ok(piece) => {
+                    bytes += piece.bytes.len();
+                    self.beginning.push(piece);
+                }
+                // What comes before it is shown first.
+                Err(error) if bytes > 0 => {
+                    self.rest = Box::new(std::iter::once(Err(error)));
+                    break;
+                }
+                Err(error) => return Err(Failure::usage(error)),
+            }
         }
         if bytes == 0 {
+            if let Some(note) = self.beginning.iter().find_map(|piece| piece.note.as_ref()) {
+                return Err(Failure::usage(format!("there are no bytes: {note}")));
+            }
             return Err(Failure::usage(capture::Unreadable::Empty));
         }
         Ok(())

@@ -5,13 +5,16 @@ use std::io::{self, Write};
 use std::time::Duration;
 
 use actucheck::adapter::Wire;
+use actucheck::capture::Form;
 use actucheck::explain::diff::spaced;
 use actucheck::explain::stream::{Event, Heard, Place, Role, Silent, Skipped, Summary, Turn};
 use actucheck::explain::{Asked, DEVICES, Explanation, explain};
+use actucheck::legible::legible;
 
 use super::super::shared::table::{BOLD, DIM};
 use super::Show;
 use super::packet::fields;
+use super::sink::Sink;
 
 /// Bytes of a run that are shown.
 const SHOWN: usize = 32;
@@ -25,8 +28,12 @@ pub(super) struct Text<W> {
     pub(super) begin: Option<Duration>,
 }
 
-impl<W: Write> Text<W> {
-    pub(super) fn event(&mut self, event: &Event<'_>) -> io::Result<()> {
+impl<W: Write> Sink for Text<W> {
+    fn begin(&mut self, form: Form) -> io::Result<()> {
+        writeln!(self.out, "read as {form}, wire {}", self.wire)
+    }
+
+    fn event(&mut self, event: &Event<'_>) -> io::Result<()> {
         if self.show == Show::Summary {
             return Ok(());
         }
@@ -37,6 +44,52 @@ impl<W: Write> Text<W> {
         }
     }
 
+    fn note(&mut self, at: u64, note: &str) -> io::Result<()> {
+        writeln!(self.out, "{DIM}byte {at}{DIM:#}  the input says: {}", legible(note, 200))
+    }
+
+    fn end(&mut self, summary: &Summary) -> io::Result<()> {
+        if self.show != Show::Summary {
+            writeln!(self.out)?;
+        }
+        let kinds: Vec<_> =
+            summary.packets.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
+        let total = summary.total();
+        let s = if total == 1 { "" } else { "s" };
+        let colon = if kinds.is_empty() { "" } else { ": " };
+        writeln!(self.out, "{BOLD}{total} packet{s}{BOLD:#}{colon}{}", kinds.join(", "))?;
+        for (reason, (runs, bytes)) in &summary.skipped {
+            let s = if *bytes == 1 { "" } else { "s" };
+            writeln!(self.out, "skipped {runs} × {reason}, {bytes} byte{s}")?;
+        }
+        if summary.echoes > 0 {
+            writeln!(self.out, "echoes: {}", summary.echoes)?;
+        }
+        if summary.silent > 0 {
+            writeln!(self.out, "answers missing: {}", summary.silent)?;
+        }
+        if !summary.devices.is_empty() {
+            let devices: Vec<_> =
+                summary.devices.iter().map(|(id, model)| device(*id, *model)).collect();
+            writeln!(self.out, "devices: {}", devices.join(", "))?;
+        }
+        let answers = &summary.answers;
+        match answers.count {
+            0 => {}
+            1 => writeln!(self.out, "time to answer: {}, 1 answer", time(answers.shortest))?,
+            count => writeln!(
+                self.out,
+                "time to answer: {} to {}, {} on average, {count} answers",
+                time(answers.shortest),
+                time(answers.longest),
+                time(answers.average()),
+            )?,
+        }
+        self.out.flush()
+    }
+}
+
+impl<W: Write> Text<W> {
     fn packet(&mut self, heard: &Heard<'_>, turn: &Turn) -> io::Result<()> {
         let (context, device, address) = (turn.context.clone(), turn.table, turn.address);
         let asked = Asked { bytes: heard.bytes, context, device, address };
@@ -90,44 +143,6 @@ impl<W: Write> Text<W> {
             let _ = write!(text, ", {}", time(now.saturating_sub(begin)));
         }
         text
-    }
-
-    pub(super) fn end(&mut self, summary: &Summary) -> io::Result<()> {
-        if self.show != Show::Summary {
-            writeln!(self.out)?;
-        }
-        let kinds: Vec<_> =
-            summary.packets.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
-        let total = summary.total();
-        let s = if total == 1 { "" } else { "s" };
-        let colon = if kinds.is_empty() { "" } else { ": " };
-        writeln!(self.out, "{BOLD}{total} packet{s}{BOLD:#}{colon}{}", kinds.join(", "))?;
-        for (reason, (runs, bytes)) in &summary.skipped {
-            writeln!(self.out, "skipped {runs} × {reason}, {bytes} bytes")?;
-        }
-        if summary.echoes > 0 {
-            writeln!(self.out, "echoes: {}", summary.echoes)?;
-        }
-        if summary.silent > 0 {
-            writeln!(self.out, "answers missing: {}", summary.silent)?;
-        }
-        if !summary.devices.is_empty() {
-            let devices: Vec<_> =
-                summary.devices.iter().map(|(id, model)| device(*id, *model)).collect();
-            writeln!(self.out, "devices: {}", devices.join(", "))?;
-        }
-        let answers = &summary.answers;
-        if answers.count > 0 {
-            writeln!(
-                self.out,
-                "time to answer: {} to {}, {} on average, {} answers",
-                time(answers.shortest),
-                time(answers.longest),
-                time(answers.average()),
-                answers.count
-            )?;
-        }
-        self.out.flush()
     }
 }
 

@@ -36,10 +36,7 @@ impl Frames {
                 }
                 First::Wrong(FrameError::Truncated { .. }) if !paused => break,
                 First::Wrong(error) => {
-                    self.skipped.get_or_insert_with(|| match error {
-                        FrameError::Header { .. } => "no header".to_owned(),
-                        other => other.to_string(),
-                    });
+                    self.skipped.get_or_insert_with(|| reason(error));
                     let next = rest.iter().skip(1).position(|byte| *byte == HEADER);
                     at += next.map_or(rest.len(), |next| next + 1);
                 }
@@ -67,6 +64,19 @@ impl Split for Frames {
     fn pause(&mut self, take: &mut dyn FnMut(Cut<'_>)) {
         self.cut(true, take);
     }
+}
+
+/// A word for the fault, and what shows it.
+fn reason(error: FrameError) -> String {
+    let kind = match error {
+        FrameError::Header { .. } => return "no header".to_owned(),
+        FrameError::Truncated { .. } => "a frame that is not complete",
+        FrameError::Tail { .. } => "a frame without its end byte",
+        FrameError::Trailing { .. } => "a frame with bytes after it",
+        FrameError::Crc { .. } => "a frame with a wrong CRC",
+    };
+    let text = error.to_string();
+    format!("{kind}: {}", text.split_once(": ").map_or("", |(_, detail)| detail))
 }
 
 /// The frame that `bytes` begin with. Its direction is known if only one gives it a meaning.

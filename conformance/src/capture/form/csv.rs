@@ -1,0 +1,183 @@
+//! Tables of logic analysers: a row for each byte, with its time and perhaps an error.
+
+use std::io::BufRead;
+use std::time::Duration;
+
+use csv::{ReaderBuilder, StringRecord, StringRecordsIntoIter};
+
+use super::decimal::Decimal;
+use super::hex::Hex;
+use super::text::Notation;
+use crate::capture::line;
+use crate::capture::source::Sampled;
+use crate::capture::{Form, Piece, Pieces, Unreadable};
+
+/// Rows that the notation of the data is found from.
+const ROWS: usize = 1000;
+
+/// The columns that have a meaning here.
+#[derive(Clone, Debug)]
+struct Columns {
+    data: usize,
+    time: Option<(usize, f64)>,
+    name: Option<usize>,
+    errors: Vec<(usize, String)>,
+}
+
+impl Columns {
+    fn of(header: &StringRecord) -> Option<Self> {
+        let titles: Vec<_> = header.iter().map(|title| title.trim().to_ascii_lowercase()).collect();
+        let find = |words: &[&str]| {
+            words.iter().find_map(|word| titles.iter().position(|title| title.starts_with(word)))
+        };
+        // A header has neither numbers nor values with their labels.
+        let value = |title: &String| {
+            title.starts_with(|c: char| c.is_ascii_digit()) || title.contains([':', '='])
+        };
+        if titles.iter().any(value) {
+            return None;
+        }
+        let time = find(&["time", "start", "timestamp"])?;
+        let data = find(&["data", "value", "byte", "hex", "payload"])?;
+        let unit = titles.get(time).map_or(1.0, |title| {
+            let units = [("[ms]", 1e-3), ("(ms)", 1e-3), ("[us]", 1e-6), ("(us)", 1e-6)];
+            let more = [("[ns]", 1e-9), ("(ns)", 1e-9)];
+            let found = units.into_iter().chain(more).find(|(unit, _)| title.contains(unit));
+            found.map_or(1.0, |(_, factor)| factor)
+        });
+        let errors = titles.iter().enumerate().filter(|(_, title)| title.contains("error"));
+        Some(Self {
+            data,
+            time: Some((time, unit)),
+            name: find(&["name", "dir", "source", "channel"]),
+            errors: errors.map(|(index, title)| (index, title.clone())).collect(),
+        })
+    }
+
+    fn time(&self, row: &StringRecord) -> Option<Duration> {
+        let (index, unit) = self.time?;
+        let cell = row.get(index)?.trim();
+        match cell.parse::<f64>() {
+            Ok(number) => Duration::try_from_secs_f64(number * unit).ok(),
+            Err(_) => line::time(&format!("{cell} ")).0,
+        }
+    }
+
+    fn note(&self, row: &StringRecord) -> Option<String> {
+        self.errors.iter().find_map(|(index, title)| {
+            let cell = row.get(*index)?.trim();
+            let none = ["", "0", "false", "no", "none"];
+            if none.contains(&cell.to_ascii_lowercase().as_str()) {
+                return None;
+            }
+            let same = ["1", "true", "yes", "error"].contains(&cell.to_ascii_lowercase().as_str());
+            Some(if same { title.clone() } else { format!("{title}: {cell}") })
+        })
+    }
+}
+
+/// Whether a text is a table with columns for time and data.
+pub(in crate::capture) fn is_csv(text: &str) -> bool {
+    let separator = separator(text);
+    let mut reader = ReaderBuilder::new().delimiter(separator).from_reader(text.as_bytes());
+    reader.headers().is_ok_and(|header| header.len() > 1 && Columns::of(header).is_some())
+}
+
+/// The separator that the first line has most of.
+fn separator(text: &str) -> u8 {
+    let first = text.lines().next().unwrap_or_default();
+    let count = |separator: &u8| first.bytes().filter(|byte| byte == separator).count();
+    [b'\t', b';', b','].into_iter().max_by_key(count).unwrap_or(b',')
+}
+
+/// The pieces of a table.
+pub(super) fn pieces(input: Sampled) -> Pieces {
+    let sample = String::from_utf8_lossy(input.sample()).into_owned();
+    match Table::open(input, &sample) {
+        Ok(table) => Box::new(table),
+        Err(error) => Box::new(std::iter::once(Err(error))),
+    }
+}
+
+struct Table {
+    rows: StringRecordsIntoIter<Box<dyn BufRead + Send>>,
+    columns: Columns,
+    notation: Form,
+    ended: bool,
+}
+
+impl Table {
+    fn open(input: Sampled, sample: &str) -> Result<Self, Unreadable> {
+        let separator = separator(sample);
+        let builder = || {
+            let mut builder = ReaderBuilder::new();
+            builder.delimiter(separator).flexible(true);
+            builder
+        };
+        let mut beginning = builder().from_reader(sample.as_bytes());
+        let header = beginning.headers().map_err(|error| Unreadable::File(error.to_string()))?;
+        let columns = Columns::of(header).ok_or_else(|| {
+            let text = "a table needs columns `time` and `data` (or `value`) in its first line";
+            Unreadable::File(text.to_owned())
+        })?;
+        let cells: Vec<_> = beginning
+            .records()
+            .map_while(Result::ok)
+            .take(ROWS)
+            .filter_map(|row| row.get(columns.data).map(str::to_owned))
+            .collect();
+        let notation = notation(&cells)?;
+        let whole: Box<dyn BufRead + Send> = Box::new(input.into_bytes());
+        let rows = builder().from_reader(whole).into_records();
+        Ok(Self { rows, columns, notation, ended: false })
+    }
+
+    fn piece(&self, row: &StringRecord) -> Result<Piece, Unreadable> {
+        let line = row.position().map(csv::Position::line);
+        let cell = row.get(self.columns.data).unwrap_or_default();
+        let bytes = read(self.notation, cell)
+            .map_err(|what| Unreadable::Line { line: line.unwrap_or_default(), what })?;
+        let direction = self.columns.name.and_then(|name| line::direction(row.get(name)?));
+        let (time, note) = (self.columns.time(row), self.columns.note(row));
+        Ok(Piece { bytes, direction, time, line, ends: false, note })
+    }
+}
+
+impl Iterator for Table {
+    type Item = Result<Piece, Unreadable>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.ended {
+            return None;
+        }
+        let row = self.rows.next()?;
+        let piece = row
+            .map_err(|error| Unreadable::File(format!("this is no CSV: {error}")))
+            .and_then(|row| self.piece(&row));
+        self.ended = piece.is_err();
+        Some(piece)
+    }
+}
+
+fn read(notation: Form, cell: &str) -> Result<Vec<u8>, String> {
+    match notation {
+        Form::Decimal => Decimal.bytes(cell),
+        _ => Hex.bytes(cell),
+    }
+}
+
+/// Whether data are hex or decimal.
+fn notation(cells: &[String]) -> Result<Form, Unreadable> {
+    let bytes = |form| -> Result<Vec<u8>, String> {
+        let cells = cells.iter().map(|cell| read(form, cell));
+        Ok(cells.collect::<Result<Vec<_>, _>>()?.concat())
+    };
+    match (bytes(Form::Hex), bytes(Form::Decimal)) {
+        (Ok(hex), Ok(decimal)) if hex != decimal => {
+            Err(Unreadable::File("the data may be hex or decimal; export them with 0x".to_owned()))
+        }
+        (Ok(_), _) => Ok(Form::Hex),
+        (Err(_), Ok(_)) => Ok(Form::Decimal),
+        (Err(hex), Err(_)) => Err(Unreadable::File(format!("in the data {hex}"))),
+    }
+}

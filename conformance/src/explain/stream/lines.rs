@@ -1,0 +1,295 @@
+//! A stream for programs: an object on each line.
+
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+use actucheck_spec::model::HexBytes;
+use actucheck_spec::schema::of_written;
+use actucheck_spec::wire::{Direction, Packet, Wire};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::{Event, Heard, Place, Role, Summary, Turn};
+use crate::capture::Form;
+use crate::explain::{Asked, explain};
+
+/// Version of the lines. It changes when a field is removed or gets another meaning.
+pub const VERSION: u32 = 1;
+
+/// A line.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[serde(tag = "line", rename_all = "kebab-case")]
+pub enum Line {
+    /// The first line.
+    Header {
+        /// Version of the lines.
+        version: u32,
+        /// The form that the input was read in, as `--input` names it.
+        form: &'static str,
+        /// The wire.
+        wire: Wire,
+    },
+    /// A packet.
+    Packet(Box<Said>),
+    /// Bytes that are no packet.
+    Skipped {
+        /// Where they begin.
+        #[serde(flatten)]
+        place: Where,
+        /// Which way they went; null if that is not known.
+        direction: Option<Direction>,
+        /// How many there are.
+        count: u64,
+        /// The first of them: all, unless there are very many.
+        bytes: HexBytes,
+        /// Why no packet begins there.
+        reason: String,
+        /// What else is known about them.
+        notes: Vec<String>,
+    },
+    /// Devices that did not answer.
+    Silent {
+        /// Where the request begins.
+        to: u64,
+        /// The request's name.
+        name: &'static str,
+        /// The devices.
+        devices: Vec<u8>,
+    },
+    /// What the input says, such as a framing error.
+    Note {
+        /// How many bytes are before it.
+        at: u64,
+        /// The text.
+        note: String,
+    },
+    /// The last line.
+    Summary {
+        /// Packets by the word for their kind.
+        packets: BTreeMap<&'static str, u64>,
+        /// Bytes that are no packet, by reason.
+        skipped: BTreeMap<String, Runs>,
+        /// The devices that packets were for or from.
+        devices: Vec<Seen>,
+        /// Requests that came twice in a row.
+        echoes: u64,
+        /// Answers that did not come.
+        silent: u64,
+        /// Times to answer; null if there is none.
+        answers: Option<Times>,
+    },
+}
+
+/// A place in the input.
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
+pub struct Where {
+    /// How many bytes are before it.
+    at: u64,
+    /// The line of the input, from 1; null if it has no lines.
+    input_line: Option<u64>,
+    /// Its time in seconds; null if the input has no times.
+    time: Option<f64>,
+}
+
+/// A packet.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Said {
+    /// Where it begins.
+    #[serde(flatten)]
+    place: Where,
+    /// Which way it went; null if that is not known.
+    direction: Option<Direction>,
+    /// Its bytes.
+    bytes: HexBytes,
+    /// The packet object of the adapter protocol; null if its request is needed to read it.
+    packet: Option<Packet>,
+    /// The word for its kind.
+    kind: &'static str,
+    /// The packet in a sentence.
+    title: Option<String>,
+    /// The device that it is for or from; null if that is no single one.
+    device: Option<u8>,
+    /// The device whose control table is used; null if it is not known.
+    table: Option<&'static str>,
+    /// What it has to do with the packets before it.
+    role: Part,
+    /// What else is known about it.
+    notes: Vec<String>,
+    /// Its fields, if they are shown.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fields: Option<Vec<Column>>,
+}
+
+/// What a packet has to do with those before it.
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
+#[serde(tag = "is", rename_all = "kebab-case")]
+pub enum Part {
+    /// It asks.
+    Request,
+    /// The same bytes as the request before it: an echo, or the request again.
+    Echo,
+    /// It answers.
+    Answer {
+        /// Where the request begins.
+        to: u64,
+        /// The request's name.
+        name: &'static str,
+        /// Seconds from the end of the request; null if there are no times.
+        after: Option<f64>,
+    },
+    /// It answers a request that is not in the stream.
+    Unasked,
+    /// The bytes do not tell whether it asks or answers.
+    Unknown,
+}
+
+/// A field of a packet.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Column {
+    /// Its offset in the packet.
+    offset: usize,
+    /// Its bytes; those that byte stuffing added are in parentheses.
+    bytes: String,
+    /// Its name.
+    field: String,
+    /// Its meaning.
+    meaning: String,
+}
+
+/// Bytes that are no packet, together.
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
+pub struct Runs {
+    /// How many runs of bytes.
+    runs: u64,
+    /// How many bytes.
+    bytes: u64,
+}
+
+/// A device of a stream.
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
+pub struct Seen {
+    /// Its ID or address.
+    id: u8,
+    /// Its model number; null if it did not tell.
+    model: Option<u16>,
+}
+
+/// Times to answer, in seconds.
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
+pub struct Times {
+    /// How many there are.
+    count: u64,
+    /// The shortest.
+    shortest: f64,
+    /// The longest.
+    longest: f64,
+    /// The average.
+    average: f64,
+}
+
+impl Line {
+    /// The first line.
+    #[must_use]
+    pub const fn header(wire: Wire, form: Form) -> Self {
+        Self::Header { version: VERSION, form: form.id(), wire }
+    }
+
+    /// The line of an event, with the fields of a packet or without.
+    #[must_use]
+    pub fn of(wire: Wire, event: &Event<'_>, fields: bool) -> Self {
+        match event {
+            Event::Packet(heard, turn) => Self::Packet(Box::new(said(wire, heard, turn, fields))),
+            Event::Skipped(skipped) => Self::Skipped {
+                place: skipped.place.into(),
+                direction: skipped.direction,
+                count: skipped.count,
+                bytes: skipped.bytes.to_vec().into(),
+                reason: skipped.reason.clone(),
+                notes: skipped.notes.clone(),
+            },
+            Event::Silent(silent) => {
+                Self::Silent { to: silent.to, name: silent.name, devices: silent.devices.clone() }
+            }
+        }
+    }
+
+    /// The last line.
+    #[must_use]
+    pub fn summary(summary: &Summary) -> Self {
+        let answers = &summary.answers;
+        let times = || Times {
+            count: answers.count,
+            shortest: answers.shortest.as_secs_f64(),
+            longest: answers.longest.as_secs_f64(),
+            average: answers.average().as_secs_f64(),
+        };
+        let runs = |(reason, (runs, bytes)): (&String, &(u64, u64))| {
+            (reason.clone(), Runs { runs: *runs, bytes: *bytes })
+        };
+        let seen = |(id, model): (&u8, &Option<u16>)| Seen { id: *id, model: *model };
+        Self::Summary {
+            packets: summary.packets.iter().map(|(kind, count)| (*kind, *count)).collect(),
+            skipped: summary.skipped.iter().map(runs).collect(),
+            devices: summary.devices.iter().map(seen).collect(),
+            echoes: summary.echoes,
+            silent: summary.silent,
+            answers: (answers.count > 0).then(times),
+        }
+    }
+}
+
+impl From<Place> for Where {
+    fn from(place: Place) -> Self {
+        let time = place.time.as_ref().map(Duration::as_secs_f64);
+        Self { at: place.at, input_line: place.line, time }
+    }
+}
+
+impl From<Role> for Part {
+    fn from(role: Role) -> Self {
+        match role {
+            Role::Request => Self::Request,
+            Role::Echo => Self::Echo,
+            Role::Answer { to, name, after } => {
+                Self::Answer { to, name, after: after.as_ref().map(Duration::as_secs_f64) }
+            }
+            Role::Unasked => Self::Unasked,
+            Role::Unknown => Self::Unknown,
+        }
+    }
+}
+
+fn said(wire: Wire, heard: &Heard<'_>, turn: &Turn, fields: bool) -> Said {
+    let (context, device, address) = (turn.context.clone(), turn.table, turn.address);
+    let packet = wire.decode(heard.bytes, &context).ok();
+    let asked = Asked { bytes: heard.bytes, context, device, address };
+    let explanation = explain(wire, &asked).ok();
+    let rows = explanation.as_ref().filter(|_| fields).map(|explanation| {
+        let field = |row: &crate::explain::Row| Column {
+            offset: row.offset,
+            bytes: row.bytes.clone(),
+            field: row.field.clone(),
+            meaning: row.meaning.clone(),
+        };
+        explanation.rows.iter().map(field).collect()
+    });
+    Said {
+        place: heard.place.into(),
+        direction: heard.direction,
+        bytes: heard.bytes.to_vec().into(),
+        packet,
+        kind: turn.kind,
+        title: explanation.map(|explanation| explanation.title),
+        device: turn.device,
+        table: device.map(|device| device.id),
+        role: turn.role.into(),
+        notes: turn.notes.clone(),
+        fields: rows,
+    }
+}
+
+/// The lines' JSON Schema, with its name.
+#[must_use]
+pub fn schema() -> (&'static str, String) {
+    ("stream", of_written::<Line>())
+}

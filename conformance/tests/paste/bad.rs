@@ -1,0 +1,66 @@
+//! Inputs that nobody means: one sentence, and no panic.
+
+use std::io::{BufReader, Read as _, repeat};
+
+use actucheck::capture::{self, Form, Unreadable};
+use actucheck::explain::stream::{Follower, wire_of};
+use actucheck_spec::wire::Wire;
+use proptest::prelude::*;
+
+/// A line of 100 MB is refused before it is in memory.
+#[test]
+fn a_line_without_end_is_refused() {
+    for byte in *b"F5 [\\'" {
+        let input = BufReader::new(repeat(byte).take(100 << 20));
+        let error = match capture::open(input, Some(Form::Hex)) {
+            Ok(mut reading) => reading.pieces.find_map(Result::err),
+            Err(error) => Some(error),
+        };
+        let line = Some("line 1: longer than 1 MiB; break it into lines".to_owned());
+        assert_eq!(error.map(|error| error.to_string()), line);
+    }
+}
+
+/// Takes an input through a form and through each wire.
+fn take(input: &[u8], form: Option<Form>) -> Result<(), Unreadable> {
+    let reading = capture::open(std::io::Cursor::new(input.to_vec()), form)?;
+    let mut followers: Vec<_> =
+        Wire::ALL.into_iter().filter_map(|wire| Follower::new(wire, None)).collect();
+    for piece in reading.pieces {
+        let piece = piece?;
+        let _ = wire_of(&[(piece.bytes.clone(), piece.direction)]);
+        for follower in &mut followers {
+            follower.feed(&piece.bytes, piece.direction, piece.line, piece.time, &mut |_| {});
+        }
+    }
+    for follower in &mut followers {
+        follower.end(&mut |_| {});
+    }
+    Ok(())
+}
+
+proptest! {
+    #[test]
+    fn any_text_is_read_or_refused(text in r"([0-9a-fA-F\[\](){}:;=,#'\\|<>*. xX-]|\n|\t|[a-zµ→]|\PC){0,120}") {
+        for form in Form::ALL.into_iter().map(Some).chain([None]) {
+            if let Err(error) = take(text.as_bytes(), form) {
+                prop_assert_eq!(error.to_string().lines().count(), 1);
+            }
+        }
+    }
+
+    #[test]
+    fn any_bytes_are_read_or_refused(
+        bytes in prop::collection::vec(any::<u8>(), 0..200), start in 0..6_usize,
+    ) {
+        let magics: [&[u8]; 6] = [
+            b"", b"\xD4\xC3\xB2\xA1", b"\x0A\x0D\x0D\x0A", b"time,data\n", b"00000000: ", b"b'\\x",
+        ];
+        let input = [magics[start], &bytes].concat();
+        for form in Form::ALL.into_iter().map(Some).chain([None]) {
+            if let Err(error) = take(&input, form) {
+                prop_assert_eq!(error.to_string().lines().count(), 1);
+            }
+        }
+    }
+}
