@@ -12,6 +12,7 @@ mod early_end;
 mod fuzzing;
 mod hostile;
 mod misbehaving;
+mod sanitizer;
 mod several;
 mod templates;
 

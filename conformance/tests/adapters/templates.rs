@@ -15,7 +15,7 @@ class my_library:
         return crc
 
 ";
-const C_LIBRARY: &str = "
+pub(super) const C_LIBRARY: &str = "
 static unsigned my_library_crc(const unsigned char *data, size_t count)
 {
     unsigned crc = 0;
@@ -178,7 +178,7 @@ fn the_one_in_c_gets_a_verdict() {
 }
 
 /// Whether a program is installed.
-fn there_is(program: &str) -> bool {
+pub(super) fn there_is(program: &str) -> bool {
     let version = Command::new(program).arg("--version").output();
     let found = version.is_ok_and(|output| output.status.success());
     if !found {
@@ -188,7 +188,7 @@ fn there_is(program: &str) -> bool {
 }
 
 /// Compiles the program `adapter`.
-fn compile(folder: &Path, compiler: &str, flags: &[&str], file: &str, text: &str) {
+pub(super) fn compile(folder: &Path, compiler: &str, flags: &[&str], file: &str, text: &str) {
     std::fs::write(folder.join(file), text).unwrap();
     let output = Command::new(compiler)
         .args(flags)
@@ -199,7 +199,7 @@ fn compile(folder: &Path, compiler: &str, flags: &[&str], file: &str, text: &str
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
 }
 
-fn template(language: &str) -> String {
+pub(super) fn template(language: &str) -> String {
     let (status, text) = actucheck(&["adapter", "template", language]);
     assert_eq!(status, 0);
     text
