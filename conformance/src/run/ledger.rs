@@ -12,8 +12,11 @@ use std::time::Duration;
 use super::{is_set, lock};
 use crate::suite::check::Check;
 
-/// After so many confirmed losses, the other checks of a requirement and op are not asked.
-const KIND: u32 = 5;
+/// After so many confirmed losses, the other checks of a requirement and op are not asked, if they
+/// are many of those asked: answers that did not come in time.
+const KIND_SILENT: u32 = 5;
+/// The same for all losses: a crash takes little time.
+const KIND: u32 = 32;
 /// The same if they are few of many, but took so long.
 const KIND_TIME: Duration = Duration::from_secs(30);
 /// After so many losses among its last 64 questions, an op is not asked.
@@ -48,6 +51,8 @@ struct Tally {
     asked: u32,
     /// How many losses were confirmed.
     confirmed: u32,
+    /// How many of these were answers that did not come in time.
+    silent: u32,
     /// The time that losses took.
     took: Duration,
     given_up: bool,
@@ -58,6 +63,8 @@ struct Tally {
 pub(super) struct Loss {
     /// Whether it does so again when it is asked again.
     pub(super) confirmed: bool,
+    /// Whether it is an answer that did not come in time.
+    pub(super) silent: bool,
     pub(super) took: Duration,
 }
 
@@ -67,6 +74,7 @@ impl Tally {
         self.asked = (self.asked + 1).min(u64::BITS);
         if let Some(loss) = loss {
             self.confirmed += u32::from(loss.confirmed);
+            self.silent += u32::from(loss.confirmed && loss.silent);
             self.took += loss.took;
         }
     }
@@ -81,8 +89,9 @@ impl Books {
         let op = check.question.name();
         let kind = self.kinds.entry((check.requirement.clone(), op)).or_default();
         kind.add(loss);
-        let often = kind.lost() * 4 >= kind.asked || kind.took > KIND_TIME;
-        kind.given_up |= kind.confirmed >= KIND && often;
+        let often = kind.lost() * 4 >= kind.asked;
+        let many = kind.silent >= KIND_SILENT || kind.confirmed >= KIND;
+        kind.given_up |= often && many || kind.took > KIND_TIME && kind.confirmed >= KIND_SILENT;
         let op = self.ops.entry(op).or_default();
         op.add(loss);
         op.given_up |= op.lost() >= OP;

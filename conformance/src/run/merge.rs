@@ -177,7 +177,8 @@ impl Merge<'_> {
         if let Some(lost) = &doubt.lost {
             let confirmed = outcome.verdict != Verdict::Flaky;
             let took = lost.took + started.elapsed();
-            self.ledger.note(&doubt.check, Some(Loss { confirmed, took }));
+            let silent = outcome.verdict == Verdict::Timeout;
+            self.ledger.note(&doubt.check, Some(Loss { confirmed, silent, took }));
         }
         outcome
     }

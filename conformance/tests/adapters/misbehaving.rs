@@ -87,16 +87,6 @@ fn an_empty_line_is_called_one() {
 }
 
 #[test]
-fn a_flood_without_a_line_end_is_an_adapter_fault() {
-    let run = answering("yes | tr -d '\\n'");
-    // A slow machine notices the time first, and the next time the length.
-    let flooded = ["adapter-fault", "timeout", "flaky"].map(|verdict| run.total(verdict));
-    let flooded = flooded.iter().sum::<u64>();
-    assert!(flooded >= 5 && run.exit() != 0, "{}", run.report["totals"]);
-    assert_eq!(flooded + run.total("not-run"), run.sum(), "{}", run.report["totals"]);
-}
-
-#[test]
 fn answering_an_op_that_does_not_exist_is_an_adapter_fault() {
     let script = WELL_BEHAVED
         .replace(r#"'{"id":%s,"skip":{"reason":"unknown"}}\n'"#, r#"'{"id":%s,"ok":{}}\n'"#)
@@ -164,11 +154,6 @@ fn one_that_answers_for_the_other_role_is_named() {
     assert!(run.stderr().contains(sentence), "{}", run.stderr());
     let run = saying(r#""protocol":2,"roles":["host","device"]"#, &both);
     assert!(!run.stderr().contains("plays"), "{}", run.stderr());
-}
-
-#[test]
-fn its_children_end_with_it() {
-    end_with_it("sleep 600 & echo $! > PID; sleep 600");
 }
 
 /// One in a session of its own is in no group of the adapter's, and its parent has ended.

@@ -1,5 +1,6 @@
-//! A library in C that writes behind its buffer, built with AddressSanitizer.
+//! A library in C that writes behind its buffer, built with `AddressSanitizer`.
 
+use std::path::Path;
 use std::process::Command;
 
 use serde_json::Value;
@@ -72,7 +73,7 @@ fn each_overflow_is_a_finding_and_the_rest_is_judged() {
 }
 
 /// Whether the compiler's sanitizer is installed too, which is a package of its own.
-fn can_sanitize(folder: &std::path::Path) -> bool {
+fn can_sanitize(folder: &Path) -> bool {
     std::fs::write(folder.join("empty.c"), "int main(void) { return 0; }\n").unwrap();
     let built = Command::new("cc")
         .args(["-fsanitize=address", "-o", "empty", "empty.c"])

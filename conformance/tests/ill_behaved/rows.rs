@@ -37,12 +37,14 @@ impl Row {
 const FEW: &[&str] = &["ja40.ping.*", "innfos.handshake.request/*", "innfos.handshake.reply/*"];
 /// Four of the longest packets, and a hundred others.
 const LONG: &[&str] = &["dynamixel2.limit.length-field.*", "dynamixel2.length.*"];
-/// 40 checks of short packets.
-const SHORT: &[&str] = &["dynamixel2.id.1?.*"];
+/// 160 checks of short packets.
+const SHORT: &[&str] = &["dynamixel2.id.[1234]?.*"];
 /// Three packets to build.
 const THREE: &[&str] = &["dynamixel2.id.1[012].ping/encode"];
 /// About a thousand checks.
 const IDS: &[&str] = &["dynamixel2.id.*"];
+/// Ten thousand checks.
+const GENERATED: &[&str] = &["dynamixel2.seed-1.*"];
 const ALL: &[&str] = &[];
 
 /// What most runs take. The program itself takes a fifth of this, mostly for the checks.
@@ -84,11 +86,16 @@ pub(crate) const ROWS: &[Row] = &[
     row("closes its output and lives", "closes-its-output crc", FEW, 1, "3 crash"),
     row("ends after each request", "ends-after always", FEW, 1, "1-20 flaky"),
     row("aborts", "aborts crc", FEW, 1, "3 crash"),
-    row("wrong every thousandth time", "wrong thousandth", ALL, 1, "40-60 flaky"),
+    // Those of every ID, and four that are generated.
+    row("aborts on Pings to eleven", "aborts eleven", ALL, 1, "15 crash"),
+    row("hangs every thousandth time", "hangs thousandth", IDS, 1, "1 flaky"),
+    row("wrong every thousandth time", "wrong thousandth", GENERATED, 1, "8-10 flaky"),
     row("leaves a child", "leaves-a-child crc", FEW, 0, ""),
+    row("leaves a child with setsid", "leaves-a-session crc", FEW, 0, ""),
     row("dies, its child lives", "dies-with-a-child crc", FEW, 1, "3 timeout"),
+    row("as before, with setsid", "dies-with-a-session crc", FEW, 1, "3 timeout"),
     slow("floods its log", "floods-its-log crc", FEW, 0, ""),
-    slow("details of 1 MB", "long-detail always", SHORT, 1, "40 fail"),
+    slow("details of 1 MB", "long-detail always", SHORT, 1, "160 fail"),
     slow("answers 7 MB too long", "long-answer encode", THREE, 1, "3 fail"),
     row("uppercase hex", "uppercase encode", FEW, 3, "4 adapter-fault"),
     row("controls in every string", "controls always", FEW, 1, "3 adapter-fault, 4 fail, 15 skip"),
