@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
@@ -12,7 +12,7 @@ use actucheck::adapter::Wire;
 use actucheck::report::{Collector, End, Run, Stopped, screen};
 use actucheck::run;
 use actucheck::suite::check::Check;
-use actucheck::suite::expect::Expectations;
+use actucheck::suite::expect::{Expectations, Extended, Failures};
 use actucheck::suite::plan::Plan;
 use actucheck::suite::saved;
 use actucheck::verdict::Outcome;
@@ -20,7 +20,7 @@ use actucheck_spec::Spec;
 use clap::Args;
 
 use super::shared::{
-    self, Adapter, Failure, Look, NEXT, Outputs, Reports, Selection, Streams, Subjects,
+    self, Adapter, Failure, Look, NEXT, Outputs, Reports, Selection, Streams, Subjects, Target,
 };
 
 const EXAMPLES: &str = "\
@@ -41,6 +41,12 @@ Examples:
       every outcome as it comes, one JSON object a line
   actucheck codec --cases 20000 --body-length 7 --jobs 4 -- ./my-adapter
       more than half a million checks
+  actucheck codec --write-expect expected.yaml -- ./my-adapter
+      notes what fails today as expected failures, by cause, with reasons to fill in
+  actucheck codec --expect expected.yaml -- ./my-adapter
+      passes as long as only that fails
+  actucheck codec --expect expected.yaml --write-expect expected.yaml -- ./my-adapter
+      adds what is new, and takes out what passes now
   actucheck codec --jobs 4 --max-fail 10 -- ./my-adapter
       four adapters side by side, until something failed ten times
 
@@ -69,6 +75,10 @@ pub(crate) struct Codec {
     /// Expected failures: these checks may fail, and must not pass
     #[arg(long, value_name = "FILE")]
     expect: Option<PathBuf>,
+    /// Write a file for --expect with what failed, by cause, with reasons to fill in; the rows of
+    /// --expect stay, but ids that pass now go
+    #[arg(long, value_name = "FILE")]
+    write_expect: Option<PathBuf>,
     #[command(flatten)]
     reports: Reports,
     #[command(flatten)]
@@ -90,7 +100,10 @@ pub(crate) struct Codec {
 pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     let spec = shared::spec()?;
     let selection = &options.selection;
-    let outputs = Outputs::open(&options.reports, options.adapter.trace())?;
+    let others = options.adapter.trace().into_iter().chain(options.write_expect.as_deref());
+    let outputs = Outputs::open(&options.reports, others)?;
+    let write_expect = options.write_expect.as_ref().map(|path| new_file(path, options));
+    let write_expect = write_expect.transpose()?;
     let (mut outputs, start) = outputs.unless_failed(Start::new(options, &spec))?;
     let Start { mut subjects, wires, plan, records, mut expectations } = start;
     let hello = subjects.hello.clone();
@@ -112,6 +125,7 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     };
     let mut streams = Streams::begin(&mut outputs, &run.header());
     let mut collector = Collector::new(&run);
+    let mut failures = Failures::default();
     let mut limit = Limit::new(options.max_fail);
     let mut handed_on = 0_u64;
     let asked =
@@ -121,6 +135,9 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
                 progress.inc(64);
             }
             expectations.apply(&mut outcome);
+            if write_expect.is_some() {
+                failures.add(&outcome);
+            }
             streams.check(&run, &outcome);
             let goes_on = limit.after(&outcome);
             collector.add(outcome);
@@ -146,8 +163,51 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
         |format, out| format.write(&report, out),
         |out| screen::write(&report, &options.look.terminal(NEXT), out),
     );
-    shared::both(traced, shared::both(streamed, written))?;
+    if report.summary.stopped.is_none() {
+        expectations.remarks().iter().for_each(|remark| anstream::eprintln!("actucheck: {remark}"));
+    }
+    let kept = write_expect.map_or(Ok(()), |target| {
+        let name = target.name.clone();
+        let new = expectations.with(&failures, &plan, &spec).map_err(Failure::incomplete)?;
+        target.write(new.text.as_bytes())?;
+        anstream::eprintln!("actucheck: {}", said(&name, &new, &failures, report.summary.stopped));
+        Ok(())
+    });
+    let problems = [traced, streamed, written, kept];
+    problems.into_iter().fold(Ok(()), shared::both)?;
     Ok(ExitCode::from(report.exit_status()))
+}
+
+/// The file for `--write-expect`. Rows that a person wrote are not lost by mistake.
+fn new_file(path: &Path, options: &Codec) -> Result<Target, Failure> {
+    let target = Target::new(path)?;
+    let is_read = options.expect.as_deref().is_some_and(|read| Target::are_same(read, path));
+    if target.has_content() && !is_read {
+        let name = &target.name;
+        let message =
+            format!("{name} has rows already; give it to --expect too, so that they stay");
+        return Err(Failure::usage(message));
+    }
+    Ok(target)
+}
+
+/// What was written for `--write-expect`, in a sentence.
+fn said(name: &str, new: &Extended, failures: &Failures, stopped: Option<Stopped>) -> String {
+    let (rows, failures) = (new.new, failures.count());
+    let mut said = vec![format!("{name} has {rows} new rows for {failures} failures")];
+    if rows > 0 {
+        said.push("write the reasons".to_owned());
+    }
+    if new.outdated > 0 {
+        said.push(format!("ids that pass now are out: {}", new.outdated));
+    }
+    if new.left_out > 0 {
+        said.push(format!("not in it, as too many or the adapter's own: {}", new.left_out));
+    }
+    if stopped.is_some() {
+        said.push("the run ended early, so more may be needed".to_owned());
+    }
+    said.join("; ")
 }
 
 /// What a run needs before its first check.
@@ -177,7 +237,8 @@ impl<'a> Start<'a> {
             plan.add(more);
         }
         let expectations = match &options.expect {
-            Some(path) => Expectations::read(path, &plan).map_err(Failure::usage)?,
+            Some(path) => Expectations::read(path, &plan, &selection.growth.widest(spec))
+                .map_err(Failure::usage)?,
             None => Expectations::default(),
         };
         selection.restrict(&mut plan)?;

@@ -1,71 +1,43 @@
 //! Expected failures: the checks that a subject is known to fail, each with a reason. The file is
 //! audited: an expected failure that passes is reported.
 
+mod cover;
+mod failures;
+mod file;
+mod known;
+
 use std::collections::BTreeMap;
-use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
-use serde::Deserialize;
-use thiserror::Error;
+use actucheck_spec::Spec;
+
+pub use failures::Failures;
+pub use file::ExpectError;
+use file::{File, Row};
 
 use super::plan::Plan;
 use super::select::Patterns;
-use crate::input::{self, InputError};
 use crate::verdict::{Outcome, Verdict};
-
-/// Why an expected-failures file can't be used.
-#[derive(Debug, Error)]
-pub enum ExpectError {
-    /// It can't be read.
-    #[error(transparent)]
-    Read(#[from] InputError),
-    /// It is not an expected-failures file.
-    #[error("{path}: {message}")]
-    Parse {
-        /// The file.
-        path: String,
-        /// What is wrong, with line and column.
-        message: String,
-    },
-    /// An id in a row is not a glob, or matches no check.
-    #[error("{path}: row {row}: {message}")]
-    Row {
-        /// The file.
-        path: String,
-        /// The row, from 1.
-        row: usize,
-        /// What is wrong.
-        message: String,
-    },
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ExpectationsFile {
-    expected_failures: Vec<Row>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Row {
-    /// Ids of checks, or globs over ids.
-    ids: Vec<String>,
-    /// Why the failure is expected.
-    reason: String,
-    /// A link to a report or other evidence.
-    upstream: Option<String>,
-}
 
 /// The expected failures of a subject, and what came out of them so far.
 #[derive(Debug, Default)]
 pub struct Expectations {
+    /// The file's name; empty without a file.
+    name: String,
+    /// Whether the file has nothing in it.
+    is_blank: bool,
+    /// The comment at its beginning.
+    comment: String,
+    rows: Vec<Arc<Row>>,
     patterns: Patterns,
     /// Of each pattern, in the same order.
     expected: Vec<Expected>,
     /// The passes of checks that are expected to fail, by requirement and by the patterns that match.
     /// Whether a pattern is outdated is known only when all its checks were asked.
     passes: BTreeMap<(String, Vec<usize>), Passes>,
+    /// The first failure that two rows name, with the numbers of the rows.
+    named_twice: Option<(String, usize, usize)>,
 }
 
 /// An id or a glob of a row.
@@ -73,12 +45,21 @@ pub struct Expectations {
 struct Expected {
     /// The row of the id or glob.
     row: Arc<Row>,
+    /// The number of the row, from 1.
+    number: usize,
     /// How many checks it matches.
     checks: usize,
     /// How many of them were asked.
     asked: usize,
     /// Whether one of them failed.
     failed: bool,
+}
+
+impl Expected {
+    /// Whether all checks that it matches were asked and none of them failed.
+    fn is_outdated(&self) -> bool {
+        self.checks > 0 && self.asked == self.checks && !self.failed && !self.row.flaky
+    }
 }
 
 /// How many checks passed, and the first of them.
@@ -103,36 +84,37 @@ pub struct Unexpected {
 }
 
 impl Expectations {
-    /// Reads the file at `path`.
+    /// Reads the file at `path`. A row may name checks that the plan lacks but `widest` could have:
+    /// those of other options.
     ///
     /// # Errors
-    /// If it can't be read, is malformed, or has a row that matches no check of the plan.
-    pub fn read(path: &Path, plan: &Plan<'_>) -> Result<Self, ExpectError> {
+    /// If it can't be read, is malformed, or has an id that no options yield.
+    pub fn read(path: &Path, plan: &Plan<'_>, widest: &Plan<'_>) -> Result<Self, ExpectError> {
         let name = path.display().to_string();
-        let text = input::yaml_text(path)?;
-        let parse = |message| ExpectError::Parse { path: name.clone(), message };
-        let file: ExpectationsFile = input::yaml(&text).map_err(parse)?;
-        let texts = file.expected_failures.iter().flat_map(|row| &row.ids).map(String::as_str);
-        let patterns = Patterns::new(texts).map_err(parse)?;
+        let File { is_blank, comment, rows } = File::read(path)?;
+        let texts = rows.iter().flat_map(|row| &row.ids).map(String::as_str);
+        let patterns = Patterns::new(texts)
+            .map_err(|message| ExpectError::Parse { path: name.clone(), message })?;
         let mut counts = plan.count_matches(&patterns).into_iter();
         let mut expected = Vec::new();
-        for (index, row) in file.expected_failures.into_iter().enumerate() {
-            let row = Arc::new(row);
-            for id in &row.ids {
-                let checks = counts.next().unwrap_or_default();
-                if checks == 0 {
-                    let message = format!("`{id}` is the id of no check");
-                    return Err(ExpectError::Row { path: name, row: index + 1, message });
-                }
-                let row = Arc::clone(&row);
-                expected.push(Expected { row, checks, asked: 0, failed: false });
+        let rows: Vec<_> = rows.into_iter().map(Arc::new).collect();
+        for (row, number) in rows.iter().zip(1..) {
+            for checks in counts.by_ref().take(row.ids.len()) {
+                let row = Arc::clone(row);
+                expected.push(Expected { row, number, checks, asked: 0, failed: false });
             }
         }
-        Ok(Self { patterns, expected, passes: BTreeMap::new() })
+        let strange = expected.iter().zip(patterns.texts()).filter(|(own, _)| own.checks == 0);
+        let strange: Vec<_> = strange.map(|(own, text)| (own.number, text.as_str())).collect();
+        if let Some((row, message)) = known::first_unknown(&strange, widest) {
+            return Err(ExpectError::Row { path: name, row, message });
+        }
+        let (passes, named_twice) = Default::default();
+        Ok(Self { name, is_blank, comment, rows, patterns, expected, passes, named_twice })
     }
 
     /// Turns an expected failure into [`Verdict::ExpectedFailure`], and notes a pass that is not
-    /// expected.
+    /// expected. If several rows name a check, the first one has the reason.
     pub fn apply(&mut self, outcome: &mut Outcome) {
         let matches = self.patterns.matches(&outcome.id);
         let failed = outcome.verdict.is_failure();
@@ -140,12 +122,18 @@ impl Expectations {
             let Some(expected) = self.expected.get_mut(*place) else { continue };
             expected.asked += 1;
             expected.failed |= failed;
-            if outcome.verdict.is_failure() {
-                outcome.verdict = Verdict::ExpectedFailure;
-                outcome.reason = Some(expected.row.to_string());
+        }
+        let mut own = matches.iter().filter_map(|place| self.expected.get(*place));
+        let Some(first) = own.next() else { return };
+        if failed {
+            outcome.verdict = Verdict::ExpectedFailure;
+            outcome.reason = Some(first.row.to_string());
+            let other = own.find(|other| other.number != first.number);
+            if let Some(other) = other.filter(|_| self.named_twice.is_none()) {
+                self.named_twice = Some((outcome.id.clone(), first.number, other.number));
             }
         }
-        if outcome.verdict == Verdict::Pass && !matches.is_empty() {
+        if outcome.verdict == Verdict::Pass {
             let passes = self.passes.entry((outcome.requirement.clone(), matches)).or_default();
             passes.count += 1;
             if passes.first.len() < KEPT {
@@ -155,19 +143,17 @@ impl Expectations {
     }
 
     /// At the end of a run: the passes of checks that an outdated id or glob matches, as
-    /// [`Verdict::UnexpectedPass`]. It is outdated if all checks that it matches were asked and none of
-    /// them failed.
+    /// [`Verdict::UnexpectedPass`].
     #[must_use]
-    pub fn unexpected(self) -> Vec<Unexpected> {
-        let Self { patterns, expected, passes } = self;
-        let stale = |place: &usize| {
-            let expected = expected.get(*place)?;
-            let stale = !expected.failed && expected.asked == expected.checks;
-            if stale { patterns.texts().get(*place) } else { None }
+    pub fn unexpected(&mut self) -> Vec<Unexpected> {
+        let outdated = |place: &usize| {
+            let is_outdated = self.expected.get(*place)?.is_outdated();
+            self.patterns.texts().get(*place).filter(|_| is_outdated)
         };
         let mut all = Vec::new();
-        for ((requirement, places), Passes { count, mut first }) in passes {
-            let Some(text) = places.iter().find_map(stale) else { continue };
+        for ((requirement, places), passes) in std::mem::take(&mut self.passes) {
+            let Some(text) = places.iter().find_map(outdated) else { continue };
+            let Passes { count, mut first } = passes;
             for outcome in &mut first {
                 outcome.verdict = Verdict::UnexpectedPass;
                 outcome.detail = format!(
@@ -178,11 +164,71 @@ impl Expectations {
         }
         all
     }
+
+    /// What a user should know about the file, at the end of a run that asked all its checks; one
+    /// sentence each.
+    #[must_use]
+    pub fn remarks(&self) -> Vec<String> {
+        let name = &self.name;
+        if self.is_blank {
+            return vec![format!("{name} is empty, so no failure is expected")];
+        }
+        let mut remarks = Vec::new();
+        let texts = self.patterns.texts().iter().zip(&self.expected);
+        let idle: Vec<_> = texts.filter(|(_, own)| own.asked == 0).map(|(text, _)| text).collect();
+        if let Some(first) = idle.first() {
+            let (idle, all) = (idle.len(), self.expected.len());
+            remarks.push(format!(
+                "{name}: {idle} of {all} ids name no check that was asked, the first of them \
+                 `{first}`; another --seed, --cases, --body-length, --wire, --select or --also has them"
+            ));
+        }
+        if let Some((id, first, other)) = &self.named_twice {
+            remarks.push(format!(
+                "{name}: row {other} names `{id}` again; the reason in row {first} is taken"
+            ));
+        }
+        remarks
+    }
+
+    /// At the end of a run: the file that expects these failures as well. Rows stay, but outdated ids
+    /// go.
+    ///
+    /// # Errors
+    /// If it can't be written as YAML; no such file is known.
+    pub fn with(
+        &self,
+        failures: &Failures,
+        plan: &Plan<'_>,
+        spec: &Spec,
+    ) -> Result<Extended, serde_yaml::Error> {
+        let mut expected = self.expected.iter();
+        let kept = self.rows.iter().filter_map(|row| {
+            let own = row.ids.iter().zip(expected.by_ref());
+            let ids = own.filter(|(_, own)| !own.is_outdated()).map(|(id, _)| id.clone());
+            let ids: Vec<_> = ids.collect();
+            (!ids.is_empty()).then(|| Row { ids, ..Row::clone(row) })
+        });
+        let mut rows: Vec<_> = kept.collect();
+        let (more, left_out) = failures.rows(plan, spec);
+        let new = more.len();
+        rows.extend(more);
+        let outdated = self.expected.iter().filter(|own| own.is_outdated()).count();
+        let comment = self.comment.clone();
+        let text = File { is_blank: false, comment, rows }.text()?;
+        Ok(Extended { text, new, outdated, left_out })
+    }
 }
 
-impl fmt::Display for Row {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.reason)?;
-        self.upstream.as_ref().map_or(Ok(()), |upstream| write!(f, " ({upstream})"))
-    }
+/// An expected-failures file with the failures of a run.
+#[derive(Debug)]
+pub struct Extended {
+    /// Its YAML text.
+    pub text: String,
+    /// How many of its rows are new.
+    pub new: usize,
+    /// How many ids were outdated, and are not in it.
+    pub outdated: usize,
+    /// How many failures are not in it: there are too many, or the adapter itself is at fault.
+    pub left_out: usize,
 }

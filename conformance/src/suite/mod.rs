@@ -52,6 +52,14 @@ impl Options {
     pub const fn with_bodies(self, length: u32) -> Self {
         Self { body_length: length, ..self }
     }
+
+    /// The same with every kind of check that others have.
+    #[must_use]
+    pub fn widest(self) -> Self {
+        let limits = Limits { max_packet: Some(1000), max_send: None, max_receive: None };
+        let cases = self.cases.max(100);
+        Self { cases, body_length: Self::LONGEST_BODY, limits, ..self }
+    }
 }
 
 impl Default for Options {

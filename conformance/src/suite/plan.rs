@@ -107,12 +107,7 @@ impl<'a> Plan<'a> {
     /// Patterns each of which matches a check.
     fn patterns(&self, texts: &[String]) -> Result<Patterns, String> {
         let patterns = Patterns::new(texts.iter().map(String::as_str))?;
-        let mut idle: BTreeSet<_> = (0..texts.len()).collect();
-        self.each_match(&patterns, |place| {
-            idle.remove(&place);
-            if idle.is_empty() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        });
-        match idle.first().and_then(|place| texts.get(*place)) {
+        match self.unmatched(&patterns).first().and_then(|place| texts.get(*place)) {
             Some(text) => Err(format!("`{text}` matches no check; {}", self.hint(text))),
             None => Ok(patterns),
         }
@@ -126,6 +121,16 @@ impl<'a> Plan<'a> {
             Some(id) => format!("did you mean `{id}`?"),
             None => "`*` stands for any text, as in `*stuffing*`".to_owned(),
         }
+    }
+
+    /// The places of the patterns that match no check, even if the plan is restricted.
+    pub(super) fn unmatched(&self, patterns: &Patterns) -> BTreeSet<usize> {
+        let mut idle: BTreeSet<_> = (0..patterns.texts().len()).collect();
+        self.each_match(patterns, |place| {
+            idle.remove(&place);
+            if idle.is_empty() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        idle
     }
 
     /// How many checks each pattern matches, even if the plan is restricted.
@@ -207,6 +212,12 @@ impl<'a> Plan<'a> {
         let groups = families.flat_map(Family::named).filter(|group| self.may_have(&group.stem));
         let ids = groups.flat_map(|group| group.ids().collect::<Vec<_>>());
         Box::new(ids.filter(|id| self.has(id)))
+    }
+
+    /// The id of every check, even if the plan is restricted.
+    pub(super) fn every_id(&self) -> impl Iterator<Item = String> {
+        let groups = self.families.iter().flat_map(Family::named);
+        groups.flat_map(|group| group.ids().collect::<Vec<_>>())
     }
 
     /// How many checks there are.

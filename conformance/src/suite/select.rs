@@ -5,6 +5,16 @@ use std::ops::Bound;
 
 use globset::{GlobBuilder, GlobSet, GlobSetBuilder};
 
+/// Whether a letter has a meaning in a glob.
+fn is_special(letter: char) -> bool {
+    "*?[]{}!\\".contains(letter)
+}
+
+/// A pattern that matches this text only.
+pub(super) fn exactly(text: &str) -> String {
+    if text.contains(is_special) { globset::escape(text) } else { text.to_owned() }
+}
+
 /// Ids, and globs over ids.
 #[derive(Debug, Default)]
 pub struct Patterns {
@@ -27,17 +37,13 @@ impl Patterns {
         let mut globs = GlobSetBuilder::new();
         for (place, text) in patterns.into_iter().enumerate() {
             new.texts.push(text.to_owned());
-            let glob = GlobBuilder::new(text)
-                .build()
-                .map_err(|error| format!("`{text}` is no glob: {}", error.kind()))?;
-            let special = |letter: char| "*?[]{}!\\".contains(letter);
-            match text.split_once(special) {
-                None => new.ids.entry(text.to_owned()).or_default().push(place),
-                Some((start, _)) => {
-                    globs.add(glob);
-                    new.starts.push((place, start.to_owned()));
-                }
-            }
+            let Some((start, _)) = text.split_once(is_special) else {
+                new.ids.entry(text.to_owned()).or_default().push(place);
+                continue;
+            };
+            let glob = GlobBuilder::new(text).build();
+            globs.add(glob.map_err(|error| format!("`{text}` is no glob: {}", error.kind()))?);
+            new.starts.push((place, start.to_owned()));
         }
         new.globs = globs.build().map_err(|error| error.to_string())?;
         Ok(new)

@@ -110,7 +110,7 @@ fn report(name: &str, only: &str, bend: fn(&Question, Answer) -> Answer, expect:
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("expected-failures.yaml");
     std::fs::write(&file, format!("expected_failures: {expect}\n")).unwrap();
-    let mut expectations = Expectations::read(&file, &plan).unwrap();
+    let mut expectations = Expectations::read(&file, &plan, &plan).unwrap();
     let run = run(&implementation);
     let mut collector = Collector::new(&run);
     for mut outcome in outcomes {

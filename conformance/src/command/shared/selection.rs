@@ -100,6 +100,11 @@ impl Growth {
         suite::plan(spec, wires, &self.options(hello))
     }
 
+    /// Checks of every kind that other options, or another implementation, have.
+    pub(crate) fn widest<'a>(&self, spec: &'a Spec) -> Plan<'a> {
+        suite::plan(spec, &Wire::ALL, &self.options(None).widest())
+    }
+
     /// What decides which checks a wire has.
     pub(crate) fn options(&self, hello: Option<&Hello>) -> Options {
         let limits = hello.map(|hello| hello.limits).unwrap_or_default();

@@ -55,6 +55,17 @@ impl Target {
         matches!(self.place, Place::Stdout)
     }
 
+    /// Whether it is a file with content, which would be replaced.
+    pub(crate) fn has_content(&self) -> bool {
+        let Place::File { path, .. } = &self.place else { return false };
+        fs::metadata(path).is_ok_and(|metadata| metadata.len() > 0)
+    }
+
+    /// Whether both paths are of the same file.
+    pub(crate) fn are_same(one: &Path, other: &Path) -> bool {
+        matches!((path::followed(one), path::followed(other)), (Ok(one), Ok(other)) if one == other)
+    }
+
     /// Refuses to write a file twice, whatever its names.
     pub(crate) fn all_differ<'a>(paths: impl IntoIterator<Item = &'a Path>) -> Result<(), Failure> {
         let mut before: Vec<(&Path, PathBuf)> = Vec::new();
