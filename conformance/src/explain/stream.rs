@@ -1,6 +1,6 @@
 //! Follows a stream: its packets, the bytes between them, who asks and who answers.
 //!
-//! A wire has two parts here. [`Split`] finds its frames, and [`Converse`] knows what a frame is in
+//! A wire has two parts here. `Split` finds its frames, and `Converse` knows what a frame is in
 //! the conversation. [`Follower`] knows where and when each byte was.
 
 pub mod lines;
