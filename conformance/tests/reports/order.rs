@@ -17,7 +17,8 @@ const REPORT: &[&[&str]] = &[
     &["compare"],
     &["schema"],
 ];
-const COMPARE: &[&[&str]] = &[&["model"], &["words"], &["text", "markdown", "html"]];
+const COMPARE: &[&[&str]] =
+    &[&["model"], &["words"], &["regression"], &["text", "markdown", "html"]];
 
 /// The modules after `path` that a source names, as in `path::one` or `path::{one, two::Type}`.
 fn named<'a>(source: &'a str, path: &str) -> Vec<&'a str> {

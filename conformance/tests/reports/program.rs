@@ -142,6 +142,22 @@ fn reports_are_compared() {
     assert_eq!((status, stderr.as_str()), (0, ""));
     assert!(stdout.contains("    dynamixel2.stuffing.transmit  pass  fail 1/2\n"), "{stdout}");
     assert!(fs::read_to_string(folder.path().join("page.html")).unwrap().contains("unstuffed"));
+
+    let judged = |first, second| {
+        let compare = ["report", "compare", first, second, "--fail-on-regression"];
+        actucheck(folder.path(), &compare)
+    };
+    let (status, stdout, stderr) = judged("report.json", "other.json");
+    assert_eq!(status, 1);
+    assert!(
+        stdout.contains("dynamixel2.stuffing.transmit"),
+        "the comparison is written all the same"
+    );
+    let sentence = "actucheck: worse than in the first report: ";
+    assert!(stderr.starts_with(sentence), "{stderr}");
+    assert!(stderr.contains("dynamixel2.stuffing.transmit: 1 check failed, 0 before"), "{stderr}");
+    let (status, _, stderr) = judged("other.json", "other.json");
+    assert_eq!((status, stderr.as_str()), (0, ""));
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use actucheck::report::Format;
-use actucheck::report::compare::{self, Comparison};
+use actucheck::report::compare::{self, Comparison, Regression};
 use clap::Args;
 
 use super::read;
@@ -16,11 +16,15 @@ Examples:
   actucheck codec --report json=theirs.json -- ./their-adapter
   actucheck report compare ours.json theirs.json
   actucheck report compare *.json --report html=matrix.html
+  actucheck report compare yesterday.json today.json --fail-on-regression
 
 Compared are the totals and the verdict of each requirement, and what is done where the documents
 leave a question unspecified. Of what an implementation gets wrong, the smallest check is shown.
 
-Exit status: 0 compared, 2 wrong usage.";
+A requirement is met worse than in the first report if more of as many checks fail, expected or
+not; if any of another number of checks fails and none did before; or if none is judged any more.
+
+Exit status: 0 compared, 1 something is worse and --fail-on-regression is given, 2 wrong usage.";
 
 /// Shows which implementation breaks which requirement
 #[derive(Debug, Args)]
@@ -32,6 +36,9 @@ pub(crate) struct Compare {
     /// Reports of the same wire
     #[arg(required = true, value_name = "REPORT")]
     others: Vec<PathBuf>,
+    /// Fail if a requirement is met worse than in the first report
+    #[arg(long)]
+    fail_on_regression: bool,
     #[command(flatten)]
     reports: Reports,
 }
@@ -47,5 +54,21 @@ pub(crate) fn run(options: &Compare) -> Result<ExitCode, Failure> {
         |format, out| format.write_comparison(&comparison, out),
         |out| compare::write_text(&comparison, out),
     )?;
-    Ok(ExitCode::SUCCESS)
+    match comparison.regressions().as_slice() {
+        regressions @ [_, ..] if options.fail_on_regression => {
+            Err(Failure::failed(worse(regressions)))
+        }
+        _ => Ok(ExitCode::SUCCESS),
+    }
+}
+
+/// The first few regressions, and how many more there are.
+fn worse(regressions: &[Regression]) -> String {
+    const SHOWN: usize = 5;
+    let first: Vec<_> = regressions.iter().take(SHOWN).map(ToString::to_string).collect();
+    let more = match regressions.len().saturating_sub(SHOWN) {
+        0 => String::new(),
+        more => format!("; and {more} more"),
+    };
+    format!("worse than in the first report: {}{more}", first.join("; "))
 }

@@ -4,6 +4,7 @@
 mod html;
 mod markdown;
 mod model;
+mod regression;
 mod text;
 mod words;
 
@@ -12,6 +13,7 @@ use std::io::{self, Write};
 use anstream::adapter::strip_bytes;
 
 pub use model::{Answers, Cell, Comparison, Implementation, NoCommonWire, Row, Standing};
+pub use regression::{Regression, Worse};
 pub use text::write as write_text;
 
 use super::format::Format;
