@@ -93,6 +93,12 @@ impl Verdict {
         matches!(self, Self::Fail | Self::Flaky | Self::Timeout | Self::Crash | Self::AdapterFault)
     }
 
+    /// Whether it accuses a requirement: a failure that is a fact.
+    #[must_use]
+    pub const fn accuses(self) -> bool {
+        self.is_failure() && !matches!(self, Self::Flaky)
+    }
+
     /// Whether a check with this verdict can be the cause of a later one's verdict. A crash has a
     /// cause of its own, unless the earlier check crashed too. What is not certain explains nothing,
     /// and nothing explains it.

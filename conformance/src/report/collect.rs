@@ -71,7 +71,7 @@ impl<'a> Collector<'a> {
         if let Some(reason) = &outcome.reason {
             self.expected_failures.add(reason, &outcome.id);
         }
-        if outcome.verdict.is_failure() && outcome.verdict != Verdict::Flaky {
+        if outcome.verdict.accuses() {
             self.accuse(&outcome);
         }
         if let Some(behaviour) = &outcome.behaviour {

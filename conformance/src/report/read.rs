@@ -227,7 +227,7 @@ fn wrong_causes(report: &Report) -> Option<String> {
     }
     // Of each requirement: how many of its own checks failed, and how many of others because of it.
     let mut counted: BTreeMap<&str, (usize, usize)> = BTreeMap::new();
-    for row in report.not_passed.iter().filter(|row| row.verdict.is_failure()) {
+    for row in report.not_passed.iter().filter(|row| row.verdict.accuses()) {
         let own = row.count.saturating_sub(sum(row.following.values().copied()));
         let (failed, _) = counted.entry(&row.requirement).or_default();
         *failed = failed.saturating_add(own);
