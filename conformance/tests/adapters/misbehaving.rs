@@ -90,7 +90,7 @@ fn an_empty_line_is_called_one() {
 fn answering_an_op_that_does_not_exist_is_an_adapter_fault() {
     let script = WELL_BEHAVED
         .replace(r#"'{"id":%s,"skip":{"reason":"unknown"}}\n'"#, r#"'{"id":%s,"ok":{}}\n'"#)
-        .replace("ANSWER", r#"printf '{"id":%s,"skip":{}}\n' "$id""#);
+        .replace("ANSWER", r#"printf '{"id":%s,"skip":{"reason":"no"}}\n' "$id""#);
     let run = check(&script);
     assert_eq!(run.exit(), 3);
     assert!(run.detail("adapter-fault").contains("must be answered with `skip`"));
