@@ -14,7 +14,7 @@ pub mod compose;
 pub mod explain;
 pub mod input;
 pub mod legible;
-pub mod nearest;
+pub mod names;
 pub mod report;
 pub mod run;
 mod shrink;

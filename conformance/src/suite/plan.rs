@@ -12,7 +12,7 @@ use actucheck_spec::model::Level;
 
 use super::check::Check;
 use super::select::Patterns;
-use crate::nearest::nearest;
+use crate::names::nearest;
 
 /// Every check of a run, in a fixed order.
 pub struct Plan<'a> {

@@ -234,11 +234,17 @@ impl Spec {
         self.errata.content.errata.iter().find(|erratum| erratum.id == id)
     }
 
+    /// Whether one of these errata is open.
+    #[must_use]
+    pub fn depends_on_open(&self, errata: &[String]) -> bool {
+        let open = |id: &String| self.erratum(id).is_some_and(|row| row.status == Status::Open);
+        errata.iter().any(open)
+    }
+
     /// Whether the documents agree on a range: it depends on no open erratum.
     #[must_use]
     pub fn settles(&self, range: &Range) -> bool {
-        let open = |id: &String| self.erratum(id).is_some_and(|row| row.status == Status::Open);
-        !range.errata.iter().any(open)
+        !self.depends_on_open(&range.errata)
     }
 
     /// The use of each sentence of a document, if the file exists.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use actucheck::nearest::nearest;
+use actucheck::names::similar;
 use actucheck_spec::Spec;
 use actucheck_spec::model::{
     Citation, Device, Erratum, Register, Requirement, Vector, VectorsFile,
@@ -79,16 +79,11 @@ fn unknown(spec: &Spec, id: &str) -> String {
     });
     let asks = Wire::ALL.into_iter().flat_map(|wire| wire.asks(spec)).map(|row| row.id);
     let all = rows.map(|row| row.id.clone()).chain(errata).chain(registers).chain(asks);
-    let wanted = id.to_lowercase();
-    let near: BTreeSet<_> =
-        all.clone().filter(|known| known.to_lowercase().contains(&wanted)).take(8).collect();
-    if let (true, Some(other)) = (near.is_empty(), nearest(&wanted, all)) {
-        format!("the spec has no `{id}`; did you mean {other}?")
-    } else if near.is_empty() {
-        format!("the spec has no `{id}`; `actucheck spec coverage` and `spec errata` list ids")
-    } else {
-        let near: Vec<_> = near.into_iter().collect();
-        format!("the spec has no `{id}`; did you mean {}?", near.join(", "))
+    match similar(id, all).as_slice() {
+        [] => {
+            format!("the spec has no `{id}`; `actucheck spec coverage` and `spec errata` list ids")
+        }
+        others => format!("the spec has no `{id}`; did you mean {}?", others.join(", ")),
     }
 }
 

@@ -41,6 +41,7 @@ use actucheck_spec::wire::dynamixel2::Packet;
 use actucheck_spec::wire::dynamixel2::reference::PREFIX;
 
 use crate::adapter::{Called, Output, Question};
+use crate::names::as_word;
 use crate::suite::check::{Check, Demand, Unspecified, Way};
 use crate::suite::plan::Family;
 use crate::suite::{Author, Options};
@@ -131,7 +132,7 @@ fn of_building(requirement: &str) -> &str {
 
 /// The requirement on an instruction's parameters: `dynamixel2.sync-read.parameters`.
 pub(crate) fn parameters_of(spec: &Spec, name: &str) -> String {
-    let name = name.to_lowercase().replace(' ', "-");
+    let name = as_word(name);
     let name = if name == "control-table-backup" { "backup".to_owned() } else { name };
     let ids = ["dynamixel2", "ja40"].map(|document| format!("{document}.{name}.parameters"));
     ids.into_iter()

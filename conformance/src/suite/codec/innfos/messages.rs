@@ -2,7 +2,6 @@
 
 mod basics;
 
-use actucheck_spec::model::Status;
 use actucheck_spec::wire::innfos::reference::{self, Meaning};
 use actucheck_spec::wire::innfos::{Actuator, Command, Format, FullScale, Operation, Packet};
 use actucheck_spec::wire::{Direction, Message, Number, Value};
@@ -11,6 +10,7 @@ pub(super) use self::basics::family as basics;
 pub(in crate::suite::codec) use self::basics::rests_on;
 use super::tables;
 use crate::adapter::{Output, Question, Told};
+use crate::names::as_word;
 use crate::suite::check::{Check, Demand};
 use crate::suite::plan::{Family, Group};
 use crate::suite::{Author, hex};
@@ -44,7 +44,7 @@ pub(super) fn family(author: Author<'_>, direction: Direction) -> Family<'_> {
 
 /// A model's name for an id.
 fn name(model: &Actuator) -> String {
-    model.name.to_lowercase().replace(' ', "-")
+    as_word(&model.name)
 }
 
 /// A packet, its row, and the model that it is about if its value is a fraction of a full scale.
@@ -121,11 +121,8 @@ fn values(author: Author<'_>, row: &Command, format: Format) -> Vec<Vec<u8>> {
 /// a fraction of the model's full scale or of 6000 RPM, and some rows have no unit.
 fn is_unspecified(author: Author<'_>, row: &Command, format: Option<Format>) -> bool {
     let is_number = matches!(format, Some(Format::Iq8 | Format::Iq24 | Format::Scaled));
-    let errata = author.spec.errata.content.errata.iter();
-    let mut open = errata.filter(|erratum| erratum.status == Status::Open);
-    let rests_on_open = open.any(|erratum| row.errata.contains(&erratum.id));
     is_number
-        && rests_on_open
+        && author.spec.depends_on_open(&row.errata)
         && (row.unit.is_none() || row.full_scale == Some(FullScale::MotorSpeed))
 }
 

@@ -15,6 +15,7 @@ pub(super) use self::basics::family as basics;
 pub(in crate::suite::codec) use self::basics::rests_on;
 use self::cases::Case;
 use crate::adapter::{Given, Output, Question, RegisterOf};
+use crate::names::as_word;
 use crate::suite::Author;
 use crate::suite::check::{Check, Demand};
 use crate::suite::plan::{Family, Group};
@@ -38,8 +39,8 @@ fn groups<'a>(
     register: &'a Register,
 ) -> impl Iterator<Item = Group<'a>> {
     cases::of(device, register).into_iter().map(move |case| {
-        let id = format!("{}.value.{}", device.device, words(&register.name));
-        let field = case.field.map_or_else(String::new, |name| format!(".{}", words(name)));
+        let id = format!("{}.value.{}", device.device, as_word(&register.name));
+        let field = case.field.map_or_else(String::new, |name| format!(".{}", as_word(name)));
         let id = format!("{id}{field}.{}", case.raw);
         let names: &[&str] =
             if is_written(register, &case) { &["/read", "/write"] } else { &["/read"] };
@@ -94,9 +95,4 @@ fn checks(
         checks.push(check("write", Given::Value(value), written));
     }
     checks
-}
-
-/// A name as part of an id: `goal-position`.
-fn words(name: &str) -> String {
-    name.to_lowercase().replace(' ', "-")
 }
