@@ -180,6 +180,10 @@ fn values_are_counts_names_flags_or_amounts() {
     assert_eq!(data("'current-limit=1000 mA'")[..2], [0x8D, 0x01]);
     assert_eq!(data("goal-position=-1")[..4], [0xFF; 4]);
     assert_eq!(data("operating-mode=position-control-mode")[..1], [3]);
+    let id = bytes(&spec, "sync-write --device ja40 1:id=5");
+    assert_eq!(id[8..14], [0x07, 0x00, 0x01, 0x00, 0x01, 0x05]);
+    // What a speed is a fraction of is unspecified, so none is too large.
+    bytes(&spec, "--wire innfos write --id 6 speed=9000 --actuator dd-6010");
 }
 
 #[test]
@@ -191,12 +195,27 @@ fn what_the_spec_refuses_is_said() {
         ("write --id 1 --device ja40 baud-rate=9", "may be 0 to 4, not 9"),
         ("bulk-read --device ja40 1:goal-position", "JA40 has no instruction Bulk Read"),
         ("read --id 1 params=00", "the parameters do not fit Read"),
-        ("sync-read --id 1 params=8400", "the parameters do not fit Sync Read"),
+        ("sync-read params=8400", "the parameters do not fit Sync Read"),
+        ("sync-write address=116 length=4 1:data=0000", "the parameters do not fit Sync Write"),
+        ("write --id 1 --device ja40 address=580 data=00000000", "Present Position is read-only"),
+        ("write --id 1 --device ja40 params='08 00 09'", "Baud Rate may be 0 to 4, not 9"),
+        ("read --id 1 --device ja40 address=582 length=2", "Present Position is at 580 to 583"),
+        ("read --id 1 --device ja40 address=578 length=6", "Present Velocity is at 576 to 579"),
+        ("write --id 1 --device ja40 address=564 data=0000", "Goal Position is at 564 to 567"),
+        ("sync-read --id 1,2 --device ja40 address=580 length=2", "the packet has a part of it"),
+        (
+            "sync-write --device ja40 address=564 length=2 1:data=0000 2:data=0000",
+            "the packet has a part of it",
+        ),
         ("status --id 1 error=9", "no error number 0x09"),
         ("0x9A --id 254", "no instruction 0x9A"),
         ("clear --id 1 option=1 key=00000000", "another key"),
         ("factory-reset --id 1 option=7", "no option 7"),
         ("--wire innfos 0x06 --id 6 data=0102", "the document's tables have no such packet"),
+        (
+            "--wire innfos write --id 6 current=33.1 --actuator dd-6010",
+            "Current may be -33 to 33 A, the full scale",
+        ),
     ] {
         let composed = composed(&spec, words).unwrap();
         assert_eq!(composed.refused.len(), 1, "{words}: {:?}", composed.refused);
@@ -222,11 +241,31 @@ fn what_makes_no_packet_says_why() {
         ("pong --id 1", "no instruction is called `pong`; there are ping"),
         ("ping", "add --id"),
         ("ping --id 1,2", "this packet has one ID"),
+        ("ping --id 1 --actuator dd-6010", "for another wire"),
+        ("ping --id 1 --direction reply", "for another wire"),
+        ("ping --id 1 --device ja40 goal-position", "is about no registers"),
+        ("clear --id 1 key=44584C22", "add option"),
+        ("0x9A --id 1 data=00", "give `params=HEX` alone"),
+        ("read --id 1 params=00 address=1", "no other word"),
+        ("ping --id 1 2:params=00", "no list of devices"),
+        ("status --id 1 2:error=1", "no list of devices"),
+        ("status --id 1 error=1+2", "one error"),
+        ("status --id 1 error=1 error=2", "`error` is given twice"),
+        ("status --id 1 --device ja40 present-position", "each register needs one"),
+        ("status --id 1 --device ja40 params=00 present-position=1", "not both"),
+        ("fast-status --id 1,2 params=00", "put the ID of a device before `params`"),
+        ("write --id 1 --device ja40 address=1 goal-position=5", "not both"),
+        ("sync-write --device ja40 address=1 length=4 1:goal-position=5", "not both"),
+        ("sync-write --device ja40 goal-position=5 1:data=00 2:data=01", "not both"),
+        ("sync-read --id 1 params=84000400", "the devices are in `params=HEX`"),
+        ("bulk-read --id 1,1 --device ja40 goal-position", "names device 1 twice"),
         ("write --id 1 goal-position=5", "for a register add --device, one of ja"),
-        ("write --id 1 --device ja40 goal-postion=5", "goal-position"),
+        ("write --id 1 --device ja40 goal-postion=5", "did you mean goal-position?"),
+        ("read --id 1 --device ja40 current", "did you mean current-limit, goal-current, pre"),
+        ("read --id 1 --device ja40 xyz", "and others"),
         ("write --id 1 --device ja40 goal-position=45deg", "its unit is count"),
         ("write --id 1 --device ja40 operating-mode=300", "its type is u8"),
-        ("write --id 1 --device ja40 goal-position", "needs a value"),
+        ("write --id 1 --device ja40 goal-position", "each register needs one"),
         ("read --id 1 --device ja40 goal-position=5", "writes nothing"),
         ("write --id 1 --device ja40 id=5 goal-position=5", "does not follow"),
         ("read --id 1 address=132", "give length"),
@@ -238,6 +277,8 @@ fn what_makes_no_packet_says_why() {
         ("--wire innfos write --id 6 position=200", "no room for it"),
         ("--wire innfos write --id 6 current=1", "add --actuator, one of"),
         ("--wire innfos read --id 6 position=1", "a request has no value here"),
+        ("--wire innfos read --id 6 7:position", "no list of devices"),
+        ("--wire innfos read --id 6 position --device ja40", "for another wire"),
     ] {
         let sentence = composed(&spec, words).unwrap_err().to_string();
         assert!(sentence.contains(reason) && !sentence.contains('\n'), "{words}: {sentence}");

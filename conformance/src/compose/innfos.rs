@@ -7,7 +7,8 @@ use actucheck_spec::wire::innfos::{
 use actucheck_spec::wire::{Direction, Message, Number, Value};
 
 use super::{
-    ComposeError, Composed, Phrase, Word, as_word, hex_of, named, no_value, number, unknown,
+    ComposeError, Composed, Phrase, Word, as_word, for_one_device, hex_of, named, no_value, number,
+    unknown,
 };
 
 /// What a flag may be called, and what the reference model calls it.
@@ -24,12 +25,17 @@ const FLAGS: [(&str, &str); 8] = [
 
 pub(super) fn compose(spec: &Spec, phrase: &Phrase<'_>) -> Result<Composed, ComposeError> {
     let innfos = &spec.wires.innfos.content;
+    if phrase.device.is_some() {
+        let message = "--device is for another wire; take it away";
+        return Err(ComposeError::Misplaced(message.to_owned()));
+    }
+    for_one_device(phrase)?;
     let address = address(phrase)?;
+    let mut refused = Vec::new();
     let packet = match number::whole(phrase.verb).map(u8::try_from) {
         Some(Ok(command)) => coded(phrase, address, command)?,
-        _ => named_command(innfos, phrase, address)?,
+        _ => named_command(spec, phrase, address, &mut refused)?,
     };
-    let mut refused = Vec::new();
     if !reference::is_in_tables(innfos, &packet) {
         refused.push("the document's tables have no such packet".to_owned());
     }
@@ -61,10 +67,12 @@ fn coded(phrase: &Phrase<'_>, address: u8, command: u8) -> Result<Packet, Compos
 }
 
 fn named_command(
-    innfos: &Innfos,
+    spec: &Spec,
     phrase: &Phrase<'_>,
     address: u8,
+    refused: &mut Vec<String>,
 ) -> Result<Packet, ComposeError> {
+    let innfos = &spec.wires.innfos.content;
     let operation = match as_word(phrase.verb).as_str() {
         "read" => Operation::Read,
         "write" => Operation::Write,
@@ -85,12 +93,31 @@ fn named_command(
     };
     let direction = phrase.direction;
     let value = value(innfos, row, direction, word, actuator)?;
+    if let Some(Value::Number(number)) = value {
+        refused.extend(outside(spec, row, number, actuator));
+    }
     let message = Message { direction, address, command: row.code, value };
     let packet = reference::packet(innfos, &message, actuator);
     let fits = packet.filter(|packet| says(innfos, packet, &message, actuator));
     fits.ok_or_else(|| {
         let given = word.value.as_deref().unwrap_or_default();
         no_value(given, &row.name, "the packet has no room for it")
+    })
+}
+
+/// Why the spec refuses a number: a fraction is at most the whole. A scale that depends on an open
+/// erratum refuses nothing.
+fn outside(
+    spec: &Spec,
+    row: &Command,
+    number: Number,
+    actuator: Option<&Actuator>,
+) -> Option<String> {
+    let largest = actuator?.full_scale(row.full_scale?);
+    let is_outside = f64::from(number).abs() > largest && !spec.depends_on_open(&row.errata);
+    is_outside.then(|| {
+        let unit = row.unit.as_deref().unwrap_or_default();
+        format!("{} may be -{largest} to {largest} {unit}, the full scale", row.name)
     })
 }
 

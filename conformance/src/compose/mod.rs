@@ -19,6 +19,7 @@ use serde::Serialize;
 use thiserror::Error;
 
 use crate::legible::legible;
+use crate::names::{as_word, similar};
 
 pub use self::word::Word;
 
@@ -56,14 +57,14 @@ pub struct Composed {
 #[derive(Debug, Error)]
 pub enum ComposeError {
     /// Nothing has this name.
-    #[error("no {what} is called `{name}`; there are {known}")]
+    #[error("no {what} is called `{name}`{hint}")]
     Unknown {
         /// What kind of thing is named.
         what: &'static str,
         /// The name.
         name: String,
-        /// The names that there are.
-        known: String,
+        /// The names that there are, or that may be meant.
+        hint: String,
     },
     /// A part of the packet is missing.
     #[error("{0}")]
@@ -142,19 +143,6 @@ fn no_value(value: &str, of: &str, problem: impl Into<String>) -> ComposeError {
     ComposeError::Value { value: legible(value, 60), of: of.to_owned(), problem: problem.into() }
 }
 
-/// A name as a word: `Goal Position` is `goal-position`.
-fn as_word(name: &str) -> String {
-    let mut word = String::new();
-    for part in name.split(|letter: char| !letter.is_alphanumeric()).filter(|part| !part.is_empty())
-    {
-        if !word.is_empty() {
-            word.push('-');
-        }
-        word.extend(part.chars().flat_map(char::to_lowercase));
-    }
-    word
-}
-
 /// The item of this name, written as a word.
 fn named<'a, T>(
     what: &'static str,
@@ -167,25 +155,30 @@ fn named<'a, T>(
     found.ok_or_else(|| unknown(what, name, items.map(|item| as_word(of(item))).collect()))
 }
 
-/// Says the names that there are, the nearest ones if they are many.
+/// Says the names that there are; if they are many, those that may be meant.
 fn unknown(what: &'static str, name: &str, mut known: Vec<String>) -> ComposeError {
     const SHOWN: usize = 24;
-    let name = legible(name, 60);
-    if known.len() > SHOWN {
-        known.sort_by_key(|other| distance(&as_word(&name), other));
-        known.truncate(5);
-        known.push("others".to_owned());
+    let hint = if known.len() <= SHOWN {
+        format!("; there are {}", known.join(", "))
+    } else {
+        match similar(&as_word(name), known.iter().cloned()).as_slice() {
+            [] => {
+                known.truncate(SHOWN);
+                format!("; there are {} and others", known.join(", "))
+            }
+            meant => format!("; did you mean {}?", meant.join(", ")),
+        }
+    };
+    ComposeError::Unknown { what, name: legible(name, 60), hint }
+}
+
+/// Refuses words for one device of several in a packet that has no such list.
+fn for_one_device(phrase: &Phrase<'_>) -> Result<(), ComposeError> {
+    match phrase.words.iter().find(|word| word.id.is_some()) {
+        None => Ok(()),
+        Some(word) => Err(ComposeError::Misplaced(format!(
+            "{} has no list of devices, so `{}` needs no ID before it",
+            phrase.verb, word.name
+        ))),
     }
-    ComposeError::Unknown { what, name, known: known.join(", ") }
-}
-
-/// How different two words are: 0 if one is a part of the other.
-fn distance(one: &str, other: &str) -> usize {
-    if other.contains(one) { 0 } else { 1000 - common(one, other) }
-}
-
-/// The number of letters in the pairs of letters that both have.
-fn common(one: &str, other: &str) -> usize {
-    let pairs: Vec<_> = one.as_bytes().windows(2).collect();
-    other.as_bytes().windows(2).filter(|pair| pairs.contains(pair)).count().min(999)
 }

@@ -6,9 +6,12 @@ use actucheck_spec::Spec;
 use actucheck_spec::wire::dynamixel2::{Field, Size};
 
 use super::super::{
-    ComposeError, Phrase, Word, as_word, hex_of, named, no_value, number, value_of,
+    ComposeError, Phrase, Word, as_word, for_one_device, hex_of, named, no_value, number, value_of,
 };
 use super::register::{Span, span};
+
+/// The fields that say with bytes what registers say by name.
+const BYTES: [&str; 4] = ["address", "length", "data", "params"];
 
 /// The words for one device, or for none in particular.
 #[derive(Debug)]
@@ -28,12 +31,16 @@ impl<'a> Part<'a> {
         id: Option<u8>,
         fields: &[&str],
     ) -> Result<Self, ComposeError> {
-        let words = phrase.words.iter().filter(|word| word.id == id);
+        let words = || phrase.words.iter().filter(|word| word.id == id);
+        let mut seen = BTreeSet::new();
+        if let Some(word) = words().find(|word| !seen.insert(as_word(&word.name))) {
+            return Err(ComposeError::Misplaced(format!("`{}` is given twice", word.name)));
+        }
         let (fields, others): (Vec<_>, Vec<_>) =
-            words.partition(|word| fields.contains(&as_word(&word.name).as_str()));
+            words().partition(|word| fields.contains(&as_word(&word.name).as_str()));
         let span = match (others.as_slice(), phrase.device) {
             ([], _) => None,
-            (others, Some(device)) => Some(span(spec, device, others)?),
+            (others, Some(device)) => Some(span(device, others)?),
             ([word, ..], None) => {
                 let devices = spec.devices.iter().map(|file| file.content.device.as_str());
                 let devices: Vec<_> = devices.collect();
@@ -46,7 +53,21 @@ impl<'a> Part<'a> {
                 return Err(ComposeError::Misplaced(message));
             }
         };
-        Ok(Self { id, fields, span })
+        let part = Self { id, fields, span };
+        part.clash(&part)?;
+        Ok(part)
+    }
+
+    /// Refuses bytes beside registers by name, of which one would be ignored.
+    fn clash(&self, other: &Self) -> Result<(), ComposeError> {
+        let bytes = self.fields.iter().find(|word| BYTES.contains(&as_word(&word.name).as_str()));
+        match bytes {
+            Some(word) if other.span.is_some() => Err(ComposeError::Misplaced(format!(
+                "give registers by name or `{}`, not both",
+                word.name
+            ))),
+            _ => Ok(()),
+        }
     }
 
     /// The word that names this field.
@@ -54,9 +75,11 @@ impl<'a> Part<'a> {
         self.fields.iter().find(|word| as_word(&word.name) == as_word(name)).copied()
     }
 
-    /// The values of its registers.
-    pub(super) fn data(&self) -> Option<&[u8]> {
-        self.span.as_ref()?.data.as_deref()
+    /// The values of its registers; `None` if it names none.
+    pub(super) fn data(&self, verb: &str) -> Result<Option<&[u8]>, ComposeError> {
+        let Some(span) = &self.span else { return Ok(None) };
+        let missing = || format!("{verb} has values: each register needs one, NAME=VALUE");
+        span.data.as_deref().map(Some).ok_or_else(|| ComposeError::Missing(missing()))
     }
 }
 
@@ -64,13 +87,15 @@ impl<'a> Part<'a> {
 pub(super) fn devices(phrase: &Phrase<'_>) -> Result<Vec<u8>, ComposeError> {
     let mut seen = BTreeSet::new();
     let mut ids: Vec<_> = phrase.ids.to_vec();
-    if ids.is_empty() {
-        ids =
-            phrase.words.iter().filter_map(|word| word.id).filter(|id| seen.insert(*id)).collect();
+    if let Some(id) = ids.iter().find(|id| !seen.insert(**id)) {
+        let message = format!("--id names device {id} twice; `params=HEX` builds such a packet");
+        return Err(ComposeError::Misplaced(message));
     }
-    if let Some(word) =
-        phrase.words.iter().find(|word| word.id.is_some_and(|id| !ids.contains(&id)))
-    {
+    let of_words = || phrase.words.iter().filter_map(|word| Some((word.id?, word)));
+    if ids.is_empty() {
+        ids = of_words().map(|(id, _)| id).filter(|id| seen.insert(*id)).collect();
+    }
+    if let Some((_, word)) = of_words().find(|(id, _)| !ids.contains(id)) {
         let message = format!("`{}` is for a device that --id does not name", word.name);
         return Err(ComposeError::Misplaced(message));
     }
@@ -86,8 +111,6 @@ pub(super) fn devices(phrase: &Phrase<'_>) -> Result<Vec<u8>, ComposeError> {
 pub(super) struct Parts<'a> {
     common: Part<'a>,
     each: Vec<Part<'a>>,
-    /// What the spec refuses.
-    pub(super) refused: Vec<String>,
 }
 
 impl<'a> Parts<'a> {
@@ -97,49 +120,51 @@ impl<'a> Parts<'a> {
         phrase: &Phrase<'a>,
         layout: &[Field],
     ) -> Result<Self, ComposeError> {
-        let names = |layout: &[Field]| layout.iter().map(|field| as_word(&field.name)).collect();
-        let own: Vec<String> = names(layout);
+        // The ID of a device is before its words; `id` is a register.
+        let words = |layout: &[Field]| {
+            let names = layout.iter().map(|field| as_word(&field.name));
+            names.filter(|name| name != "id").collect()
+        };
+        let own: Vec<String> = words(layout);
         let own: Vec<_> = own.iter().map(String::as_str).collect();
         let common = Part::of(spec, phrase, None, &own)?;
         let mut each = Vec::new();
         if let Some(list) = layout.iter().find(|field| !field.each.is_empty()) {
-            let names: Vec<String> = names(&list.each);
+            let names: Vec<String> = words(&list.each);
             let names: Vec<_> = names.iter().map(String::as_str).collect();
             for id in devices(phrase)? {
                 each.push(Part::of(spec, phrase, Some(id), &names)?);
             }
-        } else if let Some(word) = phrase.words.iter().find(|word| word.id.is_some()) {
-            let message = format!(
-                "{} has no list of devices, so `{}` needs no ID before it",
-                phrase.verb, word.name
-            );
-            return Err(ComposeError::Misplaced(message));
+        } else {
+            for_one_device(phrase)?;
         }
-        let writes = has_data(layout);
-        let spans = each.iter().chain([&common]).filter_map(|part| part.span.as_ref());
-        let mut refused = Vec::new();
-        for span in spans {
-            if writes {
-                refused.extend(span.not_writable.iter().cloned());
+        for part in &each {
+            part.clash(&common)?;
+            common.clash(part)?;
+        }
+        for part in each.iter().chain([&common]) {
+            if part.span.is_some() && !has(layout, "address") {
+                let message = format!("{} is about no registers; name none", phrase.verb);
+                return Err(ComposeError::Misplaced(message));
             }
-            if writes && span.data.is_none() {
-                let message =
-                    format!("{} writes: each register needs a value, NAME=VALUE", phrase.verb);
-                return Err(ComposeError::Missing(message));
-            }
-            if !writes && span.data.is_some() {
+            if has(layout, "data") {
+                part.data(phrase.verb)?;
+            } else if part.span.as_ref().is_some_and(|span| span.data.is_some()) {
                 let message =
                     format!("{} writes nothing: name its registers without values", phrase.verb);
                 return Err(ComposeError::Misplaced(message));
             }
         }
-        Ok(Self { common, each, refused })
+        Ok(Self { common, each })
     }
 
     /// The parameters.
-    pub(super) fn fill(&mut self, layout: &[Field]) -> Result<Vec<u8>, ComposeError> {
+    pub(super) fn fill(
+        &self,
+        layout: &[Field],
+        refused: &mut Vec<String>,
+    ) -> Result<Vec<u8>, ComposeError> {
         let mut bytes = Vec::new();
-        let mut refused = Vec::new();
         let first = self.each.iter().find_map(|part| part.span.as_ref());
         let common = self.common.span.as_ref().or(first);
         for field in layout {
@@ -149,11 +174,11 @@ impl<'a> Parts<'a> {
                     let outside = layout.iter().any(|field| field.name == "address");
                     if outside && span.map(Span::place) != common.map(Span::place) && span.is_some()
                     {
-                        let message = "all devices of this packet write the same registers";
+                        let message = "all devices of this packet have the same registers";
                         return Err(ComposeError::Misplaced(message.to_owned()));
                     }
                     for field in &field.each {
-                        match one(field, part, span, &mut refused)? {
+                        match one(field, part, span, refused)? {
                             Some(more) => bytes.extend(more),
                             None => return Err(missing(field)),
                         }
@@ -161,19 +186,20 @@ impl<'a> Parts<'a> {
                 }
                 continue;
             }
-            match one(field, &self.common, common, &mut refused)? {
+            match one(field, &self.common, common, refused)? {
                 Some(more) => bytes.extend(more),
-                None if field.optional => break,
+                // What comes after it is not there without it.
+                None if field.optional && self.common.fields.is_empty() => break,
                 None => return Err(missing(field)),
             }
         }
-        self.refused.append(&mut refused);
         Ok(bytes)
     }
 }
 
-fn has_data(layout: &[Field]) -> bool {
-    layout.iter().any(|field| field.name == "data" || has_data(&field.each))
+/// Whether a layout has this field, for one device or for each.
+fn has(layout: &[Field], name: &str) -> bool {
+    layout.iter().any(|field| field.name == name || has(&field.each, name))
 }
 
 fn missing(field: &Field) -> ComposeError {

@@ -6,10 +6,14 @@ mod register;
 
 use actucheck_spec::Spec;
 use actucheck_spec::model::HexBytes;
+use actucheck_spec::wire::Direction;
 use actucheck_spec::wire::dynamixel2::{Block, Dynamixel2, Instruction, Packet, reference};
 
 use self::fields::{Part, Parts};
-use super::{ComposeError, Composed, Phrase, as_word, hex_of, named, number, unknown, value_of};
+use super::{
+    ComposeError, Composed, Phrase, Word, as_word, for_one_device, hex_of, named, no_value, number,
+    unknown, value_of,
+};
 
 /// The largest body that the length field can count, which counts the CRC too.
 const LONGEST_BODY: usize = 0xFFFF - 2;
@@ -17,12 +21,20 @@ const ALERT: &str = "alert";
 
 pub(super) fn compose(spec: &Spec, phrase: &Phrase<'_>) -> Result<Composed, ComposeError> {
     let wire = &spec.wires.dynamixel2.content;
+    if phrase.actuator.is_some() || phrase.direction == Direction::Reply {
+        let message = "--actuator and --direction are for another wire; the instruction says the \
+                       direction here";
+        return Err(ComposeError::Misplaced(message.to_owned()));
+    }
     let mut refused = Vec::new();
     let packet = match as_word(phrase.verb).as_str() {
         "status" => status(spec, wire, phrase, &mut refused)?,
         "fast-status" => fast_status(spec, wire, phrase, &mut refused)?,
         _ => instruction(spec, wire, phrase, &mut refused)?,
     };
+    if let Some(device) = phrase.device {
+        refused.extend(register::problems(spec, device, &packet));
+    }
     frame(packet, refused)
 }
 
@@ -42,24 +54,32 @@ fn instruction(
     {
         refused.push(format!("{} has no instruction {name}", device.title));
     }
-    let raw = phrase.words.iter().find(|word| word.name == "params");
-    let params = match (row, raw) {
-        (_, Some(raw)) if phrase.words.len() == 1 => hex_of(raw)?,
-        (Some(row), None) => {
-            let mut parts = Parts::new(spec, phrase, &row.parameters)?;
-            let params = parts.fill(&row.parameters)?;
-            refused.append(&mut parts.refused);
-            params
+    let is_raw = |word: &Word| word.name == "params" && word.id.is_none();
+    let params = match (phrase.words, row) {
+        ([word], _) if is_raw(word) => {
+            if row.is_some_and(lists_devices) && !phrase.ids.is_empty() {
+                let message = "the devices are in `params=HEX`; take away --id";
+                return Err(ComposeError::Misplaced(message.to_owned()));
+            }
+            hex_of(word)?
         }
-        (None, None) if phrase.words.is_empty() => Vec::new(),
-        _ => {
+        (words, _) if words.iter().any(is_raw) => {
             let message = "`params=HEX` has all parameters, so no other word goes with it";
             return Err(ComposeError::Misplaced(message.to_owned()));
+        }
+        (_, Some(row)) => {
+            Parts::new(spec, phrase, &row.parameters)?.fill(&row.parameters, refused)?
+        }
+        ([], None) => Vec::new(),
+        (_, None) => {
+            let message =
+                format!("the parameters of {name} have no names; give `params=HEX` alone");
+            return Err(ComposeError::Misplaced(message));
         }
     };
     let id = recipient(wire, phrase, row, refused)?;
     let packet = Packet::Instruction { id, instruction: code, params: params.into() };
-    if row.is_some() && raw.is_some() && reference::call(&packet).is_general {
+    if row.is_some() && reference::call(&packet).is_general {
         refused.push(format!("the parameters do not fit {name}"));
     }
     Ok(packet)
@@ -82,6 +102,10 @@ fn instruction_of<'a>(
     })
 }
 
+fn lists_devices(row: &Instruction) -> bool {
+    row.parameters.iter().any(|field| !field.each.is_empty())
+}
+
 /// The ID of an instruction packet. One with a list of devices goes to all.
 fn recipient(
     wire: &Dynamixel2,
@@ -90,7 +114,7 @@ fn recipient(
     refused: &mut Vec<String>,
 ) -> Result<u8, ComposeError> {
     let broadcast = wire.framing.id.broadcast;
-    if row.is_some_and(|row| row.parameters.iter().any(|field| !field.each.is_empty())) {
+    if row.is_some_and(lists_devices) {
         return Ok(broadcast);
     }
     let id = one_id(phrase)?;
@@ -111,6 +135,7 @@ fn status(
     phrase: &Phrase<'_>,
     refused: &mut Vec<String>,
 ) -> Result<Packet, ComposeError> {
+    for_one_device(phrase)?;
     let id = one_id(phrase)?;
     allow(wire, id, false, refused);
     let (error, params) = answer(spec, wire, phrase, None, refused)?;
@@ -124,6 +149,10 @@ fn fast_status(
     phrase: &Phrase<'_>,
     refused: &mut Vec<String>,
 ) -> Result<Packet, ComposeError> {
+    if let Some(word) = phrase.words.iter().find(|word| word.id.is_none()) {
+        let message = format!("put the ID of a device before `{0}`: ID:{0}", word.name);
+        return Err(ComposeError::Misplaced(message));
+    }
     let ids = fields::devices(phrase)?;
     let mut blocks = Vec::new();
     for id in ids {
@@ -155,13 +184,9 @@ fn answer(
         Some(word) => error_of(wire, value_of(word)?, refused)?,
         None => 0,
     };
-    let params = match (part.field("params"), part.data()) {
-        (Some(params), None) => hex_of(params)?,
-        (None, data) => data.map(<[u8]>::to_vec).unwrap_or_default(),
-        (Some(_), Some(_)) => {
-            let message = "give the parameters as `params=HEX` or by registers, not both";
-            return Err(ComposeError::Misplaced(message.to_owned()));
-        }
+    let params = match part.field("params") {
+        Some(params) => hex_of(params)?,
+        None => part.data(phrase.verb)?.map(<[u8]>::to_vec).unwrap_or_default(),
     };
     Ok((error, params.into()))
 }
@@ -169,14 +194,17 @@ fn answer(
 /// An error byte: its number, or its name, with `+alert` for the alert bit.
 fn error_of(wire: &Dynamixel2, value: &str, refused: &mut Vec<String>) -> Result<u8, ComposeError> {
     let alert = 1_u8.checked_shl(wire.status.alert_bit.into()).unwrap_or(0);
-    let mut error = 0;
-    for word in value.split('+') {
-        error |= match number::whole(word).map(u8::try_from) {
+    let (alerts, numbers): (Vec<_>, Vec<_>) =
+        value.split('+').partition(|word| as_word(word) == ALERT);
+    let number = match *numbers {
+        [] => 0,
+        [word] => match number::whole(word).map(u8::try_from) {
             Some(Ok(number)) => number,
-            _ if word == ALERT => alert,
             _ => named("error", word, wire.status.errors.iter(), |row| &row.name)?.number,
-        };
-    }
+        },
+        _ => return Err(no_value(value, "error", "a status packet has one error, and `alert`")),
+    };
+    let error = if alerts.is_empty() { number } else { number | alert };
     let number = error & !alert;
     if number != 0 && !wire.status.errors.iter().any(|row| row.number == number) {
         refused.push(format!("the documents have no error number 0x{number:02X}"));

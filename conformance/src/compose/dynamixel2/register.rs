@@ -1,8 +1,11 @@
-//! Registers by name, and their values.
+//! Registers by name, their values, and what the spec refuses about them.
+
+use std::collections::BTreeSet;
+use std::ops::Range;
 
 use actucheck_spec::Spec;
 use actucheck_spec::model::{Access, Bound, Device, Register};
-use actucheck_spec::wire::dynamixel2::reference;
+use actucheck_spec::wire::dynamixel2::{Packet, reference};
 
 use super::super::{ComposeError, Word, as_word, named, no_value, number, unknown};
 
@@ -13,8 +16,6 @@ pub(super) struct Span {
     pub(super) size: u16,
     /// Their values; `None` if none was given.
     pub(super) data: Option<Vec<u8>>,
-    /// Why the spec refuses to write them so.
-    pub(super) not_writable: Vec<String>,
 }
 
 impl Span {
@@ -24,14 +25,14 @@ impl Span {
 }
 
 /// The registers that the words name, in the order of their addresses.
-pub(super) fn span(spec: &Spec, device: &Device, words: &[&Word]) -> Result<Span, ComposeError> {
+pub(super) fn span(device: &Device, words: &[&Word]) -> Result<Span, ComposeError> {
     let mut rows = Vec::new();
     for word in words {
         let register = named("register", &word.name, device.registers.iter(), |row| &row.name)?;
         rows.push((register, word.value.as_deref()));
     }
     rows.sort_by_key(|(register, _)| register.address);
-    let (mut data, mut not_writable) = (Vec::new(), Vec::new());
+    let mut data = Vec::new();
     let mut next = rows.first().map_or(0, |(register, _)| register.address);
     let first = next;
     for (register, text) in &rows {
@@ -44,9 +45,7 @@ pub(super) fn span(spec: &Spec, device: &Device, words: &[&Word]) -> Result<Span
         }
         next += register.kind.size();
         if let Some(text) = text {
-            let value = value(device, register, text)?;
-            not_writable.extend(problem(spec, register, value));
-            data.extend(reference::register_bytes(register, value));
+            data.extend(reference::register_bytes(register, value(device, register, text)?));
         }
     }
     let size = next - first;
@@ -55,7 +54,7 @@ pub(super) fn span(spec: &Spec, device: &Device, words: &[&Word]) -> Result<Span
         let message = "give each register a value, or none of them".to_owned();
         return Err(ComposeError::Misplaced(message));
     }
-    Ok(Span { address: first, size, data: (given > 0).then_some(data), not_writable })
+    Ok(Span { address: first, size, data: (given > 0).then_some(data) })
 }
 
 /// A value as a number of counts, as the name of a value, as flags with `+` between, or in the
@@ -113,6 +112,46 @@ fn flags(register: &Register, text: &str) -> Result<i64, ComposeError> {
         value |= bit.map(|bits| 1 << bits.lowest).ok_or_else(|| unknown("flag", name, known()))?;
     }
     Ok(value)
+}
+
+/// Why the spec refuses what an instruction does with the registers of a device, each reason once.
+pub(super) fn problems(spec: &Spec, device: &Device, packet: &Packet) -> BTreeSet<String> {
+    let call = reference::call(packet);
+    let own = (call.address, call.length, &call.data);
+    let each = call.devices.iter().flatten();
+    let each = each.map(|it| (it.address.or(call.address), it.length.or(call.length), &it.data));
+    let mut reasons = BTreeSet::new();
+    for (address, length, data) in [own].into_iter().chain(each) {
+        let size = data.as_ref().map_or(usize::from(length.unwrap_or(0)), |data| data.len());
+        if let Some(address) = address {
+            let from = usize::from(address);
+            let data = data.as_ref().map(|data| &**data);
+            let place = from..from + size;
+            reasons
+                .extend(device.registers.iter().filter_map(|row| touched(spec, row, &place, data)));
+        }
+    }
+    reasons
+}
+
+/// Why the spec refuses to read or write a register at this place, which may have only a part of it.
+fn touched(
+    spec: &Spec,
+    register: &Register,
+    place: &Range<usize>,
+    data: Option<&[u8]>,
+) -> Option<String> {
+    let from = usize::from(register.address);
+    let to = from + usize::from(register.kind.size());
+    if from >= place.end || to <= place.start {
+        return None;
+    }
+    if from < place.start || to > place.end {
+        let (name, last) = (&register.name, to - 1);
+        return Some(format!("{name} is at {from} to {last}, and the packet has a part of it"));
+    }
+    let bytes = data?.get(from - place.start..to - place.start)?;
+    problem(spec, register, reference::register_number(register, bytes))
 }
 
 /// Why the spec refuses this value in this register. A range that the documents leave unspecified, or that

@@ -321,3 +321,14 @@ pub struct Actuator {
     /// Speed after the gear in revolutions per minute.
     pub output_speed: f64,
 }
+
+impl Actuator {
+    /// The full scale of a quantity.
+    #[must_use]
+    pub const fn full_scale(&self, quantity: FullScale) -> f64 {
+        match quantity {
+            FullScale::Current => self.current,
+            FullScale::MotorSpeed => self.motor_speed,
+        }
+    }
+}

@@ -1,6 +1,6 @@
 //! What packets say: the document's values by arithmetic.
 
-use crate::wire::innfos::{Actuator, Command, Format, FullScale, Innfos, Packet};
+use crate::wire::innfos::{Actuator, Command, Format, Innfos, Packet};
 use crate::wire::{Form, Message, Number, Value};
 
 /// What flags are called: 0, failure, disabled, off, abnormal; 1, success, enabled, on, normal.
@@ -107,8 +107,7 @@ fn step(
 ) -> Option<f64> {
     let full_scale = match row.full_scale {
         None => 1.0,
-        Some(FullScale::Current) => actuator?.current,
-        Some(FullScale::MotorSpeed) => actuator?.motor_speed,
+        Some(quantity) => actuator?.full_scale(quantity),
     };
     match (innfos.format(format)?.fraction_bits, row.factor) {
         (Some(bits), None) => Some(full_scale / 2_f64.powi(bits.into())),
