@@ -66,13 +66,42 @@ local function add_experts(proto, rules)
   return infos
 end
 
--- Fields that link a request with its replies.
-local function link_fields(prefix)
+-- The fields that every wire has; three of them link a request with its replies.
+local function common_fields(prefix)
   return {
+    crc = ProtoField.uint16(prefix .. ".crc", "CRC", base.HEX),
+    fault = ProtoField.string(prefix .. ".fault", "First broken rule"),
+    skipped = ProtoField.bytes(prefix .. ".skipped", "Bytes that belong to no packet"),
     request_in = ProtoField.framenum(prefix .. ".request_in", "Request in", base.NONE, frametype.REQUEST),
     reply_in = ProtoField.framenum(prefix .. ".reply_in", "Reply in", base.NONE, frametype.RESPONSE),
     time = ProtoField.relative_time(prefix .. ".time", "Time since the request"),
   }
+end
+
+-- A packet from a place to the end, and the function that notes a rule that it breaks: `fault` is
+-- the first one.
+local function packet_at(raw, at)
+  local packet = { at = at, size = #raw - at + 1, faults = {} }
+  return packet, function(rule)
+    packet.fault = packet.fault or rule
+    packet.faults[#packet.faults + 1] = rule
+  end
+end
+
+-- Bytes that belong to no packet.
+local function skip(at, stop) return { at = at, size = stop - at, fault = "header", skipped = true } end
+
+-- Ends a damaged packet at the first place inside it that `is_good`, of those that `find` finds.
+local function end_at_good(packet, find, is_good)
+  local inside = find(packet.at + 1)
+  while inside and inside < packet.at + packet.size do
+    if is_good(inside) then
+      packet.size, packet.overtaken = inside - packet.at, true
+      break
+    end
+    inside = find(inside + 1)
+  end
+  return packet
 end
 
 -- Where a packet is in the capture. Frames are read in order first and in any order later, so what
@@ -91,6 +120,17 @@ local function line_of(pinfo)
   return from .. "|" .. to .. "|" .. (interface and tostring(interface.value) or "")
 end
 
+-- A request that no device has answered yet.
+local function new_request(pinfo)
+  return { frame = pinfo.number, time = pinfo.rel_ts, replies = {}, answered = {} }
+end
+
+-- Notes the reply of a device, which answers a request once.
+local function add_reply(request, id, pinfo)
+  request.answered[id] = true
+  request.replies[#request.replies + 1] = pinfo.number
+end
+
 -- Shows in which frames a request is answered. A later pass knows; the first one does not.
 local function show_replies(tree, fields, request)
   for _, frame in ipairs(request.replies) do
@@ -107,12 +147,42 @@ local function show_request(tree, fields, request, pinfo)
   tree:add(fields.time, NSTime.new(whole, rest)):set_generated()
 end
 
-local function skipped_text(size) return size .. (size == 1 and " byte" or " bytes") .. " skipped" end
+-- Shows the CRC of a packet. `exception` is why another one is right too, if it is.
+local function show_crc(tree, fields, tvb, packet, exception)
+  if not packet.crc or packet.overtaken then return end
+  local item = tree:add_le(fields.crc, tvb(packet.stop - 1, 2))
+  local right = packet.crc == packet.right_crc and " (right)" or exception
+  item:append_text(right or (" (wrong, 0x%04x is right)"):format(packet.right_crc))
+end
 
--- Writes the columns of the packet list: the protocol, and what each packet is.
-local function show_columns(pinfo, protocol, summaries)
-  pinfo.cols.protocol = protocol
-  pinfo.cols.info = table.concat(summaries, "; ")
+-- Shows the packets of some bytes, up to where `find` finds none, and writes the columns of the packet
+-- list. `show` says what a packet is in a few words.
+local function show_packets(wire, tvb, pinfo, root, find, show)
+  local raw, at, summaries = tvb:raw(), 1, {}
+  while at <= #raw do
+    local packet = find(raw, at)
+    if not packet then break end
+    local tree = root:add(wire.proto, tvb(at - 1, packet.size))
+    local summary
+    if packet.skipped then
+      tree:add(wire.fields.skipped, tvb(at - 1, packet.size))
+      tree:add_proto_expert_info(wire.experts.header)
+      tree:append_text(": skipped")
+      summary = packet.size .. (packet.size == 1 and " byte" or " bytes") .. " skipped"
+    else
+      summary = show(tree, packet, raw)
+      if packet.fault then summary = summary .. " [" .. packet.fault .. "]" end
+      tree:append_text(": " .. summary)
+    end
+    if packet.fault then tree:add(wire.fields.fault, packet.fault):set_generated() end
+    summaries[#summaries + 1] = summary
+    at = at + packet.size
+  end
+  if #summaries > 0 then
+    pinfo.cols.protocol = wire.name
+    pinfo.cols.info = table.concat(summaries, "; ")
+  end
+  return #raw
 end
 
 -- DYNAMIXEL Protocol 2.0 and its JA dialect -------------------------------------------------
@@ -534,7 +604,7 @@ local error_names, instruction_names = { [0] = "None" }, { [STATUS.instruction] 
 for number, name in pairs(STATUS.errors) do error_names[number] = name end
 for code, row in pairs(INSTRUCTIONS) do instruction_names[code] = row.name end
 
-local f = link_fields("dynamixel2")
+local f = common_fields("dynamixel2")
 f.header = ProtoField.bytes("dynamixel2.header", "Header")
 f.id = ProtoField.uint8("dynamixel2.id", "ID")
 f.length = ProtoField.uint16("dynamixel2.length", "Length")
@@ -543,9 +613,6 @@ f.error = ProtoField.uint8("dynamixel2.error", "Error", base.HEX)
 f.alert = ProtoField.bool("dynamixel2.error.alert", "Alert", 8, nil, STATUS.alert)
 f.number = ProtoField.uint8("dynamixel2.error.number", "Error number", base.HEX, error_names, 0xFF - STATUS.alert)
 f.parameters = ProtoField.bytes("dynamixel2.parameters", "Parameters")
-f.crc = ProtoField.uint16("dynamixel2.crc", "CRC", base.HEX)
-f.fault = ProtoField.string("dynamixel2.fault", "First broken rule")
-f.skipped = ProtoField.bytes("dynamixel2.skipped", "Bytes that belong to no packet")
 f.other = ProtoField.bytes("dynamixel2.register.other", "Bytes of no whole register")
 
 -- The fields of parameters and of a fast status packet's blocks, by prefix and name.
@@ -627,13 +694,8 @@ end
 -- The packet at a place, with the rules that it breaks: `fault` is the first one. A `quick` look
 -- computes no CRC if the stuffing is wrong.
 local function read(raw, at, quick)
-  local packet = { at = at, faults = {} }
-  local function broken(rule)
-    packet.fault = packet.fault or rule
-    packet.faults[#packet.faults + 1] = rule
-  end
-  local left = #raw - at + 1
-  packet.size = left
+  local packet, broken = packet_at(raw, at)
+  local left = packet.size
   if raw:sub(at, at + #HEADER - 1) ~= HEADER:sub(1, left) then broken("header") end
   if left < PREFIX then broken("truncated") return packet end
 
@@ -689,21 +751,17 @@ local function is_open(packet) return packet.fault == "truncated" and #packet.fa
 local function next_part(raw, at, open)
   local header, reserved = next_header(raw, at, open)
   if HEADER:sub(1, #raw - at + 1) == raw:sub(at) then header = at end
-  if header > at then return { at = at, size = header - at, fault = "header", skipped = true } end
+  if header > at then return skip(at, header) end
   local packet = read(raw, at)
   packet.reserved = reserved
   if not packet.fault or reserved then return packet end
   local may_be_open = open and not is_open(packet)
-  local inside = next_header(raw, at + 1, open)
-  while inside < at + packet.size do
+  local function find(from) return (next_header(raw, from, open)) end
+  local function is_good(inside)
     local other = read(raw, inside, true)
-    if not other.fault or may_be_open and is_open(other) then
-      packet.size, packet.overtaken = inside - at, true
-      break
-    end
-    inside = next_header(raw, inside + 1, open)
+    return not other.fault or may_be_open and is_open(other)
   end
-  return packet
+  return end_at_good(packet, find, is_good)
 end
 
 -- Showing packets -----------------------------------------------------------------------------------
@@ -825,16 +883,19 @@ local function show_instruction(tree, packet, range, pinfo, key)
     tree:add_proto_expert_info(experts.instruction)
   elseif not packet.fault or packet.fault == "crc" then
     local used = add_layout(tree, "param.", row.parameters, range, known)
-    if used ~= range:len() then tree:add_proto_expert_info(experts.parameters) end
+    if used ~= range:len() then
+      tree:add_proto_expert_info(experts.parameters)
+      known = { devices = {} } -- who was asked for what is not certain
+    end
     if row.broadcast_only and packet.id ~= ID.broadcast then
       tree:add_proto_expert_info(experts.to_one)
     end
   end
   if packet.fault then return end
   if not pinfo.visited then
-    found[key] = { frame = pinfo.number, time = pinfo.rel_ts, replies = {}, answered = {},
-      id = packet.id, code = packet.code, known = known }
-    last[line_of(pinfo)] = found[key]
+    local request = new_request(pinfo)
+    request.id, request.code, request.known = packet.id, packet.code, known
+    found[key], last[line_of(pinfo)] = request, request
   end
   if found[key] then show_replies(tree, f, found[key]) end
 end
@@ -843,8 +904,7 @@ end
 local function link_reply(tree, packet, pinfo, key)
   local request = last[line_of(pinfo)]
   if not pinfo.visited and request and may_answer(request, packet.id) and not request.answered[packet.id] then
-    request.answered[packet.id] = true
-    request.replies[#request.replies + 1] = pinfo.number
+    add_reply(request, packet.id, pinfo)
     found[key] = request
   end
   request = found[key]
@@ -872,13 +932,14 @@ local function show_fast_status(tree, packet, tvb, raw, pinfo, key)
   local row = request and INSTRUCTIONS[request.code]
   if not row then return "" end
   local asked, size = request.known, 0
+  if #asked.devices == 0 then return " to " .. row.name end -- how its blocks are cut is not known
   for _, field in ipairs(row.fast_status) do size = size + (asked[field.size] or field.size) end
   local at = packet.at + PREFIX + 1
   local function broken(rule)
     packet.fault = packet.fault or rule
     tree:add_proto_expert_info(experts[rule])
   end
-  if #asked.devices == 0 or at + #asked.devices * size ~= packet.stop + 2 then broken("length") end
+  if at + #asked.devices * size ~= packet.stop + 2 then broken("length") end
   for _, device in ipairs(asked.devices) do
     if at + size > packet.stop + 2 then break end
     local known = { address = asked.address, length = asked.length, devices = {} }
@@ -894,17 +955,9 @@ local function show_fast_status(tree, packet, tvb, raw, pinfo, key)
   return " to " .. row.name
 end
 
--- Adds a packet, and returns what it is in a few words.
-local function show(packet, tvb, raw, pinfo, root)
+-- Shows a packet, and returns what it is in a few words.
+local function show(tree, packet, tvb, raw, pinfo)
   local at = packet.at - 1
-  local tree = root:add(proto, tvb(at, packet.size))
-  if packet.skipped then
-    tree:add(f.skipped, tvb(at, packet.size))
-    tree:add(f.fault, packet.fault):set_generated()
-    tree:add_proto_expert_info(experts.header)
-    tree:append_text(": skipped")
-    return skipped_text(packet.size)
-  end
   tree:add(f.header, tvb(at, math.min(#HEADER, packet.size)))
   if packet.reserved then tree:add_proto_expert_info(experts.reserved) end
   for _, rule in ipairs(packet.faults) do
@@ -939,34 +992,25 @@ local function show(packet, tvb, raw, pinfo, root)
       summary = name .. (packet.id == ID.broadcast and " to all" or " to " .. packet.id)
     end
   end
-  if packet.crc and not packet.overtaken then
-    local item = tree:add_le(f.crc, tvb(packet.stop - 1, 2))
-    local right = packet.crc == packet.right_crc
-    item:append_text(right and " (right)" or (" (wrong, 0x%04x is right)"):format(packet.right_crc))
-  end
-  if packet.fault then
-    tree:add(f.fault, packet.fault):set_generated()
-    summary = summary .. " [" .. packet.fault .. "]"
-  end
-  tree:append_text(": " .. summary)
+  show_crc(tree, f, tvb, packet)
   return summary
 end
 
+local wire = { name = "DYNAMIXEL", proto = proto, fields = f, experts = experts }
+
 local function dissect(tvb, pinfo, root)
-  local raw, at, summaries = tvb:raw(), 1, {}
   local open = pinfo.can_desegment > 0
-  while at <= #raw do
+  local function find(raw, at)
     local packet = next_part(raw, at, open)
     if open and is_open(packet) and not packet.overtaken then
       pinfo.desegment_offset = at - 1
       pinfo.desegment_len = DESEGMENT_ONE_MORE_SEGMENT
-      break
+      return nil
     end
-    summaries[#summaries + 1] = show(packet, tvb, raw, pinfo, root)
-    at = at + packet.size
+    return packet
   end
-  if #summaries > 0 then show_columns(pinfo, "DYNAMIXEL", summaries) end
-  return #raw
+  local function show_one(tree, packet, raw) return show(tree, packet, tvb, raw, pinfo) end
+  return show_packets(wire, tvb, pinfo, root, find, show_one)
 end
 proto.dissector = dissect
 
@@ -1341,7 +1385,7 @@ for code, row in pairs(COMMANDS) do
 end
 for code, name in pairs(MODES) do mode_names[code] = name end
 
-local f = link_fields("innfos")
+local f = common_fields("innfos")
 f.header = ProtoField.uint8("innfos.header", "Header", base.HEX)
 f.kind = ProtoField.string("innfos.direction", "Direction")
 f.address = ProtoField.uint8("innfos.address", "Address")
@@ -1352,10 +1396,7 @@ f.number = ProtoField.double("innfos.value", "Value")
 f.flag = ProtoField.uint8("innfos.flag", "Flag", base.DEC, FLAGS)
 f.mode = ProtoField.uint8("innfos.mode", "Mode", base.DEC, mode_names)
 f.alarms = ProtoField.uint16("innfos.alarms", "Alarms", base.HEX)
-f.crc = ProtoField.uint16("innfos.crc", "CRC", base.HEX)
 f.tail = ProtoField.uint8("innfos.end", "End", base.HEX)
-f.fault = ProtoField.string("innfos.fault", "First broken rule")
-f.skipped = ProtoField.bytes("innfos.skipped", "Bytes that belong to no packet")
 
 local unnamed = 0xFFFF
 for index, row in ipairs(ALARMS) do
@@ -1390,13 +1431,8 @@ end
 -- The packet at a place, with the rules that it breaks: `fault` is the first one. A `quick` look
 -- computes no CRC if the end is wrong.
 local function read(raw, at, kind, quick)
-  local packet = { at = at, faults = {} }
-  local function broken(rule)
-    packet.fault = packet.fault or rule
-    packet.faults[#packet.faults + 1] = rule
-  end
-  local left = #raw - at + 1
-  packet.size = left
+  local packet, broken = packet_at(raw, at)
+  local left = packet.size
   if left < PREFIX then broken("truncated") return packet end
   local _, address, command, high, low = raw:byte(at, at + PREFIX - 1)
   packet.address, packet.command, packet.length = address, command, low_first(low, high)
@@ -1429,18 +1465,12 @@ end
 -- The next packet, or bytes to skip. A damaged packet ends where a valid one begins.
 local function next_part(raw, at, kind)
   local header = raw:find(HEADER, at, true) or #raw + 1
-  if header > at then return { at = at, size = header - at, fault = "header", skipped = true } end
+  if header > at then return skip(at, header) end
   local packet = read(raw, at, kind)
   if not packet.fault then return packet end
-  local inside = raw:find(HEADER, at + 1, true)
-  while inside and inside < at + packet.size do
-    if not read(raw, inside, kind, true).fault then
-      packet.size, packet.overtaken = inside - at, true
-      break
-    end
-    inside = raw:find(HEADER, inside + 1, true)
-  end
-  return packet
+  local function find(from) return (raw:find(HEADER, from, true)) end
+  local function is_good(inside) return not read(raw, inside, kind, true).fault end
+  return end_at_good(packet, find, is_good)
 end
 
 -- Showing packets -----------------------------------------------------------------------------------
@@ -1489,7 +1519,7 @@ local function link(tree, packet, kind, pinfo, key)
   local function slot(address) return table.concat({ line_of(pinfo), address, packet.command }, "/") end
   if kind == "request" then
     if not pinfo.visited then
-      found[key] = { frame = pinfo.number, time = pinfo.rel_ts, replies = {}, answered = {} }
+      found[key] = new_request(pinfo)
       last[slot(packet.address)] = found[key]
     end
     if found[key] then show_replies(tree, f, found[key]) end
@@ -1499,24 +1529,15 @@ local function link(tree, packet, kind, pinfo, key)
   local request = last[slot(packet.address)]
   if not request or request.answered[packet.address] then request = last[slot(BROADCAST)] end
   if not pinfo.visited and request and not request.answered[packet.address] then
-    request.answered[packet.address] = true
-    request.replies[#request.replies + 1] = pinfo.number
+    add_reply(request, packet.address, pinfo)
     found[key] = request
   end
   if found[key] then show_request(tree, f, found[key], pinfo) end
 end
 
--- Adds a packet, and returns what it is in a few words.
-local function show(packet, kind, tvb, pinfo, root)
+-- Shows a packet, and returns what it is in a few words.
+local function show(tree, packet, kind, tvb, pinfo)
   local at = packet.at - 1
-  local tree = root:add(proto, tvb(at, packet.size))
-  if packet.skipped then
-    tree:add(f.skipped, tvb(at, packet.size))
-    tree:add(f.fault, packet.fault):set_generated()
-    tree:add_proto_expert_info(experts.header)
-    tree:append_text(": skipped")
-    return skipped_text(packet.size)
-  end
   tree:add(f.header, tvb(at, 1))
   tree:add(f.kind, kind):set_generated()
   for _, rule in ipairs(packet.faults) do tree:add_proto_expert_info(experts[rule]) end
@@ -1536,17 +1557,9 @@ local function show(packet, kind, tvb, pinfo, root)
       link(tree, packet, kind, pinfo, place(tvb, pinfo, at))
     end
   end
-  if packet.crc and not packet.overtaken then
-    local item, right = tree:add_le(f.crc, tvb(packet.stop - 1, 2)), packet.crc == packet.right_crc
-    local wrong = packet.crc == 0 and CRC_MAY[packet.command] and " (zeros, which this reply may have)"
-    item:append_text(right and " (right)" or wrong or (" (wrong, 0x%04x is right)"):format(packet.right_crc))
-  end
+  local zeros = packet.crc == 0 and CRC_MAY[packet.command] and " (zeros, which this reply may have)"
+  show_crc(tree, f, tvb, packet, zeros)
   if packet.tail and not packet.overtaken then tree:add(f.tail, tvb(at + packet.size - 1, 1)) end
-  if packet.fault then
-    tree:add(f.fault, packet.fault):set_generated()
-    summary = summary .. " [" .. packet.fault .. "]"
-  end
-  tree:append_text(": " .. summary)
   return summary
 end
 
@@ -1559,16 +1572,13 @@ local function direction_of(pinfo)
   return tostring(pinfo.src) == UDP.address and "reply" or "request"
 end
 
+local wire = { name = "INNFOS", proto = proto, fields = f, experts = experts }
+
 function proto.dissector(tvb, pinfo, root)
-  local raw, at, summaries = tvb:raw(), 1, {}
   local kind = direction_of(pinfo)
-  while at <= #raw do
-    local packet = next_part(raw, at, kind)
-    summaries[#summaries + 1] = show(packet, kind, tvb, pinfo, root)
-    at = at + packet.size
-  end
-  if #summaries > 0 then show_columns(pinfo, "INNFOS", summaries) end
-  return #raw
+  return show_packets(wire, tvb, pinfo, root,
+    function(raw, at) return next_part(raw, at, kind) end,
+    function(tree, packet) return show(tree, packet, kind, tvb, pinfo) end)
 end
 DissectorTable.get("udp.port"):add(UDP.port, proto)
 

@@ -325,7 +325,8 @@ fn each_remark_is_made_where_it_belongs() {
     };
     let data = vec![1, 2].into();
     let of_another = Packet::FastStatus { blocks: vec![Block { error: 0, id: 2, data }] };
-    let cases: [(Vec<u8>, &[&str]); 21] = [
+    let of_another = reference::encode(&of_another).unwrap();
+    let cases: [(Vec<u8>, &[&str]); 23] = [
         (ping.clone(), &[]),
         (vec![1, 2, 3], &["header"]),
         (repaired(3, 0x01), &["reserved"]),
@@ -346,7 +347,9 @@ fn each_remark_is_made_where_it_belongs() {
         (instruction(1, 0x02, &[0x44, 0x02, 0x04, 0x00]), &[]),
         (status(1, 0, &[1]), &["data"]), // one byte where four were read
         (instruction(0xFE, 0x8A, &[0x44, 0x02, 0x02, 0x00, 1]), &[]),
-        (reference::encode(&of_another).unwrap(), &["device"]),
+        (of_another.clone(), &["device"]),
+        (instruction(0xFE, 0x8A, &[0x44, 0x02, 0x02]), &["parameters"]), // half a length
+        (of_another, &[]), // of which nothing is known
     ];
     let (records, wanted): (Vec<_>, Vec<_>) = cases.into_iter().unzip();
     let script = export::wireshark::export(&spec());

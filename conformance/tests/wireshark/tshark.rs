@@ -92,6 +92,9 @@ pub(crate) fn show(script: &str, wire: Wire, capture: &[u8], options: &[&str]) -
         .unwrap();
     let text = String::from_utf8(output.stdout).unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    // `tshark` goes on after one.
+    let error = text.lines().find(|line| line.contains("Lua Error"));
+    assert_eq!(error, None);
     read(wire, &text)
 }
 

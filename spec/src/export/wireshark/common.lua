@@ -57,13 +57,42 @@ local function add_experts(proto, rules)
   return infos
 end
 
--- Fields that link a request with its replies.
-local function link_fields(prefix)
+-- The fields that every wire has; three of them link a request with its replies.
+local function common_fields(prefix)
   return {
+    crc = ProtoField.uint16(prefix .. ".crc", "CRC", base.HEX),
+    fault = ProtoField.string(prefix .. ".fault", "First broken rule"),
+    skipped = ProtoField.bytes(prefix .. ".skipped", "Bytes that belong to no packet"),
     request_in = ProtoField.framenum(prefix .. ".request_in", "Request in", base.NONE, frametype.REQUEST),
     reply_in = ProtoField.framenum(prefix .. ".reply_in", "Reply in", base.NONE, frametype.RESPONSE),
     time = ProtoField.relative_time(prefix .. ".time", "Time since the request"),
   }
+end
+
+-- A packet from a place to the end, and the function that notes a rule that it breaks: `fault` is
+-- the first one.
+local function packet_at(raw, at)
+  local packet = { at = at, size = #raw - at + 1, faults = {} }
+  return packet, function(rule)
+    packet.fault = packet.fault or rule
+    packet.faults[#packet.faults + 1] = rule
+  end
+end
+
+-- Bytes that belong to no packet.
+local function skip(at, stop) return { at = at, size = stop - at, fault = "header", skipped = true } end
+
+-- Ends a damaged packet at the first place inside it that `is_good`, of those that `find` finds.
+local function end_at_good(packet, find, is_good)
+  local inside = find(packet.at + 1)
+  while inside and inside < packet.at + packet.size do
+    if is_good(inside) then
+      packet.size, packet.overtaken = inside - packet.at, true
+      break
+    end
+    inside = find(inside + 1)
+  end
+  return packet
 end
 
 -- Where a packet is in the capture. Frames are read in order first and in any order later, so what
@@ -82,6 +111,17 @@ local function line_of(pinfo)
   return from .. "|" .. to .. "|" .. (interface and tostring(interface.value) or "")
 end
 
+-- A request that no device has answered yet.
+local function new_request(pinfo)
+  return { frame = pinfo.number, time = pinfo.rel_ts, replies = {}, answered = {} }
+end
+
+-- Notes the reply of a device, which answers a request once.
+local function add_reply(request, id, pinfo)
+  request.answered[id] = true
+  request.replies[#request.replies + 1] = pinfo.number
+end
+
 -- Shows in which frames a request is answered. A later pass knows; the first one does not.
 local function show_replies(tree, fields, request)
   for _, frame in ipairs(request.replies) do
@@ -98,10 +138,40 @@ local function show_request(tree, fields, request, pinfo)
   tree:add(fields.time, NSTime.new(whole, rest)):set_generated()
 end
 
-local function skipped_text(size) return size .. (size == 1 and " byte" or " bytes") .. " skipped" end
+-- Shows the CRC of a packet. `exception` is why another one is right too, if it is.
+local function show_crc(tree, fields, tvb, packet, exception)
+  if not packet.crc or packet.overtaken then return end
+  local item = tree:add_le(fields.crc, tvb(packet.stop - 1, 2))
+  local right = packet.crc == packet.right_crc and " (right)" or exception
+  item:append_text(right or (" (wrong, 0x%04x is right)"):format(packet.right_crc))
+end
 
--- Writes the columns of the packet list: the protocol, and what each packet is.
-local function show_columns(pinfo, protocol, summaries)
-  pinfo.cols.protocol = protocol
-  pinfo.cols.info = table.concat(summaries, "; ")
+-- Shows the packets of some bytes, up to where `find` finds none, and writes the columns of the packet
+-- list. `show` says what a packet is in a few words.
+local function show_packets(wire, tvb, pinfo, root, find, show)
+  local raw, at, summaries = tvb:raw(), 1, {}
+  while at <= #raw do
+    local packet = find(raw, at)
+    if not packet then break end
+    local tree = root:add(wire.proto, tvb(at - 1, packet.size))
+    local summary
+    if packet.skipped then
+      tree:add(wire.fields.skipped, tvb(at - 1, packet.size))
+      tree:add_proto_expert_info(wire.experts.header)
+      tree:append_text(": skipped")
+      summary = packet.size .. (packet.size == 1 and " byte" or " bytes") .. " skipped"
+    else
+      summary = show(tree, packet, raw)
+      if packet.fault then summary = summary .. " [" .. packet.fault .. "]" end
+      tree:append_text(": " .. summary)
+    end
+    if packet.fault then tree:add(wire.fields.fault, packet.fault):set_generated() end
+    summaries[#summaries + 1] = summary
+    at = at + packet.size
+  end
+  if #summaries > 0 then
+    pinfo.cols.protocol = wire.name
+    pinfo.cols.info = table.concat(summaries, "; ")
+  end
+  return #raw
 end

@@ -10,7 +10,7 @@ local error_names, instruction_names = { [0] = "None" }, { [STATUS.instruction] 
 for number, name in pairs(STATUS.errors) do error_names[number] = name end
 for code, row in pairs(INSTRUCTIONS) do instruction_names[code] = row.name end
 
-local f = link_fields("dynamixel2")
+local f = common_fields("dynamixel2")
 f.header = ProtoField.bytes("dynamixel2.header", "Header")
 f.id = ProtoField.uint8("dynamixel2.id", "ID")
 f.length = ProtoField.uint16("dynamixel2.length", "Length")
@@ -19,9 +19,6 @@ f.error = ProtoField.uint8("dynamixel2.error", "Error", base.HEX)
 f.alert = ProtoField.bool("dynamixel2.error.alert", "Alert", 8, nil, STATUS.alert)
 f.number = ProtoField.uint8("dynamixel2.error.number", "Error number", base.HEX, error_names, 0xFF - STATUS.alert)
 f.parameters = ProtoField.bytes("dynamixel2.parameters", "Parameters")
-f.crc = ProtoField.uint16("dynamixel2.crc", "CRC", base.HEX)
-f.fault = ProtoField.string("dynamixel2.fault", "First broken rule")
-f.skipped = ProtoField.bytes("dynamixel2.skipped", "Bytes that belong to no packet")
 f.other = ProtoField.bytes("dynamixel2.register.other", "Bytes of no whole register")
 
 -- The fields of parameters and of a fast status packet's blocks, by prefix and name.
@@ -103,13 +100,8 @@ end
 -- The packet at a place, with the rules that it breaks: `fault` is the first one. A `quick` look
 -- computes no CRC if the stuffing is wrong.
 local function read(raw, at, quick)
-  local packet = { at = at, faults = {} }
-  local function broken(rule)
-    packet.fault = packet.fault or rule
-    packet.faults[#packet.faults + 1] = rule
-  end
-  local left = #raw - at + 1
-  packet.size = left
+  local packet, broken = packet_at(raw, at)
+  local left = packet.size
   if raw:sub(at, at + #HEADER - 1) ~= HEADER:sub(1, left) then broken("header") end
   if left < PREFIX then broken("truncated") return packet end
 
@@ -165,21 +157,17 @@ local function is_open(packet) return packet.fault == "truncated" and #packet.fa
 local function next_part(raw, at, open)
   local header, reserved = next_header(raw, at, open)
   if HEADER:sub(1, #raw - at + 1) == raw:sub(at) then header = at end
-  if header > at then return { at = at, size = header - at, fault = "header", skipped = true } end
+  if header > at then return skip(at, header) end
   local packet = read(raw, at)
   packet.reserved = reserved
   if not packet.fault or reserved then return packet end
   local may_be_open = open and not is_open(packet)
-  local inside = next_header(raw, at + 1, open)
-  while inside < at + packet.size do
+  local function find(from) return (next_header(raw, from, open)) end
+  local function is_good(inside)
     local other = read(raw, inside, true)
-    if not other.fault or may_be_open and is_open(other) then
-      packet.size, packet.overtaken = inside - at, true
-      break
-    end
-    inside = next_header(raw, inside + 1, open)
+    return not other.fault or may_be_open and is_open(other)
   end
-  return packet
+  return end_at_good(packet, find, is_good)
 end
 
 -- Showing packets -----------------------------------------------------------------------------------
@@ -301,16 +289,19 @@ local function show_instruction(tree, packet, range, pinfo, key)
     tree:add_proto_expert_info(experts.instruction)
   elseif not packet.fault or packet.fault == "crc" then
     local used = add_layout(tree, "param.", row.parameters, range, known)
-    if used ~= range:len() then tree:add_proto_expert_info(experts.parameters) end
+    if used ~= range:len() then
+      tree:add_proto_expert_info(experts.parameters)
+      known = { devices = {} } -- who was asked for what is not certain
+    end
     if row.broadcast_only and packet.id ~= ID.broadcast then
       tree:add_proto_expert_info(experts.to_one)
     end
   end
   if packet.fault then return end
   if not pinfo.visited then
-    found[key] = { frame = pinfo.number, time = pinfo.rel_ts, replies = {}, answered = {},
-      id = packet.id, code = packet.code, known = known }
-    last[line_of(pinfo)] = found[key]
+    local request = new_request(pinfo)
+    request.id, request.code, request.known = packet.id, packet.code, known
+    found[key], last[line_of(pinfo)] = request, request
   end
   if found[key] then show_replies(tree, f, found[key]) end
 end
@@ -319,8 +310,7 @@ end
 local function link_reply(tree, packet, pinfo, key)
   local request = last[line_of(pinfo)]
   if not pinfo.visited and request and may_answer(request, packet.id) and not request.answered[packet.id] then
-    request.answered[packet.id] = true
-    request.replies[#request.replies + 1] = pinfo.number
+    add_reply(request, packet.id, pinfo)
     found[key] = request
   end
   request = found[key]
@@ -348,13 +338,14 @@ local function show_fast_status(tree, packet, tvb, raw, pinfo, key)
   local row = request and INSTRUCTIONS[request.code]
   if not row then return "" end
   local asked, size = request.known, 0
+  if #asked.devices == 0 then return " to " .. row.name end -- how its blocks are cut is not known
   for _, field in ipairs(row.fast_status) do size = size + (asked[field.size] or field.size) end
   local at = packet.at + PREFIX + 1
   local function broken(rule)
     packet.fault = packet.fault or rule
     tree:add_proto_expert_info(experts[rule])
   end
-  if #asked.devices == 0 or at + #asked.devices * size ~= packet.stop + 2 then broken("length") end
+  if at + #asked.devices * size ~= packet.stop + 2 then broken("length") end
   for _, device in ipairs(asked.devices) do
     if at + size > packet.stop + 2 then break end
     local known = { address = asked.address, length = asked.length, devices = {} }
@@ -370,17 +361,9 @@ local function show_fast_status(tree, packet, tvb, raw, pinfo, key)
   return " to " .. row.name
 end
 
--- Adds a packet, and returns what it is in a few words.
-local function show(packet, tvb, raw, pinfo, root)
+-- Shows a packet, and returns what it is in a few words.
+local function show(tree, packet, tvb, raw, pinfo)
   local at = packet.at - 1
-  local tree = root:add(proto, tvb(at, packet.size))
-  if packet.skipped then
-    tree:add(f.skipped, tvb(at, packet.size))
-    tree:add(f.fault, packet.fault):set_generated()
-    tree:add_proto_expert_info(experts.header)
-    tree:append_text(": skipped")
-    return skipped_text(packet.size)
-  end
   tree:add(f.header, tvb(at, math.min(#HEADER, packet.size)))
   if packet.reserved then tree:add_proto_expert_info(experts.reserved) end
   for _, rule in ipairs(packet.faults) do
@@ -415,34 +398,25 @@ local function show(packet, tvb, raw, pinfo, root)
       summary = name .. (packet.id == ID.broadcast and " to all" or " to " .. packet.id)
     end
   end
-  if packet.crc and not packet.overtaken then
-    local item = tree:add_le(f.crc, tvb(packet.stop - 1, 2))
-    local right = packet.crc == packet.right_crc
-    item:append_text(right and " (right)" or (" (wrong, 0x%04x is right)"):format(packet.right_crc))
-  end
-  if packet.fault then
-    tree:add(f.fault, packet.fault):set_generated()
-    summary = summary .. " [" .. packet.fault .. "]"
-  end
-  tree:append_text(": " .. summary)
+  show_crc(tree, f, tvb, packet)
   return summary
 end
 
+local wire = { name = "DYNAMIXEL", proto = proto, fields = f, experts = experts }
+
 local function dissect(tvb, pinfo, root)
-  local raw, at, summaries = tvb:raw(), 1, {}
   local open = pinfo.can_desegment > 0
-  while at <= #raw do
+  local function find(raw, at)
     local packet = next_part(raw, at, open)
     if open and is_open(packet) and not packet.overtaken then
       pinfo.desegment_offset = at - 1
       pinfo.desegment_len = DESEGMENT_ONE_MORE_SEGMENT
-      break
+      return nil
     end
-    summaries[#summaries + 1] = show(packet, tvb, raw, pinfo, root)
-    at = at + packet.size
+    return packet
   end
-  if #summaries > 0 then show_columns(pinfo, "DYNAMIXEL", summaries) end
-  return #raw
+  local function show_one(tree, packet, raw) return show(tree, packet, tvb, raw, pinfo) end
+  return show_packets(wire, tvb, pinfo, root, find, show_one)
 end
 proto.dissector = dissect
 

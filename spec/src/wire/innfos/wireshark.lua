@@ -11,7 +11,7 @@ for code, row in pairs(COMMANDS) do
 end
 for code, name in pairs(MODES) do mode_names[code] = name end
 
-local f = link_fields("innfos")
+local f = common_fields("innfos")
 f.header = ProtoField.uint8("innfos.header", "Header", base.HEX)
 f.kind = ProtoField.string("innfos.direction", "Direction")
 f.address = ProtoField.uint8("innfos.address", "Address")
@@ -22,10 +22,7 @@ f.number = ProtoField.double("innfos.value", "Value")
 f.flag = ProtoField.uint8("innfos.flag", "Flag", base.DEC, FLAGS)
 f.mode = ProtoField.uint8("innfos.mode", "Mode", base.DEC, mode_names)
 f.alarms = ProtoField.uint16("innfos.alarms", "Alarms", base.HEX)
-f.crc = ProtoField.uint16("innfos.crc", "CRC", base.HEX)
 f.tail = ProtoField.uint8("innfos.end", "End", base.HEX)
-f.fault = ProtoField.string("innfos.fault", "First broken rule")
-f.skipped = ProtoField.bytes("innfos.skipped", "Bytes that belong to no packet")
 
 local unnamed = 0xFFFF
 for index, row in ipairs(ALARMS) do
@@ -60,13 +57,8 @@ end
 -- The packet at a place, with the rules that it breaks: `fault` is the first one. A `quick` look
 -- computes no CRC if the end is wrong.
 local function read(raw, at, kind, quick)
-  local packet = { at = at, faults = {} }
-  local function broken(rule)
-    packet.fault = packet.fault or rule
-    packet.faults[#packet.faults + 1] = rule
-  end
-  local left = #raw - at + 1
-  packet.size = left
+  local packet, broken = packet_at(raw, at)
+  local left = packet.size
   if left < PREFIX then broken("truncated") return packet end
   local _, address, command, high, low = raw:byte(at, at + PREFIX - 1)
   packet.address, packet.command, packet.length = address, command, low_first(low, high)
@@ -99,18 +91,12 @@ end
 -- The next packet, or bytes to skip. A damaged packet ends where a valid one begins.
 local function next_part(raw, at, kind)
   local header = raw:find(HEADER, at, true) or #raw + 1
-  if header > at then return { at = at, size = header - at, fault = "header", skipped = true } end
+  if header > at then return skip(at, header) end
   local packet = read(raw, at, kind)
   if not packet.fault then return packet end
-  local inside = raw:find(HEADER, at + 1, true)
-  while inside and inside < at + packet.size do
-    if not read(raw, inside, kind, true).fault then
-      packet.size, packet.overtaken = inside - at, true
-      break
-    end
-    inside = raw:find(HEADER, inside + 1, true)
-  end
-  return packet
+  local function find(from) return (raw:find(HEADER, from, true)) end
+  local function is_good(inside) return not read(raw, inside, kind, true).fault end
+  return end_at_good(packet, find, is_good)
 end
 
 -- Showing packets -----------------------------------------------------------------------------------
@@ -159,7 +145,7 @@ local function link(tree, packet, kind, pinfo, key)
   local function slot(address) return table.concat({ line_of(pinfo), address, packet.command }, "/") end
   if kind == "request" then
     if not pinfo.visited then
-      found[key] = { frame = pinfo.number, time = pinfo.rel_ts, replies = {}, answered = {} }
+      found[key] = new_request(pinfo)
       last[slot(packet.address)] = found[key]
     end
     if found[key] then show_replies(tree, f, found[key]) end
@@ -169,24 +155,15 @@ local function link(tree, packet, kind, pinfo, key)
   local request = last[slot(packet.address)]
   if not request or request.answered[packet.address] then request = last[slot(BROADCAST)] end
   if not pinfo.visited and request and not request.answered[packet.address] then
-    request.answered[packet.address] = true
-    request.replies[#request.replies + 1] = pinfo.number
+    add_reply(request, packet.address, pinfo)
     found[key] = request
   end
   if found[key] then show_request(tree, f, found[key], pinfo) end
 end
 
--- Adds a packet, and returns what it is in a few words.
-local function show(packet, kind, tvb, pinfo, root)
+-- Shows a packet, and returns what it is in a few words.
+local function show(tree, packet, kind, tvb, pinfo)
   local at = packet.at - 1
-  local tree = root:add(proto, tvb(at, packet.size))
-  if packet.skipped then
-    tree:add(f.skipped, tvb(at, packet.size))
-    tree:add(f.fault, packet.fault):set_generated()
-    tree:add_proto_expert_info(experts.header)
-    tree:append_text(": skipped")
-    return skipped_text(packet.size)
-  end
   tree:add(f.header, tvb(at, 1))
   tree:add(f.kind, kind):set_generated()
   for _, rule in ipairs(packet.faults) do tree:add_proto_expert_info(experts[rule]) end
@@ -206,17 +183,9 @@ local function show(packet, kind, tvb, pinfo, root)
       link(tree, packet, kind, pinfo, place(tvb, pinfo, at))
     end
   end
-  if packet.crc and not packet.overtaken then
-    local item, right = tree:add_le(f.crc, tvb(packet.stop - 1, 2)), packet.crc == packet.right_crc
-    local wrong = packet.crc == 0 and CRC_MAY[packet.command] and " (zeros, which this reply may have)"
-    item:append_text(right and " (right)" or wrong or (" (wrong, 0x%04x is right)"):format(packet.right_crc))
-  end
+  local zeros = packet.crc == 0 and CRC_MAY[packet.command] and " (zeros, which this reply may have)"
+  show_crc(tree, f, tvb, packet, zeros)
   if packet.tail and not packet.overtaken then tree:add(f.tail, tvb(at + packet.size - 1, 1)) end
-  if packet.fault then
-    tree:add(f.fault, packet.fault):set_generated()
-    summary = summary .. " [" .. packet.fault .. "]"
-  end
-  tree:append_text(": " .. summary)
   return summary
 end
 
@@ -229,15 +198,12 @@ local function direction_of(pinfo)
   return tostring(pinfo.src) == UDP.address and "reply" or "request"
 end
 
+local wire = { name = "INNFOS", proto = proto, fields = f, experts = experts }
+
 function proto.dissector(tvb, pinfo, root)
-  local raw, at, summaries = tvb:raw(), 1, {}
   local kind = direction_of(pinfo)
-  while at <= #raw do
-    local packet = next_part(raw, at, kind)
-    summaries[#summaries + 1] = show(packet, kind, tvb, pinfo, root)
-    at = at + packet.size
-  end
-  if #summaries > 0 then show_columns(pinfo, "INNFOS", summaries) end
-  return #raw
+  return show_packets(wire, tvb, pinfo, root,
+    function(raw, at) return next_part(raw, at, kind) end,
+    function(tree, packet) return show(tree, packet, kind, tvb, pinfo) end)
 end
 DissectorTable.get("udp.port"):add(UDP.port, proto)
