@@ -30,10 +30,17 @@ pub(super) fn form(input: &Sampled) -> Result<Form, Unreadable> {
     if is_csv(text) {
         return Ok(Form::Csv);
     }
-    if text.contains("\\x") || text.contains("b'") || text.contains("b\"") {
+    if text.contains("\\x") || has_literal(text) {
         return Ok(Form::Escaped);
     }
     notation(text)
+}
+
+/// Whether a text has bytes as Python prints them: a b that no word ends with, and a quote.
+fn has_literal(text: &str) -> bool {
+    let begins =
+        |(at, _)| !text.get(..at).is_some_and(|before| before.ends_with(char::is_alphanumeric));
+    ["b'", "b\""].iter().any(|literal| text.match_indices(literal).any(begins))
 }
 
 /// Hex or decimal.

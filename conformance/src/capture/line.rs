@@ -22,7 +22,8 @@ macro_rules! pattern {
     };
 }
 
-pattern!(COMMENT, r"(?s)/\*.*?\*/|(?:^|[^:])//.*$|#.*$");
+// What stands before // is no part of the comment.
+pattern!(COMMENT, r"(?s)/\*.*?\*/|(?P<before>^|[^:])//.*$|#.*$");
 pattern!(
     TIME,
     r"(?x)^ \s* [\[(]? \s* (?:
@@ -55,7 +56,8 @@ pattern!(REMARK, r"(?P<before>^|[^\w\])])[\[(](?P<inner>[^\[\](){},]*)[\])]");
 /// The time of a line, and its parts. `before` is where they are looked for; `payload` follows it.
 pub(super) fn read(before: &str, payload: &str) -> (Option<Duration>, Vec<Marked>) {
     // In a literal every character is a byte.
-    let before = if payload.is_empty() { COMMENT.replace_all(before, " ") } else { before.into() };
+    let before =
+        if payload.is_empty() { COMMENT.replace_all(before, "$before ") } else { before.into() };
     let (time, rest) = time(&before);
     // Arduino's monitor puts -> behind the time of each line that it receives.
     let arrow = ARROW.captures(rest);

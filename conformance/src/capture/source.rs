@@ -2,12 +2,14 @@
 
 use std::io::{self, BufRead, Cursor, Read};
 
+use anstream::adapter::strip_str;
+
 use super::Unreadable;
 
 /// Bytes at the beginning that the form is found from.
 const SAMPLE: usize = 64 << 10;
 /// The longest line. Nothing that people paste is as long, and memory stays bounded.
-const LONGEST_LINE: usize = 1 << 20;
+pub(super) const LONGEST_LINE: usize = 1 << 20;
 
 /// An input whose beginning is known.
 pub(super) struct Sampled {
@@ -63,7 +65,8 @@ impl Lines {
         }
         // A byte order mark is no part of the first line.
         let text = String::from_utf8_lossy(&bytes);
-        Ok(Some(text.trim_start_matches('\u{feff}').trim_end_matches(['\r', '\n']).to_owned()))
+        let text = text.trim_start_matches('\u{feff}').trim_end_matches(['\r', '\n']);
+        Ok(Some(if text.contains('\x1B') { strip_str(text).to_string() } else { text.to_owned() }))
     }
 }
 
