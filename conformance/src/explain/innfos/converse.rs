@@ -54,7 +54,8 @@ impl Converse for Talk {
                     ask.command == command.code()
                         && (ask.address == address || ask.address == innfos::BROADCAST_ADDRESS)
                 };
-                if let Some(index) = self.asked.iter().position(fits)
+                // The last one, as an earlier one may have stayed without an answer.
+                if let Some(index) = self.asked.iter().rposition(fits)
                     && let Some(ask) = self.asked.get(index)
                 {
                     let begin = heard.place.time.zip(ask.end);
