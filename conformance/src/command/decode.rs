@@ -17,7 +17,7 @@ use actucheck_codec::register::Device;
 use actucheck_spec::wire::{Context, Direction, Fast};
 use clap::Args;
 
-use super::shared::{Failure, one_of, wire};
+use super::shared::{self, Failure, one_of, wire};
 use input::Input;
 use sink::{Lines, Sink, Told};
 use text::Text;
@@ -40,7 +40,8 @@ programs, text with \\xFF, dumps of xxd, hexdump or Wireshark, tables of logic a
 pcapng, and plain bytes. Lines of a log may
 have times, and directions such as TX: and RX:. What has two readings is refused.
 
-Exit status: 0 valid packets only, 1 no valid packet, or bytes that are none, 2 wrong usage.";
+Exit status: 0 every byte is in a valid packet, 1 some byte is not, also of line noise, 2 wrong
+usage, or an input that can't be read to its end, 3 the output could not be written.";
 
 /// Explains packets field by field: one, or all in a log, a dump or a capture
 #[derive(Debug, Args)]
@@ -149,8 +150,8 @@ fn packet(
     if input.form != Form::Hex {
         anstream::eprintln!("read as {}", input.form);
     }
-    // A closed pipe, as of `| head`, is not an error.
-    let _ = write!(anstream::stdout(), "{text}");
+    let mut out = anstream::stdout();
+    shared::seen("the packet", write!(out, "{text}").and_then(|()| out.flush()))?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -184,9 +185,12 @@ fn stream(options: &Decode, wire: Wire, input: Input) -> Result<ExitCode, Failur
         if piece.ends {
             follower.pause(&mut |event| told.event(&event));
         }
+        if told.written.is_err() {
+            break;
+        }
     }
     follower.end(&mut |event| told.event(&event));
-    let summary = told.end();
+    let summary = told.end()?;
     match failed {
         Some(failure) => Err(failure),
         None if summary.total() == 0 || !summary.skipped.is_empty() => {

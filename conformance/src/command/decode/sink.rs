@@ -7,6 +7,7 @@ use actucheck::capture::Form;
 use actucheck::explain::stream::lines::Line;
 use actucheck::explain::stream::{Event, Summary};
 
+use super::super::shared::{self, Failure};
 use super::Show;
 
 /// Writes a stream.
@@ -72,10 +73,10 @@ impl Told {
         self.write(|sink| sink.event(event));
     }
 
-    pub(super) fn end(mut self) -> Summary {
+    pub(super) fn end(mut self) -> Result<Summary, Failure> {
         let summary = std::mem::take(&mut self.summary);
-        // A closed pipe, as of `| head`, is not an error.
         self.write(|sink| sink.end(&summary));
-        summary
+        shared::seen("the packets", self.written)?;
+        Ok(summary)
     }
 }
