@@ -1,6 +1,5 @@
 //! Why an input can't be read.
 
-use std::fmt::Write as _;
 use std::io;
 
 use crate::explain::diff::spaced;
@@ -14,7 +13,7 @@ pub enum Unreadable {
     #[error("there are no bytes; write them as `FF FF FD 00`, or name a file that has them")]
     Empty,
     /// Two forms give different bytes.
-    #[error("{}", two_readings(.0))]
+    #[error("{}; choose with {}", readings(.0), options(.0))]
     Ambiguous(Vec<(Form, Vec<u8>)>),
     /// A text is not in its form.
     #[error("line {line}: {what}")]
@@ -32,16 +31,16 @@ pub enum Unreadable {
     Io(#[from] io::Error),
 }
 
-fn two_readings(readings: &[(Form, Vec<u8>)]) -> String {
-    let mut text = "these are different bytes".to_owned();
-    let mut options = Vec::new();
-    for (form, bytes) in readings {
-        // Writing to a string can't fail.
-        let _ = write!(text, " as {form} (`{}`)", shortened(bytes));
-        options.push(format!("--input {}", form.id()));
-        text.push_str(if options.len() < readings.len() { " and" } else { "" });
-    }
-    format!("{text}; choose with {}", options.join(" or "))
+/// The bytes that an input is in several forms.
+pub(super) fn readings(readings: &[(Form, Vec<u8>)]) -> String {
+    let each = |(form, bytes): &(Form, Vec<u8>)| format!("as {form} (`{}`)", shortened(bytes));
+    let each: Vec<_> = readings.iter().map(each).collect();
+    format!("these are different bytes {}", each.join(" and "))
+}
+
+fn options(readings: &[(Form, Vec<u8>)]) -> String {
+    let each: Vec<_> = readings.iter().map(|(form, _)| format!("--input {}", form.id())).collect();
+    each.join(" or ")
 }
 
 /// A few bytes in hex.

@@ -21,6 +21,16 @@ fn a_line_without_end_is_refused() {
     }
 }
 
+/// So is a row of a table whose quote is not closed.
+#[test]
+fn a_row_without_end_is_refused() {
+    let rows = "time,data\n".to_owned() + &"0.1,0xFF\n".repeat(10_000) + "0.1,\"";
+    let input = BufReader::new(std::io::Cursor::new(rows).chain(repeat(b'F').take(100 << 20)));
+    let mut reading = capture::open(input, Some(Form::Csv)).unwrap();
+    let row = Some("line 10002: longer than 1 MiB; is a quote not closed?".to_owned());
+    assert_eq!(reading.pieces.find_map(Result::err).map(|error| error.to_string()), row);
+}
+
 /// Takes an input through a form and through each wire.
 fn take(input: &[u8], form: Option<Form>) -> Result<(), Unreadable> {
     let reading = capture::open(std::io::Cursor::new(input.to_vec()), form)?;

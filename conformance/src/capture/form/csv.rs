@@ -1,15 +1,17 @@
 //! Tables of logic analysers: a row for each byte, with its time and perhaps an error.
 
-use std::io::BufRead;
+use std::io::{BufRead, Read as _, Take};
 use std::time::Duration;
 
-use csv::{ReaderBuilder, StringRecord, StringRecordsIntoIter};
+use csv::{Reader, ReaderBuilder, StringRecord};
 
 use super::decimal::Decimal;
 use super::hex::Hex;
 use super::text::Notation;
+use super::up_to_error;
+use crate::capture::error::readings;
 use crate::capture::line;
-use crate::capture::source::Sampled;
+use crate::capture::source::{LONGEST_LINE, Sampled};
 use crate::capture::{Form, Piece, Pieces, Unreadable};
 
 /// Rows that the notation of the data is found from.
@@ -94,16 +96,16 @@ fn separator(text: &str) -> u8 {
 pub(super) fn pieces(input: Sampled) -> Pieces {
     let sample = String::from_utf8_lossy(input.sample()).into_owned();
     match Table::open(input, &sample) {
-        Ok(table) => Box::new(table),
+        Ok(mut table) => up_to_error(move || table.next()),
         Err(error) => Box::new(std::iter::once(Err(error))),
     }
 }
 
 struct Table {
-    rows: StringRecordsIntoIter<Box<dyn BufRead + Send>>,
+    rows: Reader<Take<Box<dyn BufRead + Send>>>,
+    row: StringRecord,
     columns: Columns,
     notation: Form,
-    ended: bool,
 }
 
 impl Table {
@@ -128,34 +130,30 @@ impl Table {
             .collect();
         let notation = notation(&cells)?;
         let whole: Box<dyn BufRead + Send> = Box::new(input.into_bytes());
-        let rows = builder().from_reader(whole).into_records();
-        Ok(Self { rows, columns, notation, ended: false })
+        let rows = builder().from_reader(whole.take(0));
+        Ok(Self { rows, row: StringRecord::new(), columns, notation })
     }
 
-    fn piece(&self, row: &StringRecord) -> Result<Piece, Unreadable> {
+    fn next(&mut self) -> Result<Option<Piece>, Unreadable> {
+        let Self { rows, row, columns, notation } = self;
+        // A quote that is not closed makes one row of all that follows.
+        rows.get_mut().set_limit(LONGEST_LINE as u64);
+        let found = rows
+            .read_record(row)
+            .map_err(|error| Unreadable::File(format!("this is no CSV: {error}")))?;
         let line = row.position().map(csv::Position::line);
-        let cell = row.get(self.columns.data).unwrap_or_default();
-        let bytes = read(self.notation, cell)
-            .map_err(|what| Unreadable::Line { line: line.unwrap_or_default(), what })?;
-        let direction = self.columns.name.and_then(|name| line::direction(row.get(name)?));
-        let (time, note) = (self.columns.time(row), self.columns.note(row));
-        Ok(Piece { bytes, direction, time, line, ends: false, note })
-    }
-}
-
-impl Iterator for Table {
-    type Item = Result<Piece, Unreadable>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        if self.ended {
-            return None;
+        let wrong = |what| Unreadable::Line { line: line.unwrap_or(1), what };
+        if rows.get_ref().limit() == 0 {
+            return Err(wrong("longer than 1 MiB; is a quote not closed?".to_owned()));
         }
-        let row = self.rows.next()?;
-        let piece = row
-            .map_err(|error| Unreadable::File(format!("this is no CSV: {error}")))
-            .and_then(|row| self.piece(&row));
-        self.ended = piece.is_err();
-        Some(piece)
+        if !found {
+            return Ok(None);
+        }
+        let cell = row.get(columns.data).unwrap_or_default();
+        let bytes = read(*notation, cell).map_err(wrong)?;
+        let direction = columns.name.and_then(|name| line::direction(row.get(name)?));
+        let (time, note) = (columns.time(row), columns.note(row));
+        Ok(Some(Piece { bytes, direction, time, line, ends: false, note }))
     }
 }
 
@@ -174,7 +172,8 @@ fn notation(cells: &[String]) -> Result<Form, Unreadable> {
     };
     match (bytes(Form::Hex), bytes(Form::Decimal)) {
         (Ok(hex), Ok(decimal)) if hex != decimal => {
-            Err(Unreadable::File("the data may be hex or decimal; export them with 0x".to_owned()))
+            let both = readings(&[(Form::Hex, hex), (Form::Decimal, decimal)]);
+            Err(Unreadable::File(format!("{both}; export them with 0x")))
         }
         (Ok(_), _) => Ok(Form::Hex),
         (Err(_), Ok(_)) => Ok(Form::Decimal),

@@ -4,6 +4,7 @@ use std::sync::LazyLock;
 
 use regex::Regex;
 
+use super::up_to_error;
 use crate::capture::source::{Lines, Sampled};
 use crate::capture::{Piece, Pieces, Unreadable};
 
@@ -138,7 +139,8 @@ pub(in crate::capture) fn is_dump(text: &str) -> bool {
 pub(super) fn pieces(input: Sampled) -> Pieces {
     let radix = if is_octal(&String::from_utf8_lossy(input.sample())) { 8 } else { 16 };
     let lines = input.into_lines();
-    Box::new(Dump { lines, radix, held: None, repeated: false, ended: false })
+    let mut dump = Dump { lines, radix, held: None, repeated: false };
+    up_to_error(move || dump.next())
 }
 
 /// od counts in octal: the second offset is 20 where others have 10.
@@ -157,45 +159,25 @@ struct Dump {
     held: Option<(Row, u64)>,
     /// A `*` came after it.
     repeated: bool,
-    ended: bool,
-}
-
-impl Iterator for Dump {
-    type Item = Result<Piece, Unreadable>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        while !self.ended {
-            match self.line() {
-                Ok(None) => {}
-                Ok(Some(piece)) => return Some(Ok(piece)),
-                Err(error) => {
-                    self.ended = true;
-                    return Some(Err(error));
-                }
-            }
-        }
-        None
-    }
 }
 
 impl Dump {
-    fn line(&mut self) -> Result<Option<Piece>, Unreadable> {
-        let Some(line) = self.lines.next()? else {
-            self.ended = true;
-            return self.held(None);
-        };
-        let number = self.lines.number;
-        if line.trim() == "*" {
-            self.repeated = true;
-            return Ok(None);
+    fn next(&mut self) -> Result<Option<Piece>, Unreadable> {
+        while let Some(line) = self.lines.next()? {
+            if line.trim() == "*" {
+                self.repeated = self.held.is_some();
+                continue;
+            }
+            // What is no row are words between two dumps, such as the name of a file.
+            let row = Row::of(&line);
+            let piece = self.held(row.as_ref().and_then(|row| row.offset(self.radix)))?;
+            let number = self.lines.number;
+            self.held = row.filter(|row| !row.rest.is_empty()).map(|row| (row, number));
+            if piece.is_some() {
+                return Ok(piece);
+            }
         }
-        let Some(row) = Row::of(&line) else {
-            // Words between two dumps, such as the name of a file.
-            return self.held(None);
-        };
-        let piece = self.held(row.offset(self.radix))?;
-        self.held = (!row.rest.is_empty()).then_some((row, number));
-        Ok(piece)
+        self.held(None)
     }
 
     /// The bytes of the row that is held, before a row at `next`.

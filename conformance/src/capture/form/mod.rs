@@ -15,8 +15,8 @@ pub(super) use csv::is_csv;
 pub(super) use dump::is_dump;
 pub(super) use pcap::is_pcap;
 
-use super::Pieces;
 use super::source::Sampled;
+use super::{Piece, Pieces, Unreadable};
 
 /// How bytes are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -93,9 +93,19 @@ impl Form {
             Self::Dump => dump::pieces(input),
             Self::Csv => csv::pieces(input),
             Self::Pcap => pcap::pieces(input),
-            Self::Raw => Box::new(raw::Raw::new(input)),
+            Self::Raw => raw::pieces(input),
         }
     }
+}
+
+/// The pieces that `next` returns, up to `None` or an error.
+fn up_to_error(mut next: impl FnMut() -> Result<Option<Piece>, Unreadable> + 'static) -> Pieces {
+    let mut ended = false;
+    Box::new(std::iter::from_fn(move || {
+        let piece = if ended { None } else { next().transpose() };
+        ended = !matches!(piece, Some(Ok(_)));
+        piece
+    }))
 }
 
 impl fmt::Display for Form {

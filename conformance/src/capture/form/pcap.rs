@@ -7,6 +7,7 @@ use etherparse::{LaxSlicedPacket, TransportSlice};
 use pcap_parser::traits::PcapReaderIterator;
 use pcap_parser::{Block, PcapBlockOwned, PcapError, create_reader};
 
+use super::up_to_error;
 use crate::capture::source::Sampled;
 use crate::capture::{Piece, Pieces, Unreadable};
 
@@ -29,13 +30,11 @@ pub(in crate::capture) fn is_pcap(bytes: &[u8]) -> bool {
 /// The pieces of a capture.
 pub(super) fn pieces(input: Sampled) -> Pieces {
     match create_reader(BUFFER, input.into_bytes()) {
-        Ok(reader) => Box::new(Capture {
-            reader,
-            size: BUFFER,
-            interfaces: Vec::new(),
-            other: None,
-            ended: false,
-        }),
+        Ok(reader) => {
+            let (interfaces, other) = (Vec::new(), None);
+            let mut capture = Capture { reader, size: BUFFER, interfaces, other };
+            up_to_error(move || capture.next())
+        }
         Err(error) => Box::new(std::iter::once(Err(unreadable(&error)))),
     }
 }
@@ -66,67 +65,42 @@ struct Capture {
     interfaces: Vec<Interface>,
     /// A link that is not known here.
     other: Option<i32>,
-    ended: bool,
-}
-
-impl Iterator for Capture {
-    type Item = Result<Piece, Unreadable>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        while !self.ended {
-            match self.block() {
-                Ok(None) => {}
-                Ok(Some(piece)) => return Some(Ok(piece)),
-                Err(error) => {
-                    self.ended = true;
-                    return Some(Err(error));
-                }
-            }
-        }
-        let link = self.other.take()?;
-        let note = format!("frames of link type {link} are not read");
-        Some(Ok(Piece { note: Some(note), ..Piece::default() }))
-    }
 }
 
 impl Capture {
-    fn block(&mut self) -> Result<Option<Piece>, Unreadable> {
-        let mut more = false;
-        let mut grow = false;
-        let piece = match self.reader.next() {
-            Ok((size, block)) => {
-                let piece = read(&mut self.interfaces, &mut self.other, &block);
-                self.reader.consume(size);
-                return Ok(piece);
-            }
-            Err(PcapError::Eof) => {
-                self.ended = true;
-                None
-            }
-            Err(PcapError::Incomplete(_)) => {
-                more = true;
-                None
-            }
-            Err(PcapError::BufferTooSmall) => {
-                grow = true;
-                None
-            }
-            Err(error) => return Err(unreadable(&error)),
-        };
-        if grow {
-            self.size *= 2;
-            if self.size > LARGEST || !self.reader.grow(self.size) {
-                return Err(unreadable::<&[u8]>(&PcapError::BufferTooSmall));
-            }
-        }
-        if more || grow {
-            if more && self.reader.reader_exhausted() {
-                return Err(unreadable::<&[u8]>(&PcapError::UnexpectedEof));
+    fn next(&mut self) -> Result<Option<Piece>, Unreadable> {
+        loop {
+            match self.reader.next() {
+                Ok((size, block)) => {
+                    let piece = read(&mut self.interfaces, &mut self.other, &block);
+                    self.reader.consume(size);
+                    if piece.is_some() {
+                        return Ok(piece);
+                    }
+                    continue;
+                }
+                Err(PcapError::Eof) => return Ok(self.other.take().map(unread)),
+                Err(PcapError::Incomplete(_)) => {
+                    if self.reader.reader_exhausted() {
+                        return Err(unreadable::<&[u8]>(&PcapError::UnexpectedEof));
+                    }
+                }
+                Err(PcapError::BufferTooSmall) => {
+                    self.size *= 2;
+                    if self.size > LARGEST || !self.reader.grow(self.size) {
+                        return Err(unreadable::<&[u8]>(&PcapError::BufferTooSmall));
+                    }
+                }
+                Err(error) => return Err(unreadable(&error)),
             }
             self.reader.refill().map_err(|error| unreadable(&error))?;
         }
-        Ok(piece)
     }
+}
+
+fn unread(link: i32) -> Piece {
+    let note = format!("frames of link type {link} are not read");
+    Piece { note: Some(note), ..Piece::default() }
 }
 
 fn read(

@@ -1,45 +1,19 @@
 //! The bytes themselves.
 
-use std::io::{BufRead, ErrorKind};
+use std::io::Read as _;
 
+use super::up_to_error;
 use crate::capture::source::Sampled;
-use crate::capture::{Piece, Unreadable};
+use crate::capture::{Piece, Pieces};
 
 const PIECE: usize = 64 << 10;
 
-/// Reads a file of plain bytes.
-pub(super) struct Raw<R> {
-    input: R,
-    ended: bool,
-}
-
-impl Raw<Box<dyn BufRead + Send>> {
-    pub(super) fn new(input: Sampled) -> Self {
-        Self { input: Box::new(input.into_bytes()), ended: false }
-    }
-}
-
-impl<R: BufRead> Iterator for Raw<R> {
-    type Item = Result<Piece, Unreadable>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        if self.ended {
-            return None;
-        }
-        let mut bytes = vec![0; PIECE];
-        loop {
-            match self.input.read(&mut bytes) {
-                Ok(0) => return None,
-                Ok(count) => {
-                    bytes.truncate(count);
-                    return Some(Ok(Piece { bytes, ..Piece::default() }));
-                }
-                Err(error) if error.kind() == ErrorKind::Interrupted => {}
-                Err(error) => {
-                    self.ended = true;
-                    return Some(Err(error.into()));
-                }
-            }
-        }
-    }
+/// The pieces of a file of plain bytes.
+pub(super) fn pieces(input: Sampled) -> Pieces {
+    let mut input = input.into_bytes();
+    up_to_error(move || {
+        let mut bytes = Vec::with_capacity(PIECE);
+        input.by_ref().take(PIECE as u64).read_to_end(&mut bytes)?;
+        Ok((!bytes.is_empty()).then(|| Piece { bytes, ..Piece::default() }))
+    })
 }

@@ -4,6 +4,7 @@ use std::collections::VecDeque;
 
 use actucheck_spec::wire::Direction;
 
+use super::up_to_error;
 use crate::capture::line::{self, Marked};
 use crate::capture::source::{Lines, Sampled};
 use crate::capture::{Piece, Pieces, Unreadable};
@@ -26,7 +27,11 @@ pub(in crate::capture) trait Notation {
 /// The pieces of a text.
 pub(super) fn pieces(input: Sampled, notation: impl Notation + 'static) -> Pieces {
     let lines = input.into_lines();
-    Box::new(Text { lines, notation, standing: None, ready: VecDeque::new(), ended: false })
+    let mut text = Text { lines, notation, standing: None, ready: VecDeque::new() };
+    up_to_error(move || {
+        while text.ready.is_empty() && text.line()? {}
+        Ok(text.ready.pop_front())
+    })
 }
 
 struct Text<N> {
@@ -35,29 +40,12 @@ struct Text<N> {
     /// The direction in a line of its own, which is that of the lines after it.
     standing: Option<Direction>,
     ready: VecDeque<Piece>,
-    ended: bool,
-}
-
-impl<N: Notation> Iterator for Text<N> {
-    type Item = Result<Piece, Unreadable>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        while self.ready.is_empty() && !self.ended {
-            if let Err(error) = self.line() {
-                self.ended = true;
-                return Some(Err(error));
-            }
-        }
-        self.ready.pop_front().map(Ok)
-    }
 }
 
 impl<N: Notation> Text<N> {
-    fn line(&mut self) -> Result<(), Unreadable> {
-        let Some(line) = self.lines.next()? else {
-            self.ended = true;
-            return Ok(());
-        };
+    /// Reads a line; `false` at the end of the text.
+    fn line(&mut self) -> Result<bool, Unreadable> {
+        let Some(line) = self.lines.next()? else { return Ok(false) };
         let number = self.lines.number;
         let wrong = |what| Unreadable::Line { line: number, what };
         let (before, payload) = self.notation.split(&line);
@@ -93,7 +81,7 @@ impl<N: Notation> Text<N> {
                 self.ready.push_back(Piece { bytes, direction, time, line, ..Piece::default() });
             }
         }
-        Ok(())
+        Ok(true)
     }
 }
 
