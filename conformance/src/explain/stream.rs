@@ -205,7 +205,7 @@ impl Follower {
         }
         let Self { parts, split, .. } = self;
         parts.fed += bytes.len() as u64;
-        parts.pieces.push_back((parts.fed, line, time));
+        parts.remember(line, time);
         split.feed(bytes, direction, &mut |cut| parts.next(cut, direction, take));
     }
 
@@ -230,7 +230,18 @@ impl Follower {
     }
 }
 
+/// Longer than any packet: of skipped bytes before it, only the first have a place.
+const LONGEST: u64 = 128 << 10;
+
 impl Parts {
+    /// Takes the line and the time of the bytes that were fed last.
+    fn remember(&mut self, line: Option<u64>, time: Option<Duration>) {
+        self.pieces.push_back((self.fed, line, time));
+        while self.pieces.get(1).is_some_and(|(end, ..)| end + LONGEST < self.fed) {
+            self.pieces.remove(1);
+        }
+    }
+
     fn next(
         &mut self,
         cut: Cut<'_>,
@@ -295,4 +306,33 @@ pub fn wire_of(pieces: &[(Vec<u8>, Option<Direction>)]) -> Wire {
     // Of equals the first is the default.
     let found = WIRES.into_iter().map(|(wire, _, listen)| (frames(listen), wire));
     found.rev().max_by_key(|(bytes, _)| *bytes).map_or_else(Wire::default, |(_, wire)| wire)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_noise_in_many_lines_is_not_remembered_line_by_line() {
+        let mut follower = Follower::new(Wire::default(), None).expect("the default is followed");
+        for line in 1..=400_000 {
+            follower.feed(&[0], None, Some(line), None, &mut |_| {});
+        }
+        assert!(follower.parts.pieces.len() < 200_000, "{}", follower.parts.pieces.len());
+        let mut places = Vec::new();
+        follower.feed(
+            b"\xFF\xFF\xFD\0\x01\x03\0\x01\x19\x4E",
+            None,
+            Some(400_001),
+            None,
+            &mut |event| {
+                if let Event::Packet(Heard { place, .. }, _)
+                | Event::Skipped(Skipped { place, .. }) = event
+                {
+                    places.push((place.at, place.line));
+                }
+            },
+        );
+        assert_eq!(places, [(0, Some(1)), (400_000, Some(400_001))]);
+    }
 }

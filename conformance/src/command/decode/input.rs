@@ -49,7 +49,7 @@ impl Input {
 
     fn begin(&mut self) -> Result<(), Failure> {
         let mut bytes = 0;
-        while bytes < BEGINNING {
+        while bytes < BEGINNING && self.beginning.len() < BEGINNING {
             let Some(piece) = self.rest.next() else {
                 self.whole = true;
                 break;
@@ -67,7 +67,7 @@ impl Input {
                 Err(error) => return Err(Failure::usage(error)),
             }
         }
-        if bytes == 0 {
+        if bytes == 0 && self.whole {
             if let Some(note) = self.beginning.iter().find_map(|piece| piece.note.as_ref()) {
                 return Err(Failure::usage(format!("there are no bytes: {note}")));
             }
