@@ -56,6 +56,12 @@ const WIRES: [(Wire, Explain, Listen); 2] = [
 /// The devices whose registers have names here.
 pub const DEVICES: [&Device; 3] = [&ja40::DEVICE, &ja_variant::DEVICE, &xm430_w210::DEVICE];
 
+/// The device with a model number.
+#[must_use]
+pub fn device_of(model: u16) -> Option<&'static Device> {
+    DEVICES.into_iter().find(|device| device.model_number == Some(model))
+}
+
 /// Explains a whole frame.
 ///
 /// # Errors

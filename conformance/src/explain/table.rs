@@ -1,5 +1,7 @@
 //! The parts of an explanation of a frame.
 
+use super::diff::spaced;
+
 /// The meaning of a frame's bytes, one row per field.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Explanation {
@@ -43,7 +45,7 @@ impl<'a> Table<'a> {
     /// Adds the next bytes of the frame as a field.
     pub(super) fn take(&mut self, size: usize, field: &str, meaning: impl Fn(&[u8]) -> String) {
         let bytes = self.frame.get(self.next..self.next + size).unwrap_or_default();
-        self.push(self.next, hex(bytes), field, &meaning(bytes));
+        self.push(self.next, spaced(bytes), field, &meaning(bytes));
         self.next += size;
     }
 
@@ -68,9 +70,4 @@ pub(super) fn low_first(bytes: &[u8]) -> u64 {
 pub(super) fn rounded(value: f64) -> String {
     let text = format!("{value:.6}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
-}
-
-fn hex(bytes: &[u8]) -> String {
-    let words: Vec<_> = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
-    words.join(" ")
 }

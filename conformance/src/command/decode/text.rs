@@ -8,7 +8,7 @@ use actucheck::adapter::Wire;
 use actucheck::capture::Form;
 use actucheck::explain::diff::spaced;
 use actucheck::explain::stream::{Event, Heard, Place, Role, Silent, Skipped, Summary, Turn};
-use actucheck::explain::{Asked, DEVICES, Explanation, explain};
+use actucheck::explain::{Asked, Explanation, device_of, explain};
 use actucheck::legible::legible;
 
 use super::super::shared::table::{BOLD, DIM};
@@ -168,7 +168,7 @@ fn role(role: Role) -> String {
 
 fn device(id: u8, model: Option<u16>) -> String {
     let Some(model) = model else { return id.to_string() };
-    match DEVICES.into_iter().find(|device| device.model_number == Some(model)) {
+    match device_of(model) {
         Some(device) => format!("{id} ({})", device.name),
         None => format!("{id} (model {model})"),
     }

@@ -5,9 +5,9 @@ use std::time::Duration;
 use actucheck_codec::crc;
 use actucheck_codec::dynamixel2::{BROADCAST_ID, FastStatus, Frame, Instruction, Request};
 use actucheck_codec::register::Device;
-use actucheck_spec::wire::{Context, Direction, Fast};
+use actucheck_spec::wire::{Direction, Fast};
 
-use super::super::DEVICES;
+use super::super::device_of;
 use super::super::stream::{Converse, Heard, Role, Silent, Turn};
 use super::PREFIX;
 
@@ -61,7 +61,7 @@ impl Talk {
 
     fn table(&self, id: u8) -> Option<&'static Device> {
         let model = self.models.get(usize::from(id)).copied().flatten();
-        self.table.or_else(|| model.and_then(device))
+        self.table.or_else(|| model.and_then(device_of))
     }
 
     fn request(&mut self, heard: &Heard<'_>, frame: &Frame<'_>) -> Turn {
@@ -78,39 +78,43 @@ impl Talk {
             return Turn { role: Role::Echo, ..turn };
         }
         let silent = self.silent();
-        self.scratch.resize(frame.params_len(), 0);
-        let request = Request::parse(frame, &mut self.scratch);
-        let one = |range| vec![Asked::of(frame.id(), range)];
+        // The lists of the last request are used again: there are millions of requests.
+        let (mut bytes, mut devices) =
+            self.ask.take().map(|ask| (ask.bytes, ask.devices)).unwrap_or_default();
+        bytes.clear();
+        bytes.extend_from_slice(heard.bytes);
+        devices.clear();
+        if self.scratch.len() < frame.params_len() {
+            self.scratch.resize(frame.params_len(), 0);
+        }
         let mut fast = None;
-        let devices = match request {
+        match Request::parse(frame, &mut self.scratch) {
             Ok(Request::SyncRead(read)) => {
                 let range = Some((read.address, read.length));
-                read.ids.iter().map(|id| Asked::of(*id, range)).collect()
+                devices.extend(read.ids.iter().map(|id| Asked::of(*id, range)));
             }
             Ok(Request::FastSyncRead(read)) => {
                 let range = Some((read.address, read.length));
                 fast = Some(Fast { length: read.length, ids: read.ids.to_vec() });
-                read.ids.iter().map(|id| Asked::of(*id, range)).collect()
+                devices.extend(read.ids.iter().map(|id| Asked::of(*id, range)));
             }
             Ok(Request::FastSyncWrite(write)) => {
                 let ids: Vec<_> = write.devices.map(|device| device.id).collect();
-                fast = Some(Fast { length: 0, ids: ids.clone() });
-                ids.into_iter().map(|id| Asked::of(id, None)).collect()
+                devices.extend(ids.iter().map(|id| Asked::of(*id, None)));
+                fast = Some(Fast { length: 0, ids });
             }
-            Ok(Request::BulkRead(read)) => {
-                let range = |range: actucheck_codec::dynamixel2::instruction::DeviceRange| {
-                    Asked::of(range.id, Some((range.address, range.length)))
-                };
-                read.devices.map(range).collect()
+            Ok(Request::BulkRead(read)) => devices
+                .extend(read.devices.map(|of| Asked::of(of.id, Some((of.address, of.length))))),
+            _ if frame.id() == BROADCAST_ID => {}
+            Ok(Request::Read(read)) => {
+                devices.push(Asked::of(frame.id(), Some((read.address, read.length))));
             }
-            _ if frame.id() == BROADCAST_ID => Vec::new(),
-            Ok(Request::Read(read)) => one(Some((read.address, read.length))),
-            _ => one(None),
-        };
+            _ => devices.push(Asked::of(frame.id(), None)),
+        }
         self.ask = Some(Ask {
             at: heard.place.at,
             end: heard.end,
-            bytes: heard.bytes.to_vec(),
+            bytes,
             instruction,
             devices,
             fast,
@@ -121,8 +125,8 @@ impl Talk {
 
     /// The devices that did not answer the last request. If none ever answered, the stream has one
     /// direction only.
-    fn silent(&mut self) -> Option<Silent> {
-        let ask = self.ask.take()?;
+    fn silent(&self) -> Option<Silent> {
+        let ask = self.ask.as_ref()?;
         let always = matches!(
             ask.instruction,
             Instruction::Ping
@@ -132,22 +136,26 @@ impl Talk {
                 | Instruction::FastSyncRead
                 | Instruction::FastSyncWrite
         );
-        let devices: Vec<_> =
-            ask.devices.iter().filter(|asked| !asked.answered).map(|asked| asked.id).collect();
-        let told = always && self.answered && !devices.is_empty();
+        if !always || !self.answered {
+            return None;
+        }
+        let silent = ask.devices.iter().filter(|asked| !asked.answered);
+        let devices: Vec<_> = silent.map(|asked| asked.id).collect();
+        let told = !devices.is_empty();
         told.then_some(Silent { to: ask.at, name: ask.instruction.name(), devices })
     }
 
     fn status(&mut self, heard: &Heard<'_>, frame: &Frame<'_>) -> Turn {
         self.answered = true;
         let (kind, id) = (Instruction::Status.name(), frame.id());
-        let data: Vec<u8> = frame.params().skip(1).collect();
+        // The first parameter is the error.
+        let size = frame.params_len().saturating_sub(1);
         let mut turn = Turn { kind, device: Some(id), table: self.table(id), ..Turn::default() };
-        let Some(ask) = &mut self.ask else { return unasked(turn, &data) };
+        let Some(ask) = &mut self.ask else { return unasked(turn, frame) };
         let everyone = ask.devices.is_empty();
         let asked = ask.devices.iter_mut().find(|asked| asked.id == id && !asked.answered);
         if asked.is_none() && !everyone {
-            return unasked(turn, &data);
+            return unasked(turn, frame);
         }
         ask.followed = true;
         let after = heard.place.time.zip(ask.end).and_then(|(begin, end)| begin.checked_sub(end));
@@ -156,15 +164,14 @@ impl Talk {
         if let Some(asked) = asked {
             asked.answered = true;
             turn.address = asked.address;
-            let length = asked.length.map(usize::from).filter(|length| *length != data.len());
-            if let Some(length) = length.filter(|_| !(failed && data.is_empty())) {
-                turn.notes.push(format!("{length} bytes were asked for, {} came", data.len()));
+            let length = asked.length.map(usize::from).filter(|length| *length != size);
+            if let Some(length) = length.filter(|_| !(failed && size == 0)) {
+                turn.notes.push(format!("{length} bytes were asked for, {size} came"));
             }
         }
         if ask.instruction == Instruction::Ping
-            && let [low, high, firmware] = *data
+            && let Some((model, firmware)) = ping(frame)
         {
-            let model = u16::from_le_bytes([low, high]);
             if let Some(slot) = self.models.get_mut(usize::from(id)) {
                 *slot = Some(model);
             }
@@ -202,15 +209,16 @@ impl Talk {
             Instruction::FastSyncWrite => data_of_write(heard.bytes, fast.ids.len()),
             _ => fast.length,
         };
-        let found = match FastStatus::parse(heard.bytes, length, &fast.ids) {
-            Ok(packet) => packet.blocks().map(|block| block.id).collect(),
-            Err(error) => {
-                turn.notes.push(error.to_string());
-                whole_blocks(heard.bytes, length)
+        match FastStatus::parse(heard.bytes, length, &fast.ids) {
+            Ok(_) => {
+                ask.mark(&fast.ids);
+                turn.context.fast = Some(Fast { length, ids: fast.ids });
             }
-        };
-        ask.mark(&found);
-        turn.context = Context { fast: Some(Fast { length, ids: fast.ids }), direction: None };
+            Err(error) => {
+                ask.mark(&whole_blocks(heard.bytes, length));
+                turn.notes.push(error.to_string());
+            }
+        }
         turn
     }
 }
@@ -268,25 +276,30 @@ impl Converse for Talk {
     }
 
     fn end(&mut self) -> Option<Silent> {
-        self.silent()
+        let silent = self.silent();
+        self.ask = None;
+        silent
     }
 }
 
-fn unasked(mut turn: Turn, data: &[u8]) -> Turn {
+fn unasked(mut turn: Turn, frame: &Frame<'_>) -> Turn {
     turn.role = Role::Unasked;
-    if let [low, high, firmware] = *data {
-        let words = ping_words(u16::from_le_bytes([low, high]), firmware);
+    if let Some((model, firmware)) = ping(frame) {
+        let words = ping_words(model, firmware);
         turn.notes.push(format!("if it answers a Ping: {words}"));
     }
     turn
 }
 
-fn device(model: u16) -> Option<&'static Device> {
-    DEVICES.into_iter().find(|device| device.model_number == Some(model))
+/// Model number and firmware in an answer to Ping.
+fn ping(frame: &Frame<'_>) -> Option<(u16, u8)> {
+    let mut data = frame.params().skip(1);
+    let (low, high, firmware) = (data.next()?, data.next()?, data.next()?);
+    data.next().is_none().then_some((u16::from_le_bytes([low, high]), firmware))
 }
 
 fn ping_words(model: u16, firmware: u8) -> String {
-    let name = device(model).map(|device| format!(" ({})", device.name)).unwrap_or_default();
+    let name = device_of(model).map(|device| format!(" ({})", device.name)).unwrap_or_default();
     format!("model {model}{name}, firmware {firmware}")
 }
 
@@ -300,15 +313,15 @@ fn data_of_write(bytes: &[u8], devices: usize) -> u16 {
 /// The devices whose blocks are whole: each CRC covers all before it.
 fn whole_blocks(bytes: &[u8], length: u16) -> Vec<u8> {
     let mut found = Vec::new();
-    let mut start = PREFIX + 1;
-    while let Some([_, id, rest @ ..]) = bytes.get(start..start + BLOCK + usize::from(length)) {
-        let end = start + 2 + usize::from(length);
-        let crc = rest.get(usize::from(length)..).and_then(|rest| rest.first_chunk());
-        let right = crc.copied().map(u16::from_le_bytes) == bytes.get(..end).map(crc::umts);
-        if right {
+    let (head, blocks) = bytes.split_at_checked(PREFIX + 1).unwrap_or_default();
+    let mut crc = crc::umts(head);
+    for block in blocks.chunks_exact(BLOCK + usize::from(length)) {
+        let Some((before @ [_, id, ..], sum)) = block.split_last_chunk() else { continue };
+        crc = crc::umts_update(crc, before);
+        if crc == u16::from_le_bytes(*sum) {
             found.push(*id);
         }
-        start = end + 2;
+        crc = crc::umts_update(crc, sum);
     }
     found
 }

@@ -228,7 +228,7 @@ impl Line {
         };
         let seen = |(id, model): (&u8, &Option<u16>)| Seen { id: *id, model: *model };
         Self::Summary {
-            packets: summary.packets.iter().map(|(kind, count)| (*kind, *count)).collect(),
+            packets: summary.packets.iter().copied().collect(),
             skipped: summary.skipped.iter().map(runs).collect(),
             devices: summary.devices.iter().map(seen).collect(),
             echoes: summary.echoes,

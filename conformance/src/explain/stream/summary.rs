@@ -3,15 +3,13 @@
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-use indexmap::IndexMap;
-
 use super::{Event, Role, Skipped};
 
 /// Counts over a stream.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Summary {
-    /// Packets by the word for their kind.
-    pub packets: IndexMap<&'static str, u64>,
+    /// Packets by the word for their kind, in the order of their first ones.
+    pub packets: Vec<(&'static str, u64)>,
     /// Runs of bytes that are no packet, and their bytes, by reason.
     pub skipped: BTreeMap<String, (u64, u64)>,
     /// The devices that packets were for or from, each with its model number if it told it.
@@ -60,8 +58,13 @@ impl Summary {
     pub fn add(&mut self, event: &Event<'_>) {
         match event {
             Event::Packet(_, turn) => {
-                *self.packets.entry(turn.kind).or_default() += 1;
-                if let Some(device) = turn.device {
+                // There are few kinds: to look through them is quicker than a hash.
+                match self.packets.iter_mut().find(|(kind, _)| *kind == turn.kind) {
+                    Some((_, count)) => *count += 1,
+                    None => self.packets.push((turn.kind, 1)),
+                }
+                let several = turn.context.fast.iter().flat_map(|fast| fast.ids.iter().copied());
+                for device in turn.device.into_iter().chain(several) {
                     let model = self.devices.entry(device).or_default();
                     *model = turn.model.or(*model);
                 }
@@ -86,6 +89,6 @@ impl Summary {
     /// How many packets there are.
     #[must_use]
     pub fn total(&self) -> u64 {
-        self.packets.values().sum()
+        self.packets.iter().map(|(_, count)| count).sum()
     }
 }

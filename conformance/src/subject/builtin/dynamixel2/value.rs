@@ -1,16 +1,13 @@
 //! The values of the codec's registers.
 
-use actucheck_codec::register::{Device, Row};
-use actucheck_codec::{ja_variant, ja40, xm430_w210};
+use actucheck_codec::register::Row;
 use actucheck_spec::model::Fault;
 use actucheck_spec::wire::{Form, Number, Value};
 
 use super::super::{not_fitting, output, rejection};
 use super::Result;
 use crate::adapter::{Given, Output, RegisterOf, Rejection};
-
-/// The devices that the codec has.
-const DEVICES: [&Device; 3] = [&ja40::DEVICE, &ja_variant::DEVICE, &xm430_w210::DEVICE];
+use crate::explain::DEVICES;
 
 /// The codec's answer to the op `value`.
 pub(super) fn ask(of: &RegisterOf, form: &Form, given: &Given) -> Result {
