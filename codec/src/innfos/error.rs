@@ -129,7 +129,16 @@ impl fmt::Display for MessageError {
             Self::Unknown { code } => write!(f, "{code:02X} is no command"),
             Self::NoReply { command } => write!(f, "{} is not answered", command.name()),
             Self::Size { command, found, expected } => {
-                write!(f, "{} has {expected:?} bytes of data here, not {found}", command.name())
+                write!(f, "{} has ", command.name())?;
+                for (index, size) in expected.iter().enumerate() {
+                    let or = if index == 0 { "" } else { " or " };
+                    match size {
+                        0 => write!(f, "{or}no")?,
+                        size => write!(f, "{or}{size}")?,
+                    }
+                }
+                let s = if *expected == [1] { "" } else { "s" };
+                write!(f, " byte{s} of data here, not {found}")
             }
             Self::Value { command } => {
                 write!(f, "{} takes another value here, or none", command.name())

@@ -11,7 +11,7 @@ use std::process::ExitCode;
 use actucheck::adapter::Wire;
 use actucheck::capture::{Form, Piece};
 use actucheck::explain::stream::{Event, Follower, Summary, wire_of};
-use actucheck::explain::{Asked, DEVICES};
+use actucheck::explain::{Asked, DEVICES, Warning};
 use actucheck_codec::ja40;
 use actucheck_codec::register::Device;
 use actucheck_spec::wire::{Context, Direction, Fast};
@@ -40,8 +40,12 @@ programs, text with \\xFF, dumps of xxd, hexdump or Wireshark, tables of logic a
 pcapng, and plain bytes. Lines of a log may
 have times, and directions such as TX: and RX:. What has two readings is refused.
 
-Exit status: 0 every byte is in a valid packet, 1 some byte is not, also of line noise, 2 wrong
-usage, or an input that can't be read to its end, 3 the output could not be written.";
+A warning tells what a document says against the meaning of a packet that is valid. Rules of
+registers need --device, or an answer to Ping before.
+
+Exit status: 0 every byte is in a valid packet, 1 some byte is not, also of line noise, or with
+--strict a warning, 2 wrong usage, or an input that can't be read to its end, 3 the output could not
+be written.";
 
 /// Explains packets field by field: one, or all in a log, a dump or a capture
 #[derive(Debug, Args)]
@@ -68,6 +72,9 @@ pub(crate) struct Decode {
     /// The request that a fast status packet answers: bytes per device, and the devices in order
     #[arg(long, value_name = "LENGTH:ID,ID…", value_parser = fast, conflicts_with = "address")]
     fast: Option<Fast>,
+    /// Fail if there is a warning
+    #[arg(long)]
+    strict: bool,
     /// How much of a stream is shown
     #[arg(long, value_parser = one_of(Show::ALL))]
     show: Option<Show>,
@@ -104,27 +111,33 @@ pub(crate) fn run(options: &Decode) -> Result<ExitCode, Failure> {
         wire_of(&pieces.map(|piece| (piece.bytes.clone(), direction(piece))).collect::<Vec<_>>())
     });
     match single(options, wire, &input) {
-        Some(context) => packet(options, wire, context, &input),
+        Some(single) => packet(options, wire, single, &input),
         None => stream(options, wire, input),
     }
 }
 
+/// The one packet that an input is.
+struct Single {
+    context: Context,
+    warnings: Vec<Warning>,
+}
+
 /// What is known about the one packet that the input is to be read as; `None` if it is a stream.
-fn single(options: &Decode, wire: Wire, input: &Input) -> Option<Context> {
+fn single(options: &Decode, wire: Wire, input: &Input) -> Option<Single> {
     let told = options.direction;
-    let mut context = Context { fast: options.fast.clone(), direction: told };
-    if options.fast.is_some() || options.address.is_some() {
-        return Some(context);
-    }
-    if !input.whole || input.named || options.show.is_some() {
+    let context = Context { fast: options.fast.clone(), direction: told };
+    let mut single = Single { context, warnings: Vec::new() };
+    let asked = options.fast.is_some() || options.address.is_some();
+    if !asked && (!input.whole || input.named || options.show.is_some()) {
         return None;
     }
-    let Some(mut follower) = Follower::new(wire, None) else { return Some(context) };
+    let Some(mut follower) = Follower::new(wire, options.device) else { return Some(single) };
     let mut events = 0;
     let mut take = |event: Event<'_>| {
         events += 1;
-        if let Event::Packet(heard, _) = event {
-            context.direction = told.or(heard.direction);
+        if let Event::Packet(heard, turn) = event {
+            single.context.direction = told.or(heard.direction);
+            single.warnings = turn.warnings;
         }
     };
     for piece in &input.beginning {
@@ -134,25 +147,27 @@ fn single(options: &Decode, wire: Wire, input: &Input) -> Option<Context> {
         }
     }
     follower.end(&mut take);
-    (events == 1).then_some(context)
+    (asked || events == 1).then_some(single)
 }
 
 fn packet(
     options: &Decode,
     wire: Wire,
-    context: Context,
+    single: Single,
     input: &Input,
 ) -> Result<ExitCode, Failure> {
+    let Single { context, warnings } = single;
     let bytes: Vec<u8> = input.beginning.iter().flat_map(|piece| &piece.bytes).copied().collect();
     let device = options.device.or(Some(&ja40::DEVICE));
     let asked = Asked { bytes: &bytes, context, device, address: options.address };
-    let text = packet::text(wire, &asked, options.json)?;
+    let text = packet::text(wire, &asked, &warnings, options.json)?;
     if input.form != Form::Hex {
         anstream::eprintln!("read as {}", input.form);
     }
     let mut out = anstream::stdout();
     shared::seen("the packet", write!(out, "{text}").and_then(|()| out.flush()))?;
-    Ok(ExitCode::SUCCESS)
+    let failed = options.strict && !warnings.is_empty();
+    Ok(if failed { ExitCode::from(Failure::FAILED) } else { ExitCode::SUCCESS })
 }
 
 fn stream(options: &Decode, wire: Wire, input: Input) -> Result<ExitCode, Failure> {
@@ -193,7 +208,10 @@ fn stream(options: &Decode, wire: Wire, input: Input) -> Result<ExitCode, Failur
     let summary = told.end()?;
     match failed {
         Some(failure) => Err(failure),
-        None if summary.total() == 0 || !summary.skipped.is_empty() => {
+        None if summary.total() == 0
+            || !summary.skipped.is_empty()
+            || options.strict && !summary.warnings.is_empty() =>
+        {
             Ok(ExitCode::from(Failure::FAILED))
         }
         None => Ok(ExitCode::SUCCESS),

@@ -2,6 +2,7 @@
 
 mod converse;
 mod split;
+mod warnings;
 
 use actucheck_codec::innfos::{self, Frame, FrameError, Message, MessageError, Value};
 use actucheck_codec::register::Device;

@@ -6,6 +6,7 @@ mod dynamixel2;
 mod innfos;
 pub mod stream;
 mod table;
+mod warning;
 
 use std::fmt;
 
@@ -17,6 +18,7 @@ use self::stream::Listen;
 use self::table::Table;
 
 pub use self::table::{Explanation, Row};
+pub use self::warning::Warning;
 
 /// A frame, with what is known about it.
 #[derive(Clone, Debug)]

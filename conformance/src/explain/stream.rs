@@ -14,7 +14,7 @@ use actucheck_spec::wire::{Context, Direction, Wire};
 
 pub use summary::{Answers, Summary};
 
-use super::WIRES;
+use super::{WIRES, Warning};
 
 /// The next bytes of a stream.
 pub(super) enum Cut<'a> {
@@ -95,6 +95,8 @@ pub struct Turn {
     pub address: Option<u16>,
     /// What else is known about it, as sentences.
     pub notes: Vec<String>,
+    /// What is wrong in its meaning.
+    pub warnings: Vec<Warning>,
     /// Who did not answer the request before this one.
     pub silent: Option<Silent>,
 }

@@ -1,14 +1,22 @@
 //! One packet, field by field.
 
 use actucheck::adapter::{Output, Question, Wire};
-use actucheck::explain::{Asked, Explanation, explain};
+use actucheck::explain::{Asked, Explanation, Warning, explain};
 use actucheck::subject::{Answer, Builtin, Subject as _};
+
+use actucheck_spec::wire::Packet;
+use serde::Serialize;
 
 use super::super::shared::Failure;
 use super::super::shared::table::{self, BOLD};
 
 /// Explains the packet, or prints it as an object.
-pub(super) fn text(wire: Wire, asked: &Asked<'_>, json: bool) -> Result<String, Failure> {
+pub(super) fn text(
+    wire: Wire,
+    asked: &Asked<'_>,
+    warnings: &[Warning],
+    json: bool,
+) -> Result<String, Failure> {
     if asked.context.direction.is_none() && !wire.tells_direction() {
         let message = format!(
             "a frame of {wire} does not state its direction; add --direction request or \
@@ -20,9 +28,16 @@ pub(super) fn text(wire: Wire, asked: &Asked<'_>, json: bool) -> Result<String, 
         .map_err(|error| Failure::failed(format!("no valid packet, {error}")))?;
     check_direction(wire, asked)?;
     if json {
-        return object(wire, asked);
+        return object(wire, asked, warnings);
     }
-    Ok(format!("{BOLD}{}{BOLD:#}\n{}\n", explanation.title, fields(&explanation)))
+    let (title, fields) = (&explanation.title, fields(&explanation));
+    Ok(format!("{BOLD}{title}{BOLD:#}\n{}{fields}\n", warned(warnings)))
+}
+
+/// The warnings as lines.
+pub(super) fn warned(warnings: &[Warning]) -> String {
+    let line = |warning| format!("       {BOLD}warning{BOLD:#}: {warning}\n");
+    warnings.iter().map(line).collect::<Vec<_>>().concat()
 }
 
 /// The fields as lines.
@@ -45,15 +60,25 @@ fn check_direction(wire: Wire, asked: &Asked<'_>) -> Result<(), Failure> {
     }
 }
 
-/// The packet as JSON of the adapter protocol.
-fn object(wire: Wire, asked: &Asked<'_>) -> Result<String, Failure> {
+/// The packet as JSON of the adapter protocol, with warnings if there are any.
+fn object(wire: Wire, asked: &Asked<'_>, warnings: &[Warning]) -> Result<String, Failure> {
     let bytes = asked.bytes.to_vec().into();
     let op = Question::Decode { wire, bytes, context: asked.context.clone() };
     match Builtin::default().ask(&op) {
         Answer::Ok(Output::Packet(packet)) => {
-            serde_json::to_string(&packet).map(|text| text + "\n").map_err(Failure::incomplete)
+            let object = Object { packet, warnings };
+            serde_json::to_string(&object).map(|text| text + "\n").map_err(Failure::incomplete)
         }
         Answer::Rejected(rejection) => Err(Failure::failed(rejection.detail)),
         other => Err(Failure::incomplete(format!("no packet: {other:?}"))),
     }
+}
+
+/// A packet with what is wrong in its meaning.
+#[derive(Serialize)]
+struct Object<'a> {
+    #[serde(flatten)]
+    packet: Packet,
+    #[serde(skip_serializing_if = "<[Warning]>::is_empty")]
+    warnings: &'a [Warning],
 }

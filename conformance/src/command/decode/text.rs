@@ -13,7 +13,7 @@ use actucheck::legible::legible;
 
 use super::super::shared::table::{BOLD, DIM};
 use super::Show;
-use super::packet::fields;
+use super::packet::{fields, warned};
 use super::sink::Sink;
 
 /// Bytes of a run that are shown.
@@ -68,6 +68,11 @@ impl<W: Write> Sink for Text<W> {
         if summary.silent > 0 {
             writeln!(self.out, "answers missing: {}", summary.silent)?;
         }
+        if !summary.warnings.is_empty() {
+            let rules: Vec<_> =
+                summary.warnings.iter().map(|(rule, count)| format!("{count} {rule}")).collect();
+            writeln!(self.out, "{BOLD}warnings{BOLD:#}: {}", rules.join(", "))?;
+        }
         if !summary.devices.is_empty() {
             let devices: Vec<_> =
                 summary.devices.iter().map(|(id, model)| device(*id, *model)).collect();
@@ -105,6 +110,7 @@ impl<W: Write> Text<W> {
         for note in &turn.notes {
             writeln!(self.out, "       {note}")?;
         }
+        write!(self.out, "{}", warned(&turn.warnings))?;
         match explanation {
             Ok(explanation) if self.show == Show::Fields && turn.role != Role::Echo => {
                 writeln!(self.out, "{}", fields(&explanation))

@@ -9,7 +9,7 @@ use actucheck_spec::wire::{Direction, Fast};
 
 use super::super::device_of;
 use super::super::stream::{Converse, Heard, Role, Silent, Turn};
-use super::PREFIX;
+use super::{PREFIX, warnings};
 
 /// Bytes of a block of a fast status packet beside its data: error, ID and CRC.
 const BLOCK: usize = 4;
@@ -87,8 +87,10 @@ impl Talk {
         if self.scratch.len() < frame.params_len() {
             self.scratch.resize(frame.params_len(), 0);
         }
+        let request = Request::parse(frame, &mut self.scratch);
+        let warnings = warnings::request(frame, &request, turn.table);
         let mut fast = None;
-        match Request::parse(frame, &mut self.scratch) {
+        match request {
             Ok(Request::SyncRead(read)) => {
                 let range = Some((read.address, read.length));
                 devices.extend(read.ids.iter().map(|id| Asked::of(*id, range)));
@@ -120,7 +122,7 @@ impl Talk {
             fast,
             followed: false,
         });
-        Turn { role: Role::Request, silent, ..turn }
+        Turn { role: Role::Request, silent, warnings, ..turn }
     }
 
     /// The devices that did not answer the last request. If none ever answered, the stream has one

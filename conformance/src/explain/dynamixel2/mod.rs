@@ -3,6 +3,7 @@
 mod body;
 mod converse;
 mod split;
+mod warnings;
 mod words;
 
 use actucheck_codec::dynamixel2::{BROADCAST_ID, FastStatus, Frame, FrameError, Instruction};

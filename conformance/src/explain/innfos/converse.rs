@@ -7,6 +7,7 @@ use actucheck_codec::innfos::{self, Frame};
 use actucheck_spec::wire::{Context, Direction};
 
 use super::super::stream::{Converse, Heard, Role, Turn};
+use super::warnings::warnings;
 
 /// Requests that may be answered still.
 const OPEN: usize = 64;
@@ -36,6 +37,7 @@ impl Converse for Talk {
             kind: command.name(),
             device: Some(address).filter(|address| *address != innfos::BROADCAST_ADDRESS),
             context: Context { fast: None, direction: heard.direction },
+            warnings: warnings(&frame),
             ..Turn::default()
         };
         match heard.direction {

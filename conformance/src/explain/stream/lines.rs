@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use super::{Event, Heard, Place, Role, Summary, Turn};
 use crate::capture::Form;
-use crate::explain::{Asked, explain};
+use crate::explain::{Asked, Warning, explain};
 
 /// Version of the lines. It changes when a field is removed or gets another meaning.
 pub const VERSION: u32 = 1;
@@ -71,6 +71,8 @@ pub enum Line {
         skipped: BTreeMap<String, Runs>,
         /// The devices that packets were for or from.
         devices: Vec<Seen>,
+        /// Warnings, by the id of the requirement.
+        warnings: BTreeMap<&'static str, u64>,
         /// Requests that came twice in a row.
         echoes: u64,
         /// Answers that did not come.
@@ -115,6 +117,8 @@ pub struct Said {
     role: Part,
     /// What else is known about it.
     notes: Vec<String>,
+    /// What is wrong in its meaning.
+    warnings: Vec<Warning>,
     /// Its fields, if they are shown.
     #[serde(skip_serializing_if = "Option::is_none")]
     fields: Option<Vec<Column>>,
@@ -231,6 +235,7 @@ impl Line {
             packets: summary.packets.iter().copied().collect(),
             skipped: summary.skipped.iter().map(runs).collect(),
             devices: summary.devices.iter().map(seen).collect(),
+            warnings: summary.warnings.clone(),
             echoes: summary.echoes,
             silent: summary.silent,
             answers: (answers.count > 0).then(times),
@@ -284,6 +289,7 @@ fn said(wire: Wire, heard: &Heard<'_>, turn: &Turn, fields: bool) -> Said {
         table: device.map(|device| device.id),
         role: turn.role.into(),
         notes: turn.notes.clone(),
+        warnings: turn.warnings.clone(),
         fields: rows,
     }
 }

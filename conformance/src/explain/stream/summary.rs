@@ -14,6 +14,8 @@ pub struct Summary {
     pub skipped: BTreeMap<String, (u64, u64)>,
     /// The devices that packets were for or from, each with its model number if it told it.
     pub devices: BTreeMap<u8, Option<u16>>,
+    /// Warnings, by the id of the requirement.
+    pub warnings: BTreeMap<&'static str, u64>,
     /// Echoes.
     pub echoes: u64,
     /// Devices that did not answer a request.
@@ -67,6 +69,9 @@ impl Summary {
                 for device in turn.device.into_iter().chain(several) {
                     let model = self.devices.entry(device).or_default();
                     *model = turn.model.or(*model);
+                }
+                for warning in &turn.warnings {
+                    *self.warnings.entry(warning.requirement).or_default() += 1;
                 }
                 match turn.role {
                     Role::Echo => self.echoes += 1,
