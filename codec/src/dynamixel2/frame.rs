@@ -169,7 +169,7 @@ impl<'a> Parts<'a> {
     pub(crate) fn split(bytes: &'a [u8]) -> Result<Self, FrameError> {
         let available = bytes.len();
         let truncated = |needed| FrameError::Truncated { available, needed };
-        let Some(&prefix) = bytes.first_chunk() else {
+        let Some(prefix) = bytes.first_chunk() else {
             // An ID may be wrong too, but that the packet is truncated comes first.
             let other_header = |error: &FrameError| matches!(error, FrameError::Header { .. });
             let broken = Header::check_start(bytes).err().filter(other_header);

@@ -36,9 +36,10 @@ impl Header {
     /// The first rule that it breaks: [`FrameError::Header`], [`FrameError::Id`] or
     /// [`FrameError::Length`].
     #[inline]
-    pub(crate) fn check(prefix: [u8; PREFIX]) -> Result<Self, FrameError> {
-        Self::check_start(&prefix)?;
-        let [.., id, low, high] = prefix;
+    #[expect(clippy::trivially_copy_pass_by_ref, reason = "a copy is taken apart by shifts")]
+    pub(crate) fn check(prefix: &[u8; PREFIX]) -> Result<Self, FrameError> {
+        Self::check_start(prefix)?;
+        let &[.., id, low, high] = prefix;
         let header = Self { id, length: u16::from_le_bytes([low, high]) };
         header.check_length(MIN_LENGTH)?;
         Ok(header)

@@ -55,7 +55,7 @@ impl Progress {
     /// come.
     #[inline]
     pub(super) fn judge(&mut self, bytes: &[u8], max_packet: usize) -> Verdict {
-        let Some(&prefix) = bytes.first_chunk() else {
+        let Some(prefix) = bytes.first_chunk() else {
             return Header::check_start(bytes)
                 .map_or_else(Verdict::broken, |()| Verdict::Incomplete);
         };

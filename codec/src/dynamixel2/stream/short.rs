@@ -109,8 +109,8 @@ fn in_body(len: usize) -> u64 {
 /// its body.
 #[inline]
 fn len(bytes: &[u8], max_packet: usize) -> Option<usize> {
-    let header = Header::check(*bytes.first_chunk()?).ok()?;
-    let instruction = *bytes.get(PREFIX)?;
+    let &[ref prefix @ .., instruction] = bytes.first_chunk::<{ PREFIX + 1 }>()?;
+    let header = Header::check(prefix).ok()?;
     header.check_instruction(instruction).ok()?;
     let len = header.packet_len();
     (len <= max_packet.min(WINDOW) && !header.is_fast(instruction)).then_some(len)
