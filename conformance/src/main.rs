@@ -45,6 +45,6 @@ fn run() -> Result<ExitCode, Failure> {
         Command::Adapter(subcommand) => command::adapter::run(subcommand),
         Command::Report(subcommand) => command::report::run(subcommand),
         Command::Spec(subcommand) => command::spec::run(subcommand),
-        Command::Completions(options) => Ok(command::completions::run(options)),
+        Command::Completions(options) => command::completions::run(options),
     }
 }

@@ -362,3 +362,35 @@ fn a_level_leaves_out_what_binds_less() {
     assert_eq!(levels("must"), ["must".to_owned()].into());
     assert_eq!(levels("should"), ["must".to_owned(), "should".to_owned()].into());
 }
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_told_and_a_reader_that_has_seen_enough_is_not() {
+    let (reader, closed) = std::io::pipe().unwrap();
+    drop(reader);
+    for command in [
+        "list --wire innfos",
+        "show ja40.ping.instruction/crc",
+        "replay ja40.ping.instruction/crc",
+        "fuzz --cases 1",
+        "adapter guide",
+        "adapter schema reply",
+        "adapter template c",
+        "completions bash",
+        "decode fffffd0001030001194e",
+        "encode ping --id 1",
+        "spec errata",
+    ] {
+        let run = |out: fs::File| {
+            let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_actucheck"));
+            let output = program.args(command.split(' ')).stdout(out).output().unwrap();
+            (output.status.code(), String::from_utf8(output.stderr).unwrap())
+        };
+        let (status, stderr) = run(fs::OpenOptions::new().write(true).open("/dev/full").unwrap());
+        assert_eq!(status, Some(3), "{command}: {stderr}");
+        assert!(stderr.starts_with("actucheck: cannot write "), "{command}: {stderr}");
+        assert_eq!(stderr.lines().count(), 1, "{command}: {stderr}");
+        let closed = std::os::fd::OwnedFd::from(closed.try_clone().unwrap());
+        assert_eq!(run(closed.into()), (Some(0), String::new()), "{command}");
+    }
+}

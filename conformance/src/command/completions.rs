@@ -1,12 +1,12 @@
 //! `actucheck completions`.
 
-use std::io;
 use std::process::ExitCode;
 
 use clap::{Args, CommandFactory as _};
 use clap_complete::Shell;
 
 use super::Cli;
+use super::shared::{self, Failure};
 
 const EXAMPLE: &str = "\
 Example:
@@ -22,8 +22,10 @@ pub(crate) struct Completions {
 }
 
 /// Prints the completion script of a shell.
-pub(crate) fn run(options: &Completions) -> ExitCode {
-    let mut command = Cli::command();
-    clap_complete::generate(options.shell, &mut command, "actucheck", &mut io::stdout());
-    ExitCode::SUCCESS
+pub(crate) fn run(options: &Completions) -> Result<ExitCode, Failure> {
+    // clap panics where it can't write, so it writes to memory.
+    let mut script = Vec::new();
+    clap_complete::generate(options.shell, &mut Cli::command(), "actucheck", &mut script);
+    shared::print(script)?;
+    Ok(ExitCode::SUCCESS)
 }

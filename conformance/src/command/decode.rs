@@ -5,7 +5,7 @@ mod packet;
 mod sink;
 mod text;
 
-use std::io::{BufWriter, Write as _};
+use std::io::BufWriter;
 use std::process::ExitCode;
 
 use actucheck::adapter::Wire;
@@ -164,8 +164,7 @@ fn packet(
     if input.form != Form::Hex {
         anstream::eprintln!("read as {}", input.form);
     }
-    let mut out = anstream::stdout();
-    shared::seen("the packet", write!(out, "{text}").and_then(|()| out.flush()))?;
+    shared::print(text)?;
     let failed = options.strict && !warnings.is_empty();
     Ok(if failed { ExitCode::from(Failure::FAILED) } else { ExitCode::SUCCESS })
 }

@@ -128,10 +128,10 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
     collector.extend(found.map(|finding| finding.outcome.clone()));
     let report = collector.finish(End { seconds: took.as_secs_f64(), ..End::default() });
     let mut out = anstream::stdout();
-    show(&report, &fuzzed, options.look, &mut out)
-        .and_then(|()| summary(options, seed, &fuzzed, kept.is_ok(), took, &mut out))
-        .map_err(Failure::incomplete)?;
-    shared::both(kept, traced)?;
+    let written = show(&report, &fuzzed, options.look, &mut out)
+        .and_then(|()| summary(options, seed, &fuzzed, kept.is_ok(), took, &mut out));
+    let written = shared::printed(written);
+    [kept, traced].into_iter().fold(written, shared::both)?;
     if let Some(reason) = &fuzzed.given_up {
         let last = log.lines().last().map(|line| format!("; it said `{line}`")).unwrap_or_default();
         return Err(Failure::incomplete(legible(&format!("{reason}{last}"), LONGEST_TEXT)));

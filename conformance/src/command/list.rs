@@ -3,6 +3,7 @@
 use std::io::{self, Write as _};
 use std::process::ExitCode;
 
+use actucheck::suite::check::Check;
 use clap::Args;
 
 use super::shared::{self, Failure, Selection};
@@ -27,11 +28,8 @@ pub(crate) fn run(options: &List) -> Result<ExitCode, Failure> {
     let mut plan = selection.growth.plan(&spec, &selection.wires(), None);
     selection.restrict(&mut plan)?;
     let mut out = io::BufWriter::new(io::stdout().lock());
-    for check in plan.checks() {
-        // A closed pipe, as of `| head`, is not an error.
-        if writeln!(out, "{}  {}  {}", check.id, check.level, check.requirement).is_err() {
-            break;
-        }
-    }
+    let line = |check: Check| writeln!(out, "{}  {}  {}", check.id, check.level, check.requirement);
+    let written = plan.checks().try_for_each(line).and_then(|()| out.flush());
+    shared::printed(written)?;
     Ok(ExitCode::SUCCESS)
 }

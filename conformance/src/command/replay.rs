@@ -20,7 +20,7 @@ Examples:
   actucheck replay dynamixel2.stuffing.goal-position/encode -- python3 my_adapter.py
   actucheck replay --seed 7 dynamixel2.seed-7.12.status/decode -- ./my-adapter
   actucheck replay findings.yaml -- ./my-adapter
-  actucheck replay dynamixel2.crc.ping/crc --after dynamixel2.crc.reboot/crc -- ./my-adapter
+  actucheck replay ja40.ping.instruction/crc --after ja40.reboot.instruction/crc -- ./my-adapter
       something that fails only after something else
 
 Exit status: as `actucheck codec`.";
@@ -72,11 +72,11 @@ pub(crate) fn run(options: &Replay) -> Result<ExitCode, Failure> {
     let (log, traced) = subjects.end();
     let report = collector.finish(End { log, ..End::default() });
     let mut out = anstream::stdout();
-    checks
+    let written = checks
         .iter()
         .try_for_each(|check| text::check(&spec, check, &mut out))
-        .and_then(|()| text::write(&report, &mut out))
-        .map_err(Failure::incomplete)?;
+        .and_then(|()| text::write(&report, &mut out));
+    shared::printed(written)?;
     traced?;
     Ok(ExitCode::from(report.exit_status()))
 }

@@ -1,6 +1,5 @@
 //! `actucheck show`.
 
-use std::io::Write as _;
 use std::process::ExitCode;
 
 use actucheck::report::text;
@@ -29,7 +28,6 @@ pub(crate) fn run(options: &Show) -> Result<ExitCode, Failure> {
     let check = options.growth.named(&spec, &options.id, None)?;
     let mut text = Vec::new();
     text::check(&spec, &check, &mut text).map_err(Failure::incomplete)?;
-    // A closed pipe, as of `| head`, is not an error.
-    let _ = anstream::stdout().write_all(&text);
+    shared::print(&text)?;
     Ok(ExitCode::SUCCESS)
 }

@@ -52,8 +52,8 @@ pub(crate) fn run(options: &Check) -> Result<ExitCode, Failure> {
         Failure::not_started(message)
     })?;
     shared::finish(settings.trace)?;
-    write(&report, &command, options.verbose, &mut anstream::stdout())
-        .map_err(Failure::incomplete)?;
+    let written = write(&report, &command, options.verbose, &mut anstream::stdout());
+    shared::printed(written)?;
     Ok(ExitCode::from(match &report.hello {
         Some(_) if report.is_good() => 0,
         Some(_) => Failure::FAILED,

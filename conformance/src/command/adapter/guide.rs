@@ -1,9 +1,10 @@
 //! `actucheck adapter guide`.
 
-use std::io::{self, Write as _};
 use std::process::ExitCode;
 
 use clap::Args;
+
+use crate::command::shared::{self, Failure};
 
 const EXAMPLES: &str = "\
 Example:
@@ -17,8 +18,7 @@ pub(crate) struct Guide;
 const GUIDE: &str = include_str!("../../../adapters/GUIDE.md");
 
 /// Prints the guide.
-pub(crate) fn run() -> ExitCode {
-    // A closed pipe, as of `| head`, is not an error.
-    let _ = io::stdout().write_all(GUIDE.as_bytes());
-    ExitCode::SUCCESS
+pub(crate) fn run() -> Result<ExitCode, Failure> {
+    shared::print(GUIDE)?;
+    Ok(ExitCode::SUCCESS)
 }

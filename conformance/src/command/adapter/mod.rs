@@ -23,9 +23,9 @@ pub(crate) enum Adapter {
 /// Does what the subcommand says.
 pub(crate) fn run(command: &Adapter) -> Result<ExitCode, Failure> {
     match command {
-        Adapter::Guide(_) => Ok(guide::run()),
-        Adapter::Template(options) => Ok(template::run(options)),
-        Adapter::Schema(options) => Ok(schema::run(options)),
+        Adapter::Guide(_) => guide::run(),
+        Adapter::Template(options) => template::run(options),
+        Adapter::Schema(options) => schema::run(options),
         Adapter::Check(options) => check::run(options),
     }
 }

@@ -1,12 +1,11 @@
 //! `actucheck adapter schema`.
 
-use std::io::{self, Write as _};
 use std::process::ExitCode;
 
 use actucheck::adapter::schema;
 use clap::Args;
 
-use crate::command::shared::one_of;
+use crate::command::shared::{self, Failure, one_of};
 
 const EXAMPLES: &str = "\
 Example:
@@ -31,9 +30,7 @@ const LINES: [(Text, &str, &str); 2] = [
 ];
 
 /// Prints the schema.
-pub(crate) fn run(options: &Schema) -> ExitCode {
-    let text = (options.lines)();
-    // A closed pipe, as of `| head`, is not an error.
-    let _ = io::stdout().write_all(text.as_bytes());
-    ExitCode::SUCCESS
+pub(crate) fn run(options: &Schema) -> Result<ExitCode, Failure> {
+    shared::print((options.lines)())?;
+    Ok(ExitCode::SUCCESS)
 }

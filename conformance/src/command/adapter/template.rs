@@ -1,11 +1,10 @@
 //! `actucheck adapter template`.
 
-use std::io::{self, Write as _};
 use std::process::ExitCode;
 
 use clap::Args;
 
-use crate::command::shared::one_of;
+use crate::command::shared::{self, Failure, one_of};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -43,8 +42,7 @@ const LANGUAGES: [(&str, &str, &str); 5] = [
 ];
 
 /// Prints the template.
-pub(crate) fn run(options: &Template) -> ExitCode {
-    // A closed pipe, as of `| head`, is not an error.
-    let _ = io::stdout().write_all(options.language.as_bytes());
-    ExitCode::SUCCESS
+pub(crate) fn run(options: &Template) -> Result<ExitCode, Failure> {
+    shared::print(options.language)?;
+    Ok(ExitCode::SUCCESS)
 }

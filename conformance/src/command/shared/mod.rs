@@ -25,7 +25,7 @@ pub(crate) use progress::progress;
 pub(crate) use selection::{Growth, Selection, not_offered};
 pub(crate) use streams::Streams;
 pub(crate) use subjects::{Adapter, Exchange, Subjects, finish};
-pub(crate) use target::{Draft, Target, seen};
+pub(crate) use target::{Draft, Target, print, printed, seen};
 pub(crate) use value::{duration, one_of, wire};
 
 /// The spec that this program was built with.

@@ -137,6 +137,17 @@ impl Place {
     }
 }
 
+/// Prints a text, with colours only on a terminal.
+pub(crate) fn print(text: impl AsRef<[u8]>) -> Result<(), Failure> {
+    let mut out = anstream::stdout();
+    printed(out.write_all(text.as_ref()).and_then(|()| out.flush()))
+}
+
+/// Whether a text could be written to standard output.
+pub(crate) fn printed(written: io::Result<()>) -> Result<(), Failure> {
+    seen("to standard output", written)
+}
+
 /// A closed pipe, as of `| head`, is not an error.
 pub(crate) fn seen(name: &str, written: io::Result<()>) -> Result<(), Failure> {
     match written {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use actucheck_spec::{Spec, export};
 use clap::{Args, ValueEnum};
 
-use crate::command::shared::{Failure, Target};
+use crate::command::shared::{Failure, Target, print};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -52,6 +52,6 @@ pub(super) fn run(spec: &Spec, options: &Export) -> Result<(), Failure> {
     .map_err(Failure::incomplete)?;
     match &options.output {
         Some(path) => Target::new(path)?.write(text.as_bytes()),
-        None => super::print(&text),
+        None => print(&text),
     }
 }

@@ -7,7 +7,6 @@ mod export;
 mod sentences;
 mod show;
 
-use std::io::{self, Write as _};
 use std::process::ExitCode;
 
 use actucheck_spec as data;
@@ -29,25 +28,13 @@ pub(crate) enum Spec {
 pub(crate) fn run(command: &Spec) -> Result<ExitCode, Failure> {
     let spec = shared::spec()?;
     match command {
-        Spec::Show(options) => print(&show::text(&spec, options)?),
-        Spec::Diff(options) => print(&diff::text(&spec, options)?),
-        Spec::Errata(options) => print(&errata::text(&spec, options)?),
-        Spec::Coverage(options) => print(&coverage::text(&spec, options)?),
+        Spec::Show(options) => shared::print(show::text(&spec, options)?),
+        Spec::Diff(options) => shared::print(diff::text(&spec, options)?),
+        Spec::Errata(options) => shared::print(errata::text(&spec, options)?),
+        Spec::Coverage(options) => shared::print(coverage::text(&spec, options)?),
         Spec::Export(options) => export::run(&spec, options),
     }?;
     Ok(ExitCode::SUCCESS)
-}
-
-/// Prints a text, with colours only on a terminal.
-fn print(text: &str) -> Result<(), Failure> {
-    let mut out = anstream::stdout();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        // A closed pipe, as of `| head`, is not an error.
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(Failure::incomplete(format!("cannot write: {error}")))
-        }
-        _ => Ok(()),
-    }
 }
 
 /// Fails if a document is asked for that does not exist.
