@@ -394,3 +394,18 @@ fn a_full_disk_is_told_and_a_reader_that_has_seen_enough_is_not() {
         assert_eq!(run(closed.into()), (Some(0), String::new()), "{command}");
     }
 }
+
+#[test]
+fn a_trace_without_an_adapter_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let trace = folder.path().join("trace");
+    for command in
+        [&["codec"][..], &["fuzz", "--cases=1"], &["replay", "ja40.ping.instruction/crc"]]
+    {
+        let option = format!("--trace={}", trace.display());
+        let (status, _, stderr) = actucheck(&[command, &[&option]].concat());
+        assert_eq!((status, stderr.lines().count()), (2, 1), "{stderr}");
+        assert!(stderr.contains("--trace is of an adapter, and none is given"), "{stderr}");
+    }
+    assert!(!trace.exists());
+}

@@ -78,6 +78,11 @@ impl Subjects {
                     "no command behind `--`; give the adapter's, such as python3 adapter.py",
                 ));
             }
+            if adapter.exchange.trace.is_some() {
+                return Err(Failure::usage(
+                    "--trace is of an adapter, and none is given; put its command behind `--`",
+                ));
+            }
             let mut subjects = Self::of(Builtin::default());
             subjects.all.resize_with(jobs.into(), || Box::new(Builtin::default()));
             return Ok(subjects);
