@@ -69,6 +69,17 @@ fn a_run_that_can_not_begin_leaves_all_reports_but_junit() {
     }
 }
 
+/// A name may have 255 bytes, and that of the file beside it is longer.
+#[test]
+fn a_long_name_in_any_script_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let name = "한".repeat(85);
+    let report = format!("--report=json={name}");
+    let (status, _, stderr) = run(actucheck(folder.path()).args(FEW).arg(report));
+    assert_eq!((status, stderr.as_str()), (Some(0), ""));
+    assert_eq!(names(folder.path()), [name]);
+}
+
 /// Answers each request after 50 ms.
 const SLOW: &str = r#"while read -r line; do
     id=$(printf '%s' "$line" | sed 's/^{"id":\([0-9]*\),.*/\1/')

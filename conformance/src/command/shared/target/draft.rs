@@ -82,7 +82,7 @@ pub(super) fn probe(path: &Path) -> io::Result<()> {
 fn beside(path: &Path) -> io::Result<NamedTempFile> {
     let folder = path.parent().unwrap_or(Path::new("."));
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let prefix = format!(".{}.", name.chars().take(100).collect::<String>());
+    let prefix = format!(".{}.", name.chars().take(50).collect::<String>());
     let mut builder = Builder::new();
     builder.prefix(&prefix).suffix(".part");
     #[cfg(unix)]
