@@ -45,7 +45,11 @@ impl Patterns {
             globs.add(glob.map_err(|error| format!("`{text}` is no glob: {}", error.kind()))?);
             new.starts.push((place, start.to_owned()));
         }
-        new.globs = globs.build().map_err(|error| error.to_string())?;
+        // Each is right by itself.
+        let many = new.starts.len();
+        new.globs = globs
+            .build()
+            .map_err(|_| format!("{many} globs are too many at once; use fewer or shorter ones"))?;
         Ok(new)
     }
 
@@ -102,6 +106,18 @@ mod tests {
         assert_eq!(patterns.matches("a.d/e"), [1, 3]);
         assert!(!patterns.is_match("b.b/e"));
         assert!(Patterns::new(["["]).is_err());
+    }
+
+    #[test]
+    fn too_many_globs_are_refused_in_a_sentence() {
+        let long = |count: usize| (0..count).map(|it| format!("{}*{it}", "a.b/".repeat(20)));
+        let read = |count| {
+            let texts: Vec<_> = long(count).collect();
+            Patterns::new(texts.iter().map(String::as_str)).map(drop)
+        };
+        assert_eq!(read(2000), Ok(()));
+        let sentence = "6000 globs are too many at once; use fewer or shorter ones";
+        assert_eq!(read(6000), Err(sentence.to_owned()));
     }
 
     #[test]
