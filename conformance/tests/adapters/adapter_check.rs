@@ -5,7 +5,7 @@ use std::process::Command;
 /// An adapter without a fault, whose library knows one CRC.
 const GOOD: &str = r#"
 while read -r line; do
-    id=$(printf '%s' "$line" | sed 's/^{"id":\([0-9]*\),.*/\1/')
+    id=${line#'{"id":'} id=${id%%,*}
     case $line in
         *'"op":"hello"'*) printf '{"id":%s,"ok":{"protocol":1,"implementation":{"name":"fake","version":"1","language":"sh"},"wires":["dynamixel2"],"ops":["crc"]}}\n' "$id" ;;
         *'"op":"bye"'*) exit ;;

@@ -82,7 +82,7 @@ fn a_long_name_in_any_script_is_written() {
 
 /// Answers each request after 50 ms.
 const SLOW: &str = r#"while read -r line; do
-    id=$(printf '%s' "$line" | sed 's/^{"id":\([0-9]*\),.*/\1/')
+    id=${line#'{"id":'} id=${id%%,*}
     case $line in
         *'"op":"hello"'*)
             printf '{"id":%s,"ok":{"protocol":1,"implementation":{"name":"slow","version":"1","language":"sh"},"wires":["dynamixel2"],"ops":["crc"]}}\n' "$id" ;;
