@@ -49,16 +49,18 @@ struct Expected {
     number: usize,
     /// How many checks it matches.
     checks: usize,
-    /// How many of them were asked.
+    /// How many of them have an outcome.
     asked: usize,
-    /// Whether one of them failed.
-    failed: bool,
+    /// Whether one of them passed.
+    passed: bool,
+    /// Whether one of them failed, or may fail and was not run.
+    may_fail: bool,
 }
 
 impl Expected {
-    /// Whether all checks that it matches were asked and none of them failed.
+    /// Whether a check that it matches passed, and it is known that no other fails.
     fn is_outdated(&self) -> bool {
-        self.checks > 0 && self.asked == self.checks && !self.failed && !self.row.flaky
+        self.passed && self.asked == self.checks && !self.may_fail && !self.row.flaky
     }
 }
 
@@ -101,7 +103,8 @@ impl Expectations {
         for (row, number) in rows.iter().zip(1..) {
             for checks in counts.by_ref().take(row.ids.len()) {
                 let row = Arc::clone(row);
-                expected.push(Expected { row, number, checks, asked: 0, failed: false });
+                let (asked, passed, may_fail) = Default::default();
+                expected.push(Expected { row, number, checks, asked, passed, may_fail });
             }
         }
         let strange = expected.iter().zip(patterns.texts()).filter(|(own, _)| own.checks == 0);
@@ -121,7 +124,8 @@ impl Expectations {
         for place in &matches {
             let Some(expected) = self.expected.get_mut(*place) else { continue };
             expected.asked += 1;
-            expected.failed |= failed;
+            expected.passed |= outcome.verdict == Verdict::Pass;
+            expected.may_fail |= failed || outcome.verdict == Verdict::NotRun;
         }
         let mut own = matches.iter().filter_map(|place| self.expected.get(*place));
         let Some(first) = own.next() else { return };

@@ -85,6 +85,22 @@ fn rows_that_are_there_stay_and_what_passes_goes() {
     assert_eq!(wrong(path, &["--expect", "e.yaml"]), (0, String::new()));
 }
 
+#[test]
+fn rows_of_checks_that_did_not_pass_stay() {
+    // The one that ends at every question is given up.
+    for answer in [r#"printf '{"id":%s,"skip":{"reason":"no"}}\n' "$id""#, "exit"] {
+        let all = "ja40.ping.instruction/crc, ja40.write.status/crc, ja40.backup.status/crc";
+        let folder = with(&format!("expected_failures: [{{ids: [{all}], reason: mine}}]"));
+        let script = WELL_BEHAVED.replace("ANSWER", answer);
+        let write = ["--expect", "e.yaml", "--write-expect", "e.yaml", "--", "sh", "-c", &script];
+        let (_, stderr) = actucheck(folder.path(), &[&FEW[..], &write].concat());
+        let text = fs::read_to_string(folder.path().join("e.yaml")).unwrap();
+        for id in all.split(", ") {
+            assert!(text.contains(&format!("  - {id}\n")), "{stderr}\n{text}");
+        }
+    }
+}
+
 /// Thousands of checks fail, each of what it offers.
 #[test]
 fn a_file_is_small_if_everything_fails() {
