@@ -15,8 +15,11 @@ pub(super) struct Cover {
     pub(super) left_out: usize,
 }
 
-/// How many ids, and how many globs, are written; nobody reads more.
+/// How many ids are written; nobody reads more.
 const MOST_IDS: usize = 20_000;
+/// How many globs are written; a few times more can't be looked for at once. Half of them may mix
+/// causes.
+const MOST_GLOBS: usize = 2000;
 /// So many single ids are shown with their own causes. If there are more, globs may mix causes.
 const FEW: usize = 200;
 /// A glob has at most this many separators; ids have fewer.
@@ -102,7 +105,10 @@ impl Globs {
                 let new = Candidate { cause, count: 0, is_pure: true };
                 let candidate = candidates.entry(self.key(&cut)).or_insert(new);
                 candidate.count += 1;
-                candidate.is_pure &= candidate.cause == cause;
+                if failures.is_flaky(candidate.cause) {
+                    candidate.cause = cause;
+                }
+                candidate.is_pure &= failures.joins(cause, candidate.cause);
             }
         }
         candidates.retain(|_, it| it.count > 1 && (it.is_pure || step.mixed));
@@ -115,7 +121,7 @@ impl Globs {
             for cut in cuts_at(&id, step.depth) {
                 let key = self.key(&cut);
                 let is_good = candidates.get(&key).is_some_and(|it| {
-                    is_open && cause.is_some_and(|cause| step.mixed || cause == it.cause)
+                    is_open && cause.is_some_and(|own| step.mixed || failures.joins(own, it.cause))
                 });
                 if !is_good {
                     candidates.remove(&key);
@@ -145,7 +151,8 @@ impl Globs {
                 chosen.entry(self.key(&cut)).or_insert_with(|| (candidate.cause, cut.glob()));
             }
         }
-        let room = MOST_IDS.saturating_sub(self.texts.len());
+        let most = if step.mixed { MOST_GLOBS } else { MOST_GLOBS / 2 };
+        let room = most.saturating_sub(self.texts.len());
         let mut chosen: Vec<_> = chosen.into_iter().take(room).collect();
         chosen.sort_unstable_by(|(_, one), (_, other)| one.cmp(other));
         for (key, text) in chosen {

@@ -53,6 +53,17 @@ impl Failures {
         self.ids.get(&self.hasher.hash_one(id)).copied()
     }
 
+    /// Whether checks of this cause fail at times only.
+    pub(super) fn is_flaky(&self, cause: usize) -> bool {
+        self.causes.get_index(cause).is_some_and(|(_, verdict)| *verdict == Verdict::Flaky)
+    }
+
+    /// Whether a glob for failures of one cause may match those of another. It may if these are flaky:
+    /// they may pass there, as long as the others fail. Else a slow reply would need many globs.
+    pub(super) fn joins(&self, cause: usize, other: usize) -> bool {
+        cause == other || self.is_flaky(cause)
+    }
+
     /// A row for each cause, and how many failures are in none: there are too many, or the plan
     /// lacks them, as it does rules of the adapter protocol.
     pub(super) fn rows(&self, plan: &Plan<'_>, spec: &Spec) -> (Vec<Row>, usize) {
@@ -77,4 +88,38 @@ fn reason(requirement: &str, verdict: Verdict, spec: &Spec) -> String {
     let text = text.unwrap_or_default();
     let how = if verdict == Verdict::Fail { String::new() } else { format!("{verdict}, ") };
     format!("TODO: {how}{requirement}{text}")
+}
+
+#[cfg(test)]
+mod tests {
+    use actucheck_spec::wire::Wire;
+
+    use super::*;
+    use crate::subject::Answer;
+    use crate::suite::{self, Options};
+
+    #[test]
+    fn what_fails_at_times_needs_no_more_globs() {
+        let spec = Spec::embedded().unwrap();
+        let options = Options { cases: 10, ..Options::new() }.with_bodies(1);
+        // Few, as each is looked at often.
+        let all = suite::plan(&spec, &Wire::ALL, &options);
+        let plan =
+            Plan::of(all.checks().filter(|it| it.id.ends_with("decode")).step_by(9).collect());
+        let ids = |flaky_every: usize| {
+            let mut failures = Failures::default();
+            for (place, check) in plan.checks().enumerate() {
+                let mut outcome = check.judge(Answer::Faulty(String::new()));
+                if place % flaky_every == flaky_every / 2 {
+                    outcome.verdict = Verdict::Flaky;
+                }
+                failures.add(&outcome);
+            }
+            let (rows, left_out) = failures.rows(&plan, &spec);
+            assert_eq!(left_out, 0);
+            rows.into_iter().flat_map(|row| row.ids).collect::<Vec<_>>()
+        };
+        let (none, few) = (ids(usize::MAX), ids(1000));
+        assert!(few.len() < none.len() + 10, "{none:?}\n{few:?} if a few checks are flaky");
+    }
 }
