@@ -70,7 +70,6 @@ fn odd(op: &Question, answer: Answer) -> Answer {
     }
 }
 
-/// The run that all samples are taken from, as a run takes a while.
 static SPEC: LazyLock<Spec> = LazyLock::new(|| Spec::embedded().unwrap());
 static COMMAND: LazyLock<[String; 2]> =
     LazyLock::new(|| ["./adapter", "two words"].map(str::to_owned));
@@ -145,26 +144,37 @@ pub(crate) fn run(implementation: &Implementation) -> Run<'_> {
     }
 }
 
+// Many tests look at the same report, and a run takes a while.
+
 /// A report with a hostile name and every verdict.
 pub(crate) fn every_verdict() -> Report {
-    let expect = "[{ids: [dynamixel2.stuffing.twice/encode], reason: '<i>known</i>'}, \
-                   {ids: [ja40.ping.instruction/encode], reason: none}]";
-    Report { log: "the last <em>words</em>".to_owned(), ..report(NAME, "*", odd, expect) }
+    static KEPT: LazyLock<Report> = LazyLock::new(|| {
+        let expect = "[{ids: [dynamixel2.stuffing.twice/encode], reason: '<i>known</i>'}, \
+                       {ids: [ja40.ping.instruction/encode], reason: none}]";
+        Report { log: "the last <em>words</em>".to_owned(), ..report(NAME, "*", odd, expect) }
+    });
+    KEPT.clone()
 }
+
+const FEW: &str = "*stuffing.goal-position/{encode,stuff,unstuff}";
 
 /// A short report of an implementation that does not stuff.
 pub(crate) fn small() -> Report {
-    report("unstuffed", "*stuffing.goal-position/{encode,stuff,unstuff}", unstuffed, "[]")
+    static KEPT: LazyLock<Report> = LazyLock::new(|| report("unstuffed", FEW, unstuffed, "[]"));
+    KEPT.clone()
 }
 
 /// A whole report of an implementation that does not stuff.
 pub(crate) fn unstuffed_whole() -> Report {
-    report("unstuffed", "*", unstuffed, "[]")
+    static KEPT: LazyLock<Report> = LazyLock::new(|| report("unstuffed", "*", unstuffed, "[]"));
+    KEPT.clone()
 }
 
 /// A report without failures.
 pub(crate) fn right() -> Report {
-    report("right", "*", |_, answer| answer, "[]")
+    static KEPT: LazyLock<Report> =
+        LazyLock::new(|| report("right", "*", |_, answer| answer, "[]"));
+    KEPT.clone()
 }
 
 /// A report of an interrupted run.
@@ -176,7 +186,7 @@ pub(crate) fn interrupted() -> Report {
 
 /// A short report without failures.
 pub(crate) fn small_right() -> Report {
-    report("right", "*stuffing.goal-position/{encode,stuff,unstuff}", |_, answer| answer, "[]")
+    report("right", FEW, |_, answer| answer, "[]")
 }
 
 /// A report of an implementation that reads byte stuffing as data.

@@ -31,7 +31,7 @@ pub enum Worse {
     NotJudged,
 }
 
-/// `dynamixel2.crc.transmit: 3 checks fail, 1 before`, with the report if there are several.
+/// `dynamixel2.crc.transmit: 3 checks failed, 1 before`, with the report if there are several.
 impl fmt::Display for Regression {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: ", self.requirement)?;
