@@ -20,7 +20,7 @@ use actucheck_spec::Spec;
 use clap::Args;
 
 use super::shared::{
-    self, Adapter, Failure, Look, NEXT, Outputs, Reports, Selection, Streams, Subjects, Target,
+    self, Adapter, Failure, Look, Outputs, Reports, Selection, Streams, Subjects, Target,
 };
 
 const EXAMPLES: &str = "\
@@ -161,7 +161,7 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     let streamed = streams.end(&report.summary);
     let written = outputs.write(
         |format, out| format.write(&report, out),
-        |out| screen::write(&report, &options.look.terminal(NEXT), out),
+        |out| screen::write(&report, &options.look.terminal(Some(shared::next(&report))), out),
     );
     if report.summary.stopped.is_none() {
         expectations.remarks().iter().for_each(|remark| anstream::eprintln!("actucheck: {remark}"));

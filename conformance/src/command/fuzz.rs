@@ -161,7 +161,7 @@ fn show(report: &Report, fuzzed: &Fuzzed, look: Look, out: &mut impl Write) -> i
         Detail::Most => usize::MAX,
     };
     if !fuzzed.findings.is_empty() {
-        screen::write(report, &look.terminal(&[]), out)?;
+        screen::write(report, &look.terminal(None), out)?;
         writeln!(out)?;
     }
     for Finding { kind, check, before, times, .. } in fuzzed.findings.iter().take(most) {

@@ -31,8 +31,8 @@ pub struct Terminal<'a> {
     pub detail: Detail,
     /// The terminal's width in columns.
     pub width: usize,
-    /// What the reader of a failing report can do next, one line each.
-    pub next: &'a [&'a str],
+    /// What the reader of a failing report can do next, in a line.
+    pub next: Option<&'a str>,
 }
 
 /// How many rows a failing report fills, unless its first finding needs more.
@@ -60,7 +60,7 @@ fn screen(report: &Report, terminal: &Terminal<'_>, out: &mut dyn Write) -> io::
     let findings = report.findings();
     let mut end = vec![aside(report, terminal.width), log(report, terminal.width)];
     if !findings.is_empty() {
-        end.push(terminal.next.iter().map(|line| format!("{DIM}{line}{DIM:#}")).collect());
+        end.push(terminal.next.map(|line| format!("{DIM}{line}{DIM:#}")).into_iter().collect());
     }
     end.push(vec![text::summary(report)]);
     end.retain(|lines| !lines.is_empty());

@@ -75,6 +75,33 @@ fn a_report_says_when_and_how_it_was_made() {
     assert!(now["date"].as_str().unwrap().starts_with("20"), "{}", now["date"]);
 }
 
+/// Answers every question with `reply`.
+fn adapter(reply: &str) -> String {
+    let hello = r#"{"protocol":2,"implementation":{"name":"a","version":"1","language":"sh"},"roles":["host"],"wires":["dynamixel2"],"ops":["crc"]}"#;
+    format!(
+        r#"while read -r line; do
+            id=$(printf '%s' "$line" | sed 's/^{{"id":\([0-9]*\),.*/\1/')
+            case $line in
+                *'"op":"hello"'*) printf '{{"id":%s,"ok":%s}}\n' "$id" '{hello}' ;;
+                *) printf '{{"id":%s,%s}}\n' "$id" '{reply}' ;;
+            esac
+        done"#
+    )
+}
+
+#[test]
+fn who_has_a_broken_adapter_is_told_to_check_that_first() {
+    let folder = tempfile::tempdir().unwrap();
+    let next = |reply: &str| {
+        let run = ["codec", "--select", "ja40.ping.*/crc", "--", "sh", "-c", &adapter(reply)];
+        let (_, stdout, _) = actucheck(folder.path(), &run);
+        let line = stdout.lines().find(|line| line.starts_with("Next: "));
+        line.unwrap_or_else(|| panic!("{stdout}")).to_owned()
+    };
+    assert!(next(r#""ok":{"crc":"none"}"#).contains("`actucheck adapter check -- COMMAND`"));
+    assert!(next(r#""ok":{"crc":17}"#).contains("run a replay line"));
+}
+
 #[test]
 fn a_whole_run_that_passes_makes_a_small_report() {
     let folder = tempfile::tempdir().unwrap();

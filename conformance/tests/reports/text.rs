@@ -10,7 +10,7 @@ use super::sample;
 
 fn on_terminal(report: &Report, detail: Detail, width: usize) -> String {
     let mut text = Vec::new();
-    let terminal = Terminal { detail, width, next: &["Next: look at the page."] };
+    let terminal = Terminal { detail, width, next: Some("Next: look at the page.") };
     screen::write(report, &terminal, &mut text).unwrap();
     String::from_utf8(strip_bytes(&text).into_vec()).unwrap()
 }

@@ -8,7 +8,7 @@ use actucheck::report::{Format, screen};
 use clap::Args;
 
 use super::read;
-use crate::command::shared::{Failure, Look, NEXT, Outputs, Reports};
+use crate::command::shared::{Failure, Look, Outputs, Reports, next};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -39,7 +39,7 @@ pub(crate) fn run(options: &Render) -> Result<ExitCode, Failure> {
     let report = read(&options.file)?;
     Outputs::open(&options.reports, [])?.write(
         |format, out| format.write(&report, out),
-        |out| screen::write(&report, &options.look.terminal(NEXT), out),
+        |out| screen::write(&report, &options.look.terminal(Some(next(&report))), out),
     )?;
     Ok(ExitCode::SUCCESS)
 }

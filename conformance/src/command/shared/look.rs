@@ -1,6 +1,9 @@
 //! How much a command prints.
 
+use actucheck::report::Report;
 use actucheck::report::screen::{Detail, Terminal};
+use actucheck::report::view::Group;
+use actucheck::verdict::Verdict;
 use clap::Args;
 
 /// More or less than a screenful.
@@ -28,12 +31,18 @@ impl Look {
     }
 
     /// How a report is printed, with what its reader can do next.
-    pub(crate) fn terminal<'a>(self, next: &'a [&'a str]) -> Terminal<'a> {
+    pub(crate) fn terminal(self, next: Option<&str>) -> Terminal<'_> {
         let width = textwrap::termwidth().max(NARROWEST);
         Terminal { detail: self.detail(), width, next }
     }
 }
 
 /// What the reader of a failing report can do next.
-pub(crate) const NEXT: &[&str] =
-    &["Next: run a replay line; -v for every finding; --report html=FILE for a page."];
+pub(crate) fn next(report: &Report) -> &'static str {
+    let is_fault = |group: &Group<'_>| group.checks.verdict == Verdict::AdapterFault;
+    if report.findings().iter().all(is_fault) {
+        "Next: run `actucheck adapter check -- COMMAND`, which says what to mend."
+    } else {
+        "Next: run a replay line; -v for every finding; --report html=FILE for a page."
+    }
+}
