@@ -86,10 +86,12 @@ fn at_fault(
     let fixed: usize = fixed.iter().map(|lines| rows(lines, width)).sum();
     let others = BRIEF + 2;
     let mut room = SCREEN.saturating_sub(fixed + others);
+    let head =
+        |group: &Group<'_>| format!("{}  {}", text::title(group), effect(report, findings, group));
     for group in findings {
         let own = |other: &Group<'_>| other.requirement.id == group.requirement.id;
         let told = findings.iter().take(parts.len() - 1).any(own);
-        let part = finding(report, group, told, width);
+        let part = finding(head(group), group, told, width);
         let filled = rows(&part, width);
         if filled > room && parts.len() > 1 {
             break;
@@ -98,8 +100,7 @@ fn at_fault(
         parts.push(part);
     }
     let rest = findings.get(parts.len() - 1..).unwrap_or_default();
-    let brief = |group: &Group<'_>| format!("{}  {}", text::title(group), effect(report, group));
-    let mut lines: Vec<_> = rest.iter().take(BRIEF).map(brief).collect();
+    let mut lines: Vec<_> = rest.iter().take(BRIEF).map(head).collect();
     lines.extend(rest.len().checked_sub(BRIEF + 1).map(|more| format!("… and {} more", more + 1)));
     if !lines.is_empty() {
         parts.push(lines);
@@ -114,8 +115,8 @@ fn rows(part: &[String], width: usize) -> usize {
 }
 
 /// A finding with its smallest case, and its requirement unless that is told above.
-fn finding(report: &Report, group: &Group<'_>, told: bool, width: usize) -> Vec<String> {
-    let mut block = vec![format!("{}  {}", text::title(group), effect(report, group))];
+fn finding(head: String, group: &Group<'_>, told: bool, width: usize) -> Vec<String> {
+    let mut block = vec![head];
     let room = width.saturating_sub(LABEL);
     let mut say = |label: &str, texts: &[String]| {
         for (place, text) in texts.iter().enumerate() {
@@ -205,10 +206,16 @@ fn plain(json: &str) -> String {
     format!("{op} {}", words.join(", ").replace("packet: {", ""))
 }
 
-/// How many checks failed, and how many others because of them.
-fn effect(report: &Report, group: &Group<'_>) -> String {
+/// How many checks failed, and how many others because of their requirement, which is told of its
+/// first finding that explains others.
+fn effect(report: &Report, findings: &[Group<'_>], group: &Group<'_>) -> String {
     let own = |id: &str| id == group.requirement.id;
-    let cause = report.causes.iter().find(|cause| own(&cause.requirement));
+    let explains = |verdict| !matches!(verdict, Verdict::Flaky | Verdict::UnexpectedPass);
+    let mut explaining = findings
+        .iter()
+        .filter(|other| own(&other.requirement.id) && explains(other.checks.verdict));
+    let first = explaining.next().is_some_and(|it| it.checks.verdict == group.checks.verdict);
+    let cause = report.causes.iter().find(|cause| first && own(&cause.requirement));
     match cause.map_or(0, |cause| cause.follow) {
         0 => group.share(),
         more => format!("{}; {} others follow", group.share(), thousands(more)),

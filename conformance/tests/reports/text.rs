@@ -1,4 +1,5 @@
 use actucheck::report::compare::Comparison;
+use actucheck::report::model::NotPassed;
 use actucheck::report::{Format, Report};
 use actucheck::verdict::Verdict;
 use anstream::adapter::strip_bytes;
@@ -85,6 +86,20 @@ fn a_failing_run_fits_a_screen() {
             assert_eq!(text.lines().find(long), None, "{width}");
         }
     }
+}
+
+#[test]
+fn what_follows_from_a_requirement_is_counted_once() {
+    let mut report = sample::unstuffed_whole();
+    let failed =
+        report.not_passed.iter().find(|row| row.requirement == report.causes[0].requirement);
+    let failed = failed.unwrap().clone();
+    for verdict in [Verdict::Crash, Verdict::Flaky] {
+        report.not_passed.push(NotPassed { verdict, count: 1, ..failed.clone() });
+    }
+    let text = on_terminal(&report, Detail::Screen, 80);
+    let told: Vec<_> = text.lines().filter(|line| line.contains(" others follow")).collect();
+    assert!(matches!(told.as_slice(), [line] if line.starts_with("CRASH ")), "{text}");
 }
 
 #[test]
