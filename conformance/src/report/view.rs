@@ -8,7 +8,7 @@ use super::model::{Cause, CheckResult, NotPassed, Report, RequirementResult, Sto
 use super::words;
 use crate::adapter::Output;
 use crate::explain::diff::Row;
-use crate::verdict::{Outcome, Verdict};
+use crate::verdict::{After, Outcome, Verdict};
 
 impl Report {
     /// The verdicts whose evidence is shown, the most urgent first. While the adapter itself has
@@ -257,11 +257,13 @@ impl CheckResult {
         Some(format!("from {} ({})", cause.check, cause.requirement))
     }
 
-    /// The earlier checks that bring it about.
+    /// The earlier checks that bring it about; of many the last few. The replay line has all of them.
     fn after(&self) -> Option<String> {
-        let after = self.outcome.after.as_ref()?;
-        let checks = after.checks.join(", ");
-        Some(match after.count - after.checks.len().min(after.count) {
+        const NAMED: usize = 3;
+        let After { count, checks } = self.outcome.after.as_ref()?;
+        let last = checks.get(checks.len().saturating_sub(NAMED)..).unwrap_or_default();
+        let checks = last.join(", ");
+        Some(match count.saturating_sub(last.len()) {
             0 => checks,
             more => format!("{} more and {checks}", words::thousands(more)),
         })

@@ -103,6 +103,14 @@ fn what_follows_from_a_requirement_is_counted_once() {
 }
 
 #[test]
+fn of_many_earlier_requests_a_few_are_named() {
+    let text = written(Format::Text, &sample::every_verdict());
+    let after: Vec<_> = text.lines().filter(|line| line.starts_with("  after ")).collect();
+    assert!(after.iter().any(|line| line.contains(" more and ")), "{after:?}");
+    assert!(after.iter().all(|line| line.matches(", ").count() < 3), "{after:?}");
+}
+
+#[test]
 fn a_passing_run_takes_a_few_lines_and_a_quiet_one_a_single_line() {
     insta::assert_snapshot!(on_terminal(&sample::small_right(), Detail::Screen, 80), @r"
     right 1.0 (C)  wire dynamixel2  3 checks
