@@ -64,7 +64,7 @@ fn causes(report: &Report) -> String {
     if report.causes.is_empty() {
         return String::new();
     }
-    let cause = |cause: &Cause| format!("1. `{}`: {}\n", cause.requirement, cause.effect());
+    let cause = |cause: &Cause| format!("1. {}: {}\n", code(&cause.requirement), cause.effect());
     let causes: String = report.causes.iter().take(CAUSES).map(cause).collect();
     let more = match report.causes.len().saturating_sub(CAUSES) {
         0 => String::new(),
@@ -89,9 +89,9 @@ fn findings(report: &Report) -> Vec<String> {
         first.insert_str(0, "\n### Findings\n");
     }
     let follows = |group: &Group<'_>| {
-        let (id, share) = (&group.requirement.id, group.share());
         let origin = group.origin().filter(|_| group.checks.verdict.is_failure())?;
-        Some(format!("- `{id}`: {share}, all because of `{origin}`\n"))
+        let (id, share, origin) = (code(&group.requirement.id), group.share(), code(&origin));
+        Some(format!("- {id}: {share}, all because of {origin}\n"))
     };
     let groups = Report::URGENT.into_iter().flat_map(|verdict| report.groups(verdict));
     let mut followers: Vec<_> = groups.filter_map(|group| follows(&group)).collect();
@@ -131,7 +131,8 @@ fn case(result: &CheckResult) -> String {
 fn brief(report: &Report) -> Vec<String> {
     let mut rows = Vec::new();
     let warned = report.groups(Verdict::Warn);
-    let warning = |group: &Group<'_>| format!("- `{}`: {}\n", group.requirement.id, group.share());
+    let warning =
+        |group: &Group<'_>| format!("- {}: {}\n", code(&group.requirement.id), group.share());
     let known = |line: &String| format!("- {}\n", prose(line));
     for (verdict, mut lines) in [
         (Verdict::Warn, warned.iter().map(warning).collect::<Vec<_>>()),
@@ -157,7 +158,7 @@ fn profile(report: &Report) -> Vec<String> {
     );
     let row = |entry: &ProfileEntry| {
         let answer = prose(&tallies(&entry.behaviours));
-        format!("| {} `{}` | {answer} |\n", prose(&entry.question), entry.requirement)
+        format!("| {} {} | {answer} |\n", prose(&entry.question), code(&entry.requirement))
     };
     std::iter::once(head).chain(report.profile.iter().map(row)).collect()
 }
@@ -183,6 +184,11 @@ pub(super) fn prose(text: &str) -> String {
         before = character;
     }
     escaped
+}
+
+/// An id, which may have any character: in a code span between backticks nothing can be escaped.
+pub(super) fn code(id: &str) -> String {
+    format!("<code>{}</code>", prose(id))
 }
 
 /// Escapes a text inside of markup, where Markdown has no rules.

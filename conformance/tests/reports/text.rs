@@ -175,7 +175,7 @@ fn a_summary_in_markdown_begins_with_the_causes_and_folds_the_rest() {
 
     ### At fault, the most basic first
 
-    1. `dynamixel2.stuffing.transmit`: 1 check failed
+    1. <code>dynamixel2.stuffing.transmit</code>: 1 check failed
 
     | verdict | checks |
     |---|---:|
@@ -226,6 +226,21 @@ fn markdown_takes_what_an_implementation_says_as_text() {
 }
 
 #[test]
+fn markdown_takes_an_id_as_text() {
+    let odd = |text: String| text.replace("dynamixel2.stuffing.transmit", "`a|<b>*b*`");
+    let text = serde_json::to_string(&sample::unstuffed_whole()).unwrap();
+    let report: Report = serde_json::from_str(&odd(text)).unwrap();
+    let comparison = Comparison::of(report.clone(), vec![sample::right()]).unwrap();
+    let mut compared = Vec::new();
+    Format::Markdown.write_comparison(&comparison, &mut compared).unwrap();
+    for text in [written(Format::Markdown, &report), String::from_utf8(compared).unwrap()] {
+        assert!(text.contains(r"<code>\`a\|\<b\>\*b\*\`</code>"), "{text}");
+        let prose = text.lines().filter(|line| !line.starts_with("    "));
+        assert_eq!(prose.clone().find(|line| line.contains("|<b>*")), None);
+    }
+}
+
+#[test]
 fn a_comparison_shows_first_who_gets_what_wrong() {
     let comparison = Comparison::of(sample::small(), vec![sample::small_right()]).unwrap();
     let mut text = Vec::new();
@@ -250,7 +265,7 @@ fn a_comparison_shows_first_who_gets_what_wrong() {
 
     | requirement | unstuffed 1.0 | right 1.0 |
     |---|---|---|
-    | `dynamixel2.stuffing.transmit`<br>DYNAMIXEL Protocol 2.0, Packet 처리 (packet handling) | ✗ fail 1/2 | ✓ pass |
+    | <code>dynamixel2.stuffing.transmit</code><br>DYNAMIXEL Protocol 2.0, Packet 처리 (packet handling) | ✗ fail 1/2 | ✓ pass |
 
     All alike: 1 requirement.
     ");

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use super::model::{Comparison, Standing};
 use super::words::{ASKED_DIFFERENTLY, cell};
-use crate::report::markdown::prose;
+use crate::report::markdown::{code, prose};
 use crate::report::words::{self, count, mark};
 
 /// Writes the comparison.
@@ -34,7 +34,7 @@ fn matrix(
     head("requirement", comparison, out)?;
     for row in comparison.rows(standing) {
         let place = row.statement.as_ref().map(|statement| prose(&statement.place()));
-        write!(out, "| `{}`<br>{} |", row.id, place.unwrap_or_default())?;
+        write!(out, "| {}<br>{} |", code(&row.id), place.unwrap_or_default())?;
         for own in &row.cells {
             let mark = own.as_ref().map(|own| mark(own.verdict)).unwrap_or_default();
             write!(out, " {mark} {} |", cell(own.as_ref()))?;
@@ -61,7 +61,7 @@ fn profile(comparison: &Comparison, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "\n### Unspecified by the documents, and answered differently\n")?;
     head("question", comparison, out)?;
     for answers in different {
-        write!(out, "| {} `{}` |", prose(&answers.question), answers.requirement)?;
+        write!(out, "| {} {} |", prose(&answers.question), code(&answers.requirement))?;
         for tallies in &answers.behaviours {
             write!(out, " {} |", prose(&words::tallies(tallies)))?;
         }
