@@ -65,7 +65,8 @@ fn is_seen(character: char) -> bool {
     !hidden && !character.is_control()
 }
 
-/// The limits of the beginning and of the end that [`excerpt`] keeps, in bytes.
+/// The limits of the beginning and of the end that [`excerpt`] keeps, in characters. The longest line
+/// fits into either.
 const HEAD: usize = 1500;
 const TAIL: usize = 2500;
 
@@ -77,7 +78,7 @@ pub fn excerpt(log: &str) -> String {
     let end_of = |limit: usize, lines: &mut dyn Iterator<Item = &String>| {
         let mut left = limit;
         let fits = |line: &&String| {
-            left.checked_sub(line.len() + 1).is_some_and(|less| {
+            left.checked_sub(line.chars().count() + 1).is_some_and(|less| {
                 left = less;
                 true
             })
@@ -101,6 +102,17 @@ mod tests {
         let text = "모두 \u{1b}[31mred\r\n\0 \u{9b}";
         assert_eq!(legible(text, 99), "모두 \\u{1b}[31mred\\r\\n\\u{0} \\u{9b}");
         assert_eq!(legible("a\u{202e}b\u{2028}c\u{200b}", 99), "a\\u{202e}b\\u{2028}c\\u{200b}");
+    }
+
+    #[test]
+    fn an_error_output_keeps_its_beginning_and_its_end() {
+        assert_eq!(excerpt("one\n    two\n\u{7}"), "one\n    two\n\\u{7}");
+        // A line of any script fits.
+        let long = "말".repeat(999);
+        assert_eq!(excerpt(&long), long);
+        let line = "x".repeat(999);
+        let nine = [line.as_str(); 9].join("\n");
+        assert_eq!(excerpt(&nine), format!("{line}\n… (6 lines more)\n{line}\n{line}"));
     }
 
     #[test]
