@@ -262,6 +262,8 @@ fn what_contradicts_itself_is_refused() {
         ("/skips", json!([])),
         ("/skips/0/count", json!(u64::MAX)),
         ("/profile/0/behaviours/0/count", json!(u64::MAX)),
+        ("/expected_failures/0/count", json!(7)),
+        ("/not_passed", json!([])),
         ("/requirements/1", whole["requirements"][0].clone()),
         ("/totals/pass", json!(u64::MAX)),
         ("/requirements/0/totals/pass", json!(u64::MAX)),
@@ -283,6 +285,17 @@ fn what_contradicts_itself_is_refused() {
         let error = read(&broken.to_string()).unwrap_err();
         assert!(matches!(error, ReadError::Contradiction { .. }), "{place}: {error}");
     }
+}
+
+#[test]
+fn more_checks_than_a_number_holds_are_refused() {
+    let mut report = sample::every_verdict();
+    report.causes.clear();
+    let row = report.requirements.iter_mut().find(|row| row.totals.count(Verdict::Pass) > 0);
+    row.unwrap().totals.add(Verdict::Pass, usize::MAX);
+    report.summary.totals.add(Verdict::Pass, usize::MAX);
+    let error = read(&written(&report)).unwrap_err();
+    assert!(matches!(error, ReadError::Contradiction { .. }), "{error}");
 }
 
 #[test]
