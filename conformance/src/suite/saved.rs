@@ -2,11 +2,13 @@
 
 use std::path::Path;
 
+use actucheck_spec::model::Citation;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::check::Check;
+use super::check::{Check, Demand, Unspecified, Way};
 use crate::input::{self, InputError};
+use crate::legible::{LONGEST_TEXT, legible};
 
 /// Version of the file's form. It changes when a field goes or takes another meaning.
 pub const VERSION: u32 = 1;
@@ -69,5 +71,28 @@ pub fn parse(name: &str, text: &str) -> Result<Vec<Check>, SavedError> {
     if file.version != VERSION {
         return Err(SavedError::Version { path: path(), version: file.version });
     }
-    Ok(file.checks)
+    Ok(file.checks.into_iter().map(cleaned).collect())
+}
+
+/// A check whose texts are legible, as nobody knows who wrote the file.
+fn cleaned(check: Check) -> Check {
+    let clean = |text: String| legible(&text, LONGEST_TEXT);
+    let way = |way: Way| Way { name: clean(way.name), ..way };
+    Check {
+        id: clean(check.id),
+        requirement: clean(check.requirement),
+        source: Citation {
+            document: clean(check.source.document),
+            section: clean(check.source.section),
+        },
+        requires: check.requires.map(clean),
+        demand: match check.demand {
+            Demand::Record(Unspecified { question, ways }) => Demand::Record(Unspecified {
+                question: clean(question),
+                ways: ways.into_iter().map(way).collect(),
+            }),
+            demand => demand,
+        },
+        ..check
+    }
 }

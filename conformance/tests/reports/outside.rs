@@ -64,6 +64,11 @@ fn spoil(content: &mut Value, with: &str) {
     }
 }
 
+/// Whether a line has a character that does not show.
+fn hides(line: &str) -> bool {
+    line.contains(|it: char| it.is_control() || "\u{2028}\u{202e}\u{200b}".contains(it))
+}
+
 #[test]
 fn a_report_of_anybody_moves_no_cursor_and_forges_no_line() {
     let folder = tempfile::tempdir().unwrap();
@@ -83,13 +88,52 @@ fn a_report_of_anybody_moves_no_cursor_and_forges_no_line() {
         for text in files.iter().chain([&stdout]) {
             assert!(text.contains("FORGED"), "{text}");
             for line in text.split('\n') {
-                let hidden = |character: char| {
-                    character.is_control() || "\u{2028}\u{202e}\u{200b}".contains(character)
-                };
-                assert!(!line.contains(hidden), "{command:?}: {line:?}");
+                assert!(!hides(line), "{command:?}: {line:?}");
                 let forged = line.starts_with("FORGED");
                 assert!(!forged, "{command:?}: {line:?}");
             }
         }
+    }
+}
+
+/// `name` is in YAML's double quotes.
+fn checks(name: &str) -> String {
+    format!(
+        r#"version: 1
+checks:
+- id: "{name}"
+  requirement: "{name}"
+  level: must
+  source: "{name} §{name} (meaning)"
+  request: {{op: crc, wire: dynamixel2, bytes: "00"}}
+  demand: {{yield: {{crc: 7}}}}
+- id: "{name}2"
+  requirement: "{name}"
+  level: must
+  source: "{name} §{name} (meaning)"
+  requires: "{name}"
+  request: {{op: crc, wire: dynamixel2, bytes: "01"}}
+  demand: {{record: {{question: "{name}", ways: [{{name: "{name}", output: {{crc: 32773}}}}]}}}}
+"#
+    )
+}
+
+#[test]
+fn a_check_of_anybody_moves_no_cursor_and_forges_no_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let hostile = r"x\e[2J\r\nFORGED\u2028\u202e";
+    fs::write(folder.path().join("checks.yaml"), checks(hostile)).unwrap();
+    let formats = ["text", "markdown", "html"];
+    let targets = formats.map(|format| format!("--report={format}=out.{format}"));
+    let run = ["codec", "--also", "checks.yaml", "--select", "x*"];
+    let run: Vec<_> = run.into_iter().chain(targets.iter().map(String::as_str)).collect();
+    let (status, stdout, stderr) = actucheck(folder.path(), &run);
+    assert_eq!((status, stderr.as_str()), (1, ""), "{stdout}");
+    let files = formats.map(|format| folder.path().join(format!("out.{format}")));
+    let files = files.map(|file| fs::read_to_string(file).unwrap());
+    let (_, replayed, _) = actucheck(folder.path(), &["replay", "checks.yaml"]);
+    for text in files.iter().chain([&stdout, &replayed]) {
+        assert!(text.contains("FORGED"), "{text}");
+        assert_eq!(text.split('\n').find(|line| hides(line) || line.starts_with("FORGED")), None);
     }
 }
