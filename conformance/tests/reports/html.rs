@@ -143,6 +143,16 @@ fn a_finding_has_requirement_difference_and_replay_line() {
 }
 
 #[test]
+fn an_error_output_keeps_its_lines_and_their_indent() {
+    let page = page(&sample::every_verdict());
+    let first = "<dt>log</dt>\n<dd><code class=\"log\">==1==ERROR: ";
+    assert!(page.contains(first), "{page}");
+    assert!(page.contains("\n<dd><code>    #0 in crc</code></dd>"), "{page}");
+    assert!(!page.contains("<dt></dt>"));
+    assert!(page.contains(".evidence code { white-space: pre-wrap; }"));
+}
+
+#[test]
 fn parameters_that_differ_are_marked_within_a_packet() {
     let page = page(&sample::leaves_stuffing_in());
     let params = "<dt>params</dt>\n<dd class=\"bytes\"><code>ff ff fd ff</code></dd>";
