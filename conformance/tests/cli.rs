@@ -154,10 +154,20 @@ fn an_innfos_frame_is_explained_if_it_is_told_which_way_it_goes() {
        11  ed           end
     ");
     let alarms = "EE 06 FF 00 02 00 05 E1 83 ED";
-    let (status, _, stderr) =
+    let (status, stdout, _) =
         actucheck(&["decode", "--wire", "innfos", "--direction", "reply", alarms]);
     assert_eq!(status, 1, "the CRC is wrong");
-    insta::assert_snapshot!(stderr, @"actucheck: no valid packet, from byte 7 on: crc: bytes 7 and 8 are E1 83, C1 B3 is expected");
+    insta::assert_snapshot!(stdout, @r"
+    no valid packet, from byte 7 on: crc: bytes 7 and 8 are E1 83, C1 B3 is expected
+        0  ee     header
+        1  06     address  6
+        2  ff     command  0xFF (Read Alarms)
+        3  00 02  length   2 bytes of data
+        5  00 05  data     Overvoltage, Locked rotor
+        7  e1 83  CRC      C1 B3 is expected
+        9  ed     end
+           fits if byte 5 is 7F (2470 were tried, so 1 in 26 wrong packets fits by chance)
+    ");
     let others = "EE 01 FF 00 02 08 00 06 70 ED";
     let (_, stdout, _) = actucheck(&["decode", "--wire", "innfos", "--kind", "reply", others]);
     assert!(stdout.contains("Equipment error"), "{stdout}");
@@ -193,11 +203,27 @@ fn bytes_come_from_standard_input_too() {
 fn what_is_no_packet_is_told_with_reason_offset_and_expectation() {
     let damaged = WRITE.replace("1E C9", "1E C8");
     let (status, stdout, stderr) = actucheck(&["decode", &damaged]);
+    assert_eq!((status, stderr.as_str()), (1, ""));
+    insta::assert_snapshot!(stdout, @r"
+    no valid packet, from byte 14 on: crc: bytes 14 and 15 are 1E C8, 1E C9 is expected
+        0  ff ff fd 00  header
+        4  01           ID           1
+        5  09 00        length       9 bytes follow
+        7  03           instruction  Write
+        8  34 02        address      564 (Goal Position, JA40)
+       10  d0 07 00 00  data         Goal Position = 2000 (2000 count)
+       14  1e c8        CRC          1E C9 is expected
+           fits if byte 15 is C9
+    ");
+    let (status, stdout, stderr) = actucheck(&["decode", "--json", &damaged]);
     assert_eq!((status, stdout.as_str()), (1, ""));
     insta::assert_snapshot!(stderr, @"actucheck: no valid packet, from byte 14 on: crc: bytes 14 and 15 are 1E C8, 1E C9 is expected");
-    let (status, _, stderr) = actucheck(&["decode", "ff ff fd 00 01"]);
+    let (status, stdout, _) = actucheck(&["decode", "ff ff fd 00 01"]);
     assert_eq!(status, 1);
-    insta::assert_snapshot!(stderr, @"actucheck: no valid packet, from byte 5 on: truncated: 5 bytes are there, 7 are needed");
+    insta::assert_snapshot!(stdout, @r"
+    no valid packet, from byte 5 on: truncated: 5 bytes are there, 7 are needed
+           fits if the rest of the packet follows
+    ");
 }
 
 #[test]

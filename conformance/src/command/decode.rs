@@ -40,6 +40,9 @@ programs, text with \\xFF, dumps of xxd, hexdump or Wireshark, tables of logic a
 pcapng, and plain bytes. Lines of a log may
 have times, and directions such as TX: and RX:. What has two readings is refused.
 
+Bytes that are no packet are shown as far as they can be read, with the mistakes that may explain them.
+None is certain, and the likeliest is first.
+
 A warning tells what a document says against the meaning of a packet that is valid. Rules of
 registers need --device, or an answer to Ping before.
 
@@ -160,12 +163,12 @@ fn packet(
     let bytes: Vec<u8> = input.beginning.iter().flat_map(|piece| &piece.bytes).copied().collect();
     let device = options.device.or(Some(&ja40::DEVICE));
     let asked = Asked { bytes: &bytes, context, device, address: options.address };
-    let text = packet::text(wire, &asked, &warnings, options.json)?;
+    let (text, valid) = packet::text(wire, &asked, &warnings, options.json)?;
     if input.form != Form::Hex {
         anstream::eprintln!("read as {}", input.form);
     }
     shared::print(text)?;
-    let failed = options.strict && !warnings.is_empty();
+    let failed = !valid || options.strict && !warnings.is_empty();
     Ok(if failed { ExitCode::from(Failure::FAILED) } else { ExitCode::SUCCESS })
 }
 

@@ -1,16 +1,21 @@
 //! One frame of the INNFOS Ethernet protocol, field by field.
 
 mod converse;
+mod mistakes;
 mod split;
 mod warnings;
 
 use actucheck_codec::innfos::{self, Frame, FrameError, Message, MessageError, Value};
 use actucheck_codec::register::Device;
 use actucheck_spec::wire::Direction;
+use actucheck_spec::wire::innfos::Packet;
+use actucheck_spec::wire::innfos::reference::encode;
 
 use super::stream::{Converse, Split};
 use super::table::{Explanation, Table, rounded};
 use super::{Asked, Invalid};
+
+pub(super) use mistakes::MISTAKES;
 
 /// Sizes in bytes: header, address, command and length together; the CRC with the end byte.
 const PREFIX: usize = 5;
@@ -23,6 +28,22 @@ pub(super) fn explain(asked: &Asked<'_>) -> Result<Explanation, Invalid> {
         _ => innfos::Direction::Request,
     };
     frame(direction, asked.bytes).map_err(|error| Invalid::new(error.offset(), &error))
+}
+
+/// A right frame that has what can be read of these bytes, which begin like a frame.
+pub(super) fn mended(bytes: &[u8], direction: Option<Direction>) -> Option<Vec<u8>> {
+    let [first, address, command, high, low, rest @ ..] = bytes else { return None };
+    let mut data = rest.to_vec();
+    data.resize(usize::from(u16::from_be_bytes([*high, *low])), 0);
+    let frame = |direction| {
+        let (address, command, data) = (*address, *command, data.clone().into());
+        encode(&Packet { direction, address, command, data })
+    };
+    let frames = direction.map_or(Direction::ALL.to_vec(), |direction| vec![direction]);
+    let mut frames: Vec<_> = frames.into_iter().filter_map(frame).collect();
+    // Of two directions, the one whose size fits.
+    frames.sort_by_key(|frame| frame.len() != bytes.len());
+    frames.into_iter().next().filter(|_| *first == innfos::HEADER)
 }
 
 /// Finds frames in a stream, and follows who asks and who answers.

@@ -4,6 +4,7 @@
 pub mod diff;
 mod dynamixel2;
 mod innfos;
+pub mod mistake;
 pub mod stream;
 mod table;
 mod warning;
@@ -12,8 +13,9 @@ use std::fmt;
 
 use actucheck_codec::register::Device;
 use actucheck_codec::{ja_variant, ja40, xm430_w210};
-use actucheck_spec::wire::{self, Context, Wire};
+use actucheck_spec::wire::{self, Context, Direction, Wire};
 
+use self::mistake::Mistake;
 use self::stream::Listen;
 use self::table::Table;
 
@@ -47,13 +49,40 @@ impl Invalid {
     }
 }
 
-type Explain = fn(&Asked<'_>) -> Result<Explanation, Invalid>;
+/// What a wire has to explain its frames in detail, and to follow its streams.
+#[derive(Clone, Copy)]
+struct Own {
+    wire: Wire,
+    explain: fn(&Asked<'_>) -> Result<Explanation, Invalid>,
+    /// A right frame that has what can be read of bytes; `None` if they do not begin like one.
+    mended: fn(&[u8], Option<Direction>) -> Option<Vec<u8>>,
+    listen: Listen,
+    mistakes: &'static [Mistake],
+}
 
-/// The wires whose frames are explained in detail, and whose streams are followed.
-const WIRES: [(Wire, Explain, Listen); 2] = [
-    (wire::dynamixel2::WIRE, dynamixel2::explain, dynamixel2::listen),
-    (wire::innfos::WIRE, innfos::explain, innfos::listen),
+/// The wires that have it.
+const WIRES: [Own; 2] = [
+    Own {
+        wire: wire::dynamixel2::WIRE,
+        explain: dynamixel2::explain,
+        mended: dynamixel2::mended,
+        listen: dynamixel2::listen,
+        mistakes: dynamixel2::MISTAKES,
+    },
+    Own {
+        wire: wire::innfos::WIRE,
+        explain: innfos::explain,
+        mended: innfos::mended,
+        listen: innfos::listen,
+        mistakes: innfos::MISTAKES,
+    },
 ];
+
+impl Own {
+    fn of(wire: Wire) -> Option<Self> {
+        WIRES.into_iter().find(|own| own.wire == wire)
+    }
+}
 
 /// The devices whose registers have names here.
 pub const DEVICES: [&Device; 3] = [&ja40::DEVICE, &ja_variant::DEVICE, &xm430_w210::DEVICE];
@@ -69,19 +98,33 @@ pub fn device_of(model: u16) -> Option<&'static Device> {
 /// # Errors
 /// The first rule that the bytes break.
 pub fn explain(wire: Wire, asked: &Asked<'_>) -> Result<Explanation, Invalid> {
-    let own = WIRES.into_iter().find(|(other, ..)| *other == wire);
-    own.map_or_else(|| parts(wire, asked), |(_, explain, _)| explain(asked))
+    if let Some(own) = Own::of(wire) {
+        return (own.explain)(asked);
+    }
+    let packet =
+        wire.decode(asked.bytes, &asked.context).map_err(|fault| Invalid::new(0, &fault))?;
+    let title = format!("{wire} {}", packet.direction());
+    Ok(Explanation { title, rows: parts(wire, asked.bytes) })
+}
+
+/// The fields of bytes that are no frame, as far as they can be read.
+#[must_use]
+pub fn damaged(wire: Wire, asked: &Asked<'_>) -> Vec<Row> {
+    let mended = |own: Own| (own.mended)(asked.bytes, asked.context.direction);
+    let Some(frame) = Own::of(wire).and_then(mended) else { return Vec::new() };
+    let rows = match explain(wire, &Asked { bytes: &frame, ..asked.clone() }) {
+        Ok(explanation) => explanation.rows,
+        Err(_) => parts(wire, &frame),
+    };
+    table::received(rows, &frame, asked.bytes)
 }
 
 /// Names the parts of a frame, without their meaning.
-fn parts(wire: Wire, asked: &Asked<'_>) -> Result<Explanation, Invalid> {
-    let packet =
-        wire.decode(asked.bytes, &asked.context).map_err(|fault| Invalid::new(0, &fault))?;
-    let mut table = Table::new(asked.bytes);
-    let places: Vec<_> =
-        (0..asked.bytes.len()).map(|offset| wire.part(asked.bytes, offset)).collect();
+fn parts(wire: Wire, frame: &[u8]) -> Vec<Row> {
+    let mut table = Table::new(frame);
+    let places: Vec<_> = (0..frame.len()).map(|offset| wire.part(frame, offset)).collect();
     for part in places.chunk_by(|one, other| one == other) {
         table.take(part.len(), part.first().copied().unwrap_or_default(), |_| String::new());
     }
-    Ok(Explanation { title: format!("{wire} {}", packet.direction()), rows: table.rows })
+    table.rows
 }

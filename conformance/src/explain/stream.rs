@@ -14,7 +14,8 @@ use actucheck_spec::wire::{Context, Direction, Wire};
 
 pub use summary::{Answers, Summary};
 
-use super::{WIRES, Warning};
+use super::mistake::{self, Fit};
+use super::{Asked, Own, Row, WIRES, Warning, damaged};
 
 /// The next bytes of a stream.
 pub(super) enum Cut<'a> {
@@ -164,6 +165,26 @@ pub struct Skipped<'a> {
     pub notes: Vec<String>,
 }
 
+impl Skipped<'_> {
+    /// Their fields as far as they can be read, if they begin like a packet.
+    #[must_use]
+    pub fn fields(&self, wire: Wire) -> Vec<Row> {
+        let context = self.context();
+        damaged(wire, &Asked { bytes: self.bytes, context, device: None, address: None })
+    }
+
+    /// The mistakes that explain them, the likeliest first.
+    #[must_use]
+    pub fn fits(&self, wire: Wire) -> Vec<Fit> {
+        let all = self.count == self.bytes.len() as u64;
+        if all { mistake::fits(wire, self.bytes, &self.context()) } else { Vec::new() }
+    }
+
+    fn context(&self) -> Context {
+        Context { fast: None, direction: self.direction }
+    }
+}
+
 /// Follows a stream of one wire.
 pub struct Follower {
     parts: Parts,
@@ -185,8 +206,7 @@ impl Follower {
     /// wire whose streams are not followed.
     #[must_use]
     pub fn new(wire: Wire, table: Option<&'static Device>) -> Option<Self> {
-        let (.., listen) = WIRES.into_iter().find(|(other, ..)| *other == wire)?;
-        let (split, converse) = listen(table);
+        let (split, converse) = (Own::of(wire)?.listen)(table);
         let parts = Parts { converse, at: 0, fed: 0, pieces: VecDeque::new() };
         Some(Self { parts, split, direction: None })
     }
@@ -306,7 +326,7 @@ pub fn wire_of(pieces: &[(Vec<u8>, Option<Direction>)]) -> Wire {
         bytes
     };
     // Of equals the first is the default.
-    let found = WIRES.into_iter().map(|(wire, _, listen)| (frames(listen), wire));
+    let found = WIRES.into_iter().map(|own| (frames(own.listen), own.wire));
     found.rev().max_by_key(|(bytes, _)| *bytes).map_or_else(Wire::default, |(_, wire)| wire)
 }
 

@@ -61,6 +61,28 @@ impl<'a> Table<'a> {
     }
 }
 
+/// The rows of `frame` for bytes that differ from it, or end before it or after it.
+pub(super) fn received(rows: Vec<Row>, frame: &[u8], bytes: &[u8]) -> Vec<Row> {
+    let ends: Vec<_> = rows.iter().skip(1).map(|row| row.offset).chain([frame.len()]).collect();
+    let mut kept = Vec::new();
+    for (mut row, end) in rows.into_iter().zip(ends) {
+        let part = |all: &[u8]| all.get(row.offset..end.min(all.len())).map(spaced);
+        let Some(found) = part(bytes).filter(|found| !found.is_empty()) else { break };
+        if end > bytes.len() {
+            (row.bytes, row.meaning) = (found, "the rest is missing".to_owned());
+        } else if let Some(right) = part(frame).filter(|right| *right != found) {
+            (row.bytes, row.meaning) = (found, format!("{} is expected", right.to_uppercase()));
+        }
+        kept.push(row);
+    }
+    if let Some(after) = bytes.get(frame.len()..).filter(|after| !after.is_empty()) {
+        let (offset, field) = (frame.len(), "after it".to_owned());
+        let meaning = "not counted in the length".to_owned();
+        kept.push(Row { offset, bytes: spaced(after), field, meaning });
+    }
+    kept
+}
+
 /// A number whose low byte comes first.
 pub(super) fn low_first(bytes: &[u8]) -> u64 {
     bytes.iter().rev().fold(0, |value, byte| value << 8 | u64::from(*byte))

@@ -1,37 +1,50 @@
 //! One packet, field by field.
 
 use actucheck::adapter::{Output, Question, Wire};
-use actucheck::explain::{Asked, Explanation, Warning, explain};
+use actucheck::explain::mistake::{self, Fit};
+use actucheck::explain::{Asked, Invalid, Row, Warning, damaged, explain};
 use actucheck::subject::{Answer, Builtin, Subject as _};
-
-use actucheck_spec::wire::Packet;
+use actucheck_spec::wire::{Direction, Packet};
 use serde::Serialize;
 
 use super::super::shared::Failure;
 use super::super::shared::table::{self, BOLD};
 
-/// Explains the packet, or prints it as an object.
+/// The packet in words, or as an object; and whether it is one.
 pub(super) fn text(
     wire: Wire,
     asked: &Asked<'_>,
     warnings: &[Warning],
     json: bool,
-) -> Result<String, Failure> {
-    if asked.context.direction.is_none() && !wire.tells_direction() {
+) -> Result<(String, bool), Failure> {
+    let both = || Direction::ALL.map(|direction| wire.decode(asked.bytes, &direction.into()));
+    if asked.context.direction.is_none()
+        && !wire.tells_direction()
+        && both().iter().any(Result::is_ok)
+    {
         let message = format!(
             "a frame of {wire} does not state its direction; add --direction request or \
              --direction reply"
         );
         return Err(Failure::usage(message));
     }
-    let explanation = explain(wire, asked)
-        .map_err(|error| Failure::failed(format!("no valid packet, {error}")))?;
+    let explanation = match explain(wire, asked) {
+        Ok(explanation) => explanation,
+        Err(error) if json => return Err(Failure::failed(format!("no valid packet, {error}"))),
+        Err(error) => return Ok((damaged_packet(wire, asked, &error), false)),
+    };
     check_direction(wire, asked)?;
     if json {
-        return object(wire, asked, warnings);
+        return object(wire, asked, warnings).map(|text| (text, true));
     }
-    let (title, fields) = (&explanation.title, fields(&explanation));
-    Ok(format!("{BOLD}{title}{BOLD:#}\n{}{fields}\n", warned(warnings)))
+    let (title, fields) = (&explanation.title, fields(&explanation.rows));
+    Ok((format!("{BOLD}{title}{BOLD:#}\n{}{fields}", warned(warnings)), true))
+}
+
+/// What is wrong with the bytes, what can be read of them all the same, and what may explain them.
+fn damaged_packet(wire: Wire, asked: &Asked<'_>, error: &Invalid) -> String {
+    let fits = fits(&mistake::fits(wire, asked.bytes, &asked.context));
+    format!("{BOLD}no valid packet{BOLD:#}, {error}\n{}{fits}", fields(&damaged(wire, asked)))
 }
 
 /// The warnings as lines.
@@ -41,12 +54,25 @@ pub(super) fn warned(warnings: &[Warning]) -> String {
 }
 
 /// The fields as lines.
-pub(super) fn fields(explanation: &Explanation) -> String {
-    let rows = explanation.rows.iter().map(|row| {
+pub(super) fn fields(rows: &[Row]) -> String {
+    let rows = rows.iter().map(|row| {
         let offset = format!("{:>5}", row.offset);
         [offset, row.bytes.clone(), row.field.clone(), row.meaning.clone()]
     });
-    table::lines("", &rows.collect::<Vec<_>>()).join("\n")
+    let lines = table::lines("", &rows.collect::<Vec<_>>());
+    lines.into_iter().map(|line| line + "\n").collect()
+}
+
+/// The mistakes that may explain bytes, a line each; the likeliest if there are many.
+pub(super) fn fits(fits: &[Fit]) -> String {
+    const SHOWN: usize = 3;
+    let mut lines: Vec<_> = fits.iter().take(SHOWN).map(|fit| format!("       {fit}\n")).collect();
+    match fits.len().saturating_sub(SHOWN) {
+        0 => {}
+        1 => lines.push("       and 1 less likely mistake fits\n".to_owned()),
+        more => lines.push(format!("       and {more} less likely mistakes fit\n")),
+    }
+    lines.concat()
 }
 
 /// Refuses a packet whose direction is not the one that the user gave.

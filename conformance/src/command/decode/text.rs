@@ -13,7 +13,7 @@ use actucheck::legible::legible;
 
 use super::super::shared::table::{BOLD, DIM};
 use super::Show;
-use super::packet::{fields, warned};
+use super::packet::{fields, fits, warned};
 use super::sink::Sink;
 
 /// Bytes of a run that are shown.
@@ -113,7 +113,7 @@ impl<W: Write> Text<W> {
         write!(self.out, "{}", warned(&turn.warnings))?;
         match explanation {
             Ok(explanation) if self.show == Show::Fields && turn.role != Role::Echo => {
-                writeln!(self.out, "{}", fields(&explanation))
+                write!(self.out, "{}", fields(&explanation.rows))
             }
             Ok(_) => Ok(()),
             Err(_) => writeln!(self.out, "       {}", bytes(heard.bytes, heard.bytes.len())),
@@ -127,7 +127,11 @@ impl<W: Write> Text<W> {
         writeln!(self.out, "{DIM}{place}{DIM:#}  {BOLD}{count} byte{s} skipped{BOLD:#}: {reason}")?;
         let all = usize::try_from(count).unwrap_or(usize::MAX);
         writeln!(self.out, "       {}", bytes(skipped.bytes, all))?;
-        skipped.notes.iter().try_for_each(|note| writeln!(self.out, "       {note}"))
+        skipped.notes.iter().try_for_each(|note| writeln!(self.out, "       {note}"))?;
+        if self.show == Show::Fields {
+            write!(self.out, "{}", fields(&skipped.fields(self.wire)))?;
+        }
+        write!(self.out, "{}", fits(&skipped.fits(self.wire)))
     }
 
     fn silent(&mut self, silent: &Silent) -> io::Result<()> {

@@ -2,6 +2,7 @@
 
 mod body;
 mod converse;
+mod mistakes;
 mod split;
 mod warnings;
 mod words;
@@ -9,12 +10,14 @@ mod words;
 use actucheck_codec::dynamixel2::{BROADCAST_ID, FastStatus, Frame, FrameError, Instruction};
 use actucheck_codec::layout::{self, Item};
 use actucheck_codec::register::{Device, NamedValue};
-use actucheck_spec::wire::Fast;
+use actucheck_spec::wire::dynamixel2::reference::{HEADER, repair};
+use actucheck_spec::wire::{Direction, Fast};
 
 use super::stream::{Converse, Split};
 use super::table::{Explanation, Table, low_first};
 use super::{Asked, Invalid};
 use body::WireBody;
+pub(super) use mistakes::MISTAKES;
 use words::{error_words, numbers, value_words, whom};
 
 /// Bytes of header, ID and length.
@@ -27,6 +30,17 @@ pub(super) fn explain(asked: &Asked<'_>) -> Result<Explanation, Invalid> {
         None => packet(asked.bytes, asked.device, asked.address),
     };
     explanation.map_err(|error| Invalid::new(error.offset(), &error))
+}
+
+/// A right packet that has what can be read of these bytes, which begin like a packet.
+pub(super) fn mended(bytes: &[u8], _: Option<Direction>) -> Option<Vec<u8>> {
+    let [_, _, _, _, _, low, high, ..] = *bytes else { return None };
+    let wrong = bytes.iter().zip(HEADER).filter(|(byte, right)| **byte != *right).count();
+    let mut frame = bytes.to_vec();
+    frame.splice(..HEADER.len(), HEADER);
+    frame.resize(PREFIX + usize::from(u16::from_le_bytes([low, high])), 0);
+    repair(&mut frame);
+    Some(frame).filter(|_| wrong <= 1)
 }
 
 /// Finds packets in a stream, and follows who asks and who answers.

@@ -11,7 +11,8 @@ use serde::Serialize;
 
 use super::{Event, Heard, Place, Role, Summary, Turn};
 use crate::capture::Form;
-use crate::explain::{Asked, Warning, explain};
+use crate::explain::mistake::Fit;
+use crate::explain::{Asked, Row, Warning, explain};
 
 /// Version of the lines. It changes when a field is removed or gets another meaning.
 pub const VERSION: u32 = 1;
@@ -46,6 +47,11 @@ pub enum Line {
         reason: String,
         /// What else is known about them.
         notes: Vec<String>,
+        /// The mistakes that may explain them, the likeliest first. None is certain.
+        fits: Vec<Fit>,
+        /// Their fields as far as they can be read, if they begin like a packet and fields are shown.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        fields: Option<Vec<Column>>,
     },
     /// Devices that did not answer.
     Silent {
@@ -210,6 +216,10 @@ impl Line {
                 bytes: skipped.bytes.to_vec().into(),
                 reason: skipped.reason.clone(),
                 notes: skipped.notes.clone(),
+                fits: skipped.fits(wire),
+                fields: Some(skipped.fields(wire))
+                    .filter(|rows| fields && !rows.is_empty())
+                    .map(|rows| rows.into_iter().map(Column::from).collect()),
             },
             Event::Silent(silent) => {
                 Self::Silent { to: silent.to, name: silent.name, devices: silent.devices.clone() }
@@ -250,6 +260,13 @@ impl From<Place> for Where {
     }
 }
 
+impl From<Row> for Column {
+    fn from(row: Row) -> Self {
+        let Row { offset, bytes, field, meaning } = row;
+        Self { offset, bytes, field, meaning }
+    }
+}
+
 impl From<Role> for Part {
     fn from(role: Role) -> Self {
         match role {
@@ -269,28 +286,22 @@ fn said(wire: Wire, heard: &Heard<'_>, turn: &Turn, fields: bool) -> Said {
     let packet = wire.decode(heard.bytes, &context).ok();
     let asked = Asked { bytes: heard.bytes, context, device, address };
     let explanation = explain(wire, &asked).ok();
-    let rows = explanation.as_ref().filter(|_| fields).map(|explanation| {
-        let field = |row: &crate::explain::Row| Column {
-            offset: row.offset,
-            bytes: row.bytes.clone(),
-            field: row.field.clone(),
-            meaning: row.meaning.clone(),
-        };
-        explanation.rows.iter().map(field).collect()
-    });
+    let (title, rows) = explanation.map(|shown| (shown.title, shown.rows)).unzip();
+    let fields =
+        rows.filter(|_| fields).map(|rows: Vec<Row>| rows.into_iter().map(Column::from).collect());
     Said {
         place: heard.place.into(),
         direction: heard.direction,
         bytes: heard.bytes.to_vec().into(),
         packet,
         kind: turn.kind,
-        title: explanation.map(|explanation| explanation.title),
+        title,
         device: turn.device,
         table: device.map(|device| device.id),
         role: turn.role.into(),
         notes: turn.notes.clone(),
         warnings: turn.warnings.clone(),
-        fields: rows,
+        fields,
     }
 }
 

@@ -1,0 +1,58 @@
+//! A byte that is changed, missing or one too many.
+
+use std::ops::RangeInclusive;
+
+use super::super::super::mistake::Trials;
+
+/// Sizes of the frames of the document that have a CRC. Without one, any value of most bytes is right.
+const WITH_CRC: RangeInclusive<usize> = 9..=32;
+
+pub(super) fn needless(bytes: &[u8], trials: &mut Trials<'_>) {
+    let Some((_, but_last)) = bytes.split_last() else { return };
+    if !WITH_CRC.contains(&but_last.len()) {
+        return;
+    }
+    for (at, byte) in but_last.iter().enumerate() {
+        let mut meant = bytes.to_vec();
+        meant.remove(at);
+        trials.packet(meant, || format!("byte {at}, {byte:02X}, is one too many"));
+    }
+}
+
+/// With one bit of a byte turned over.
+pub(super) fn bit(bytes: &[u8], trials: &mut Trials<'_>) {
+    change(bytes, trials, u8::is_power_of_two);
+}
+
+/// With another value of a byte that more than one bit is changed of.
+pub(super) fn changed(bytes: &[u8], trials: &mut Trials<'_>) {
+    change(bytes, trials, |change| change.count_ones() > 1);
+}
+
+fn change(bytes: &[u8], trials: &mut Trials<'_>, wanted: impl Fn(u8) -> bool) {
+    if !WITH_CRC.contains(&bytes.len()) {
+        return;
+    }
+    for at in 0..bytes.len() {
+        for change in (0..=u8::MAX).filter(|change| wanted(*change)) {
+            let mut meant = bytes.to_vec();
+            let Some(byte) = meant.get_mut(at) else { return };
+            *byte ^= change;
+            let right = *byte;
+            trials.packet(meant, || format!("byte {at} is {right:02X}"));
+        }
+    }
+}
+
+pub(super) fn missing(bytes: &[u8], trials: &mut Trials<'_>) {
+    if !WITH_CRC.contains(&(bytes.len() + 1)) {
+        return;
+    }
+    for at in 0..bytes.len() {
+        for byte in 0..=u8::MAX {
+            let mut meant = bytes.to_vec();
+            meant.insert(at, byte);
+            trials.packet(meant, || format!("a byte {byte:02X} comes before byte {at}"));
+        }
+    }
+}
