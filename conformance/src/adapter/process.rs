@@ -60,7 +60,7 @@ pub(crate) enum Line {
     Text(Vec<u8>),
     /// A line that is longer than allowed.
     TooLong,
-    /// The adapter closed its output.
+    /// The adapter ended, or closed its output.
     End,
 }
 
@@ -121,14 +121,17 @@ impl Running {
         self.pipes.outgoing.push(b'\n');
     }
 
-    /// Waits for the next line; `None` if the time limit is reached.
+    /// Waits for the next line; `None` if the time limit is reached and the process is still there.
     pub(crate) fn receive(&mut self, limit: Duration) -> Option<Line> {
         let pipes = &mut self.pipes;
         let line = self.runtime.block_on(async { timeout(limit, pipes.exchange()).await.ok() });
+        // Its children may hold the pipe open after it has ended.
+        let mut has_ended = || matches!(self.child.try_wait(), Ok(Some(_)));
+        let line = line.or_else(|| has_ended().then_some(Line::End));
         match &line {
             Some(Line::Text(text)) => self.note('<', text),
             Some(Line::TooLong) => self.note('!', b"a line that is too long"),
-            Some(Line::End) => self.note('!', b"closed its output"),
+            Some(Line::End) => self.note('!', b"ended, or closed its output"),
             None => self.note('!', b"did not answer in time"),
         }
         line
