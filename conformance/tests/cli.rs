@@ -300,8 +300,8 @@ fn help_lists_the_subcommands_and_the_exit_status() {
       -h, --help     Print help
       -V, --version  Print version
 
-    Exit status: 0 all passed, 1 something failed, 2 wrong usage, 3 something could not be run, 4 the
-    adapter could not be started.
+    Exit status: 0 all passed, 1 something failed, crashed or gave no answer in time, 2 wrong usage, 3
+    something could not be run, or the adapter itself is at fault, 4 the adapter could not be started.
     ");
 }
 

@@ -25,8 +25,9 @@ pub(crate) struct Cli {
     pub(crate) command: Command,
 }
 
-const EXIT: &str = "Exit status: 0 all passed, 1 something failed, 2 wrong usage, \
-    3 something could not be run, 4 the adapter could not be started.";
+const EXIT: &str = "Exit status: 0 all passed, 1 something failed, crashed or gave no answer in time, \
+    2 wrong usage, 3 something could not be run, or the adapter itself is at fault, 4 the adapter \
+    could not be started.";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
