@@ -6,6 +6,8 @@ mod history;
 mod ledger;
 mod merge;
 mod repeat;
+#[cfg(test)]
+mod tests;
 mod worker;
 
 use std::num::NonZeroU32;
@@ -130,11 +132,9 @@ fn is_set(flag: &AtomicBool) -> bool {
 /// A question that every adapter must skip, as it must skip unknown ops of later versions.
 fn invented_op(subject: &mut dyn Subject) -> Option<Outcome> {
     let detail = match subject.ask_invented() {
-        Answer::Skipped(_) => return None,
+        Answer::Skipped(_) | Answer::NotAsked(_) => return None,
         Answer::TimedOut(detail) | Answer::Crashed(detail) => detail,
-        Answer::Ok(_) | Answer::Rejected(_) | Answer::Faulty(_) | Answer::NotAsked(_) => {
-            String::new()
-        }
+        Answer::Ok(_) | Answer::Rejected(_) | Answer::Faulty(_) => String::new(),
     };
     let rule = "an op that the adapter does not know must be answered with `skip`";
     let detail = if detail.is_empty() { rule.to_owned() } else { format!("{rule}: {detail}") };

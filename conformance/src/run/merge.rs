@@ -20,11 +20,14 @@ const AHEAD: u64 = 64;
 /// The longest delay before an interrupt is noticed.
 const INTERRUPT: Duration = Duration::from_millis(100);
 
-/// Passes on the outcomes of batches in the order of the batches.
+/// Passes on the outcomes of batches in the order of the batches. One worker at a time does so, also
+/// with the outcomes of others: these ask on meanwhile.
 pub(super) struct Merge<'s> {
-    state: Mutex<State<'s>>,
-    /// Signals that the first unfinished batch has changed.
+    state: Mutex<State>,
+    /// Signals that the first unfinished batch has changed, or that nothing is passed on now.
     moved: Condvar,
+    /// Where outcomes go; locked by the worker that passes them on.
+    exit: Mutex<Exit<'s>>,
     /// The sink has ended the run.
     over: AtomicBool,
     interrupted: &'s AtomicBool,
@@ -37,17 +40,23 @@ pub(super) struct Judged {
     pub(super) doubt: Option<Box<Doubt>>,
 }
 
-struct State<'s> {
+#[derive(Default)]
+struct State {
+    /// The first unfinished batch.
+    first: u64,
+    /// The outcomes that were not passed on yet, and whether they are the last of their batch.
+    held: BTreeMap<u64, (Vec<Judged>, bool)>,
+    /// Whether a worker passes on outcomes.
+    is_busy: bool,
+}
+
+struct Exit<'s> {
     sink: &'s mut Sink<'s>,
     /// Asks failures again, if there is a second process.
     again: Option<Again>,
     blame: Blame,
     /// How many outcomes the sink was given.
     count: usize,
-    /// The first unfinished batch. Its outcomes go directly to the sink.
-    first: u64,
-    /// The outcomes of later batches, and whether these are finished.
-    held: BTreeMap<u64, (Vec<Judged>, bool)>,
 }
 
 impl<'s> Merge<'s> {
@@ -56,11 +65,15 @@ impl<'s> Merge<'s> {
         again: Option<Again>,
         interrupted: &'s AtomicBool,
     ) -> Self {
-        let blame = Blame::default();
-        let state = State { sink, again, blame, count: 0, first: 0, held: BTreeMap::new() };
-        let (moved, over) = (Condvar::new(), AtomicBool::new(false));
-        let (state, ledger) = (Mutex::new(state), Ledger::default());
-        Self { state, moved, over, interrupted, ledger }
+        let exit = Exit { sink, again, blame: Blame::default(), count: 0 };
+        Self {
+            state: Mutex::default(),
+            moved: Condvar::new(),
+            exit: Mutex::new(exit),
+            over: AtomicBool::new(false),
+            interrupted,
+            ledger: Ledger::default(),
+        }
     }
 
     /// Whether to stop asking.
@@ -75,7 +88,7 @@ impl<'s> Merge<'s> {
 
     /// Whether what failed is asked again.
     pub(super) fn asks_again(&self) -> bool {
-        lock(&self.state).again.is_some()
+        lock(&self.exit).again.is_some()
     }
 
     /// Gives all checks up that are left.
@@ -97,7 +110,8 @@ impl<'s> Merge<'s> {
     /// put so far.
     pub(super) fn wait_for_turn(&self, number: u64) {
         let mut state = lock(&self.state);
-        while number > state.first && !self.is_over() {
+        let awaits = |state: &State| number > state.first || number == state.first && state.is_busy;
+        while awaits(&state) && !self.is_over() {
             let waited = self.moved.wait_timeout(state, INTERRUPT);
             (state, _) = waited.unwrap_or_else(PoisonError::into_inner);
         }
@@ -111,32 +125,32 @@ impl<'s> Merge<'s> {
     /// Waits a moment, or until the batch with this number may start.
     pub(super) fn wait_for_room(&self, number: u64) {
         let state = lock(&self.state);
-        let full = |state: &mut State<'_>| number >= state.first + AHEAD && !self.is_over();
+        let full = |state: &mut State| number >= state.first + AHEAD && !self.is_over();
         // An interrupt does not wake the thread.
         let waited = self.moved.wait_timeout_while(state, INTERRUPT, full);
         drop(waited.unwrap_or_else(PoisonError::into_inner));
     }
 
-    /// Adds outcomes to a batch, in order; `done` marks the last ones.
+    /// Adds outcomes to a batch, in order; `done` marks the last ones. They are passed on when those
+    /// before them were; by another worker, if it is passing on.
     pub(super) fn put(&self, number: u64, outcomes: Vec<Judged>, done: bool) {
         let mut state = lock(&self.state);
-        if number != state.first {
-            let held = state.held.entry(number).or_default();
-            held.0.extend(outcomes);
-            held.1 = done;
+        let held = state.held.entry(number).or_default();
+        held.0.extend(outcomes);
+        held.1 = done;
+        if std::mem::replace(&mut state.is_busy, true) {
             return;
         }
-        self.hand_on(&mut state, outcomes);
-        if done {
-            state.end_batch();
-            while let Some((outcomes, done)) = state.next_held() {
-                self.hand_on(&mut state, outcomes);
-                if !done {
-                    break;
-                }
-                state.end_batch();
+        while let Some((outcomes, done)) = state.next_held() {
+            drop(state);
+            self.hand_on(outcomes, done);
+            state = lock(&self.state);
+            if done {
+                state.first += 1;
+                self.moved.notify_all();
             }
         }
+        state.is_busy = false;
         drop(state);
         self.moved.notify_all();
     }
@@ -144,33 +158,37 @@ impl<'s> Merge<'s> {
     /// Passes on the outcomes that were still held back at an early end. Returns how many outcomes
     /// the sink was given.
     pub(super) fn finish(&self) -> usize {
-        let mut state = lock(&self.state);
-        let held = std::mem::take(&mut state.held).into_values();
-        self.hand_on(&mut state, held.flat_map(|(outcomes, _)| outcomes));
-        state.count
+        let held = std::mem::take(&mut lock(&self.state).held);
+        for (outcomes, done) in held.into_values() {
+            self.hand_on(outcomes, done);
+        }
+        lock(&self.exit).count
     }
 
-    fn hand_on(&self, state: &mut State<'_>, outcomes: impl IntoIterator<Item = Judged>) {
+    /// Passes on outcomes of a batch; `done` marks the last ones.
+    fn hand_on(&self, outcomes: Vec<Judged>, done: bool) {
+        let mut exit = lock(&self.exit);
         for Judged { outcome, doubt } in outcomes {
             if is_set(&self.over) {
                 return;
             }
             let outcome = match doubt {
-                Some(doubt) => self.settle(state, outcome, &doubt),
+                Some(doubt) => self.settle(&mut exit, outcome, &doubt),
                 None => outcome,
             };
-            if state.hand_on(outcome).is_break() {
-                self.over.store(true, Ordering::Relaxed);
+            if exit.hand_on(outcome).is_break() {
+                self.end();
             }
         }
+        if done {
+            exit.blame.end_batch();
+        }
     }
-}
 
-impl Merge<'_> {
     /// The outcome after the question was asked again.
-    fn settle(&self, state: &mut State<'_>, outcome: Outcome, doubt: &Doubt) -> Outcome {
+    fn settle(&self, exit: &mut Exit<'_>, outcome: Outcome, doubt: &Doubt) -> Outcome {
         let started = Instant::now();
-        let outcome = match &mut state.again {
+        let outcome = match &mut exit.again {
             Some(again) if !self.is_over() => again.settle(outcome, doubt, &|| !self.is_over()),
             _ => outcome,
         };
@@ -184,19 +202,16 @@ impl Merge<'_> {
     }
 }
 
-impl State<'_> {
+impl State {
+    fn next_held(&mut self) -> Option<(Vec<Judged>, bool)> {
+        self.held.remove(&self.first)
+    }
+}
+
+impl Exit<'_> {
     fn hand_on(&mut self, mut outcome: Outcome) -> ControlFlow<()> {
         self.count += 1;
         self.blame.charge(&mut outcome);
         (self.sink)(outcome)
-    }
-
-    fn end_batch(&mut self) {
-        self.first += 1;
-        self.blame.end_batch();
-    }
-
-    fn next_held(&mut self) -> Option<(Vec<Judged>, bool)> {
-        self.held.remove(&self.first)
     }
 }
