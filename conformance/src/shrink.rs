@@ -90,3 +90,81 @@ pub(crate) fn without<T: Clone>(items: &[T]) -> impl Iterator<Item = Vec<T>> + u
         [before.unwrap_or_default(), behind.unwrap_or_default()].concat()
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    /// Shrinks numbers, while those that are needed are among them. Returns what is left, and how
+    /// often it was asked.
+    fn shrunk(size: usize, needed: &[usize], steps: usize) -> (Vec<usize>, usize) {
+        let mut asked = 0;
+        let left = shrink((0..size).collect(), steps, &|| true, |numbers: &Vec<usize>| {
+            asked += 1;
+            Some(needed.iter().all(|number| numbers.contains(number)))
+        });
+        (left, asked)
+    }
+
+    #[test]
+    fn what_is_left_is_what_is_needed() {
+        for size in [1, 2, 3, 63, 64, 65, 127, 129, 300, 1024, 5000] {
+            for needed in [&[][..], &[0], &[size - 1], &[size / 3], &[size / 3, size / 2]] {
+                let (left, asked) = shrunk(size, needed, 500);
+                let needed: BTreeSet<_> = needed.iter().copied().collect();
+                assert_eq!(left, Vec::from_iter(needed), "of {size}");
+                assert!(asked <= 500, "{asked} for {size}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_left_has_the_fewest() {
+        for size in [1, 7, 64, 65, 100, 240, 1000, 5000] {
+            for least in [0, 1, size / 7, size / 2, size - 1, size] {
+                let fails = |numbers: &Vec<usize>| Some(numbers.len() >= least);
+                let left = shrink((0..size).collect(), 500, &|| true, fails);
+                assert_eq!(left.len(), least, "of {size}");
+            }
+        }
+    }
+
+    /// Whatever fails, at most so many are asked, and what is left failed or is the whole.
+    #[test]
+    fn it_ends_and_what_is_left_fails() {
+        for steps in [0, 1, 2, 10, 100] {
+            for seed in 0..50_usize {
+                let whole: Vec<_> = (0..200).collect();
+                let mut failed = vec![whole.clone()];
+                let mut asked = 0;
+                let left = shrink(whole, steps, &|| true, |numbers: &Vec<usize>| {
+                    asked += 1;
+                    let sum: usize = numbers.iter().map(|number| number * (seed + 7)).sum();
+                    let fails = sum % 3 != seed % 3;
+                    failed.extend(fails.then(|| numbers.clone()));
+                    Some(fails)
+                });
+                assert!(asked <= steps && Some(&left) == failed.last(), "{asked} of {steps}");
+            }
+        }
+        // What there is nothing to ask of, and what comes when there is no more time, is not asked.
+        assert_eq!(shrink(vec![1; 9], 100, &|| true, |_| None).len(), 9);
+        assert_eq!(shrink(vec![1; 9], 100, &|| false, |_| Some(true)).len(), 9);
+    }
+
+    #[test]
+    fn the_fewest_earlier_ones_are_the_last_that_are_needed() {
+        let before: Vec<_> = (0..1000).collect();
+        for needed in [&[999][..], &[998], &[500], &[0], &[3, 700]] {
+            let fails = |row: &[usize]| needed.iter().all(|number| row.contains(number));
+            let row = fewest(&before, None, 200, &|| true, fails);
+            assert_eq!(row.as_deref(), Some(needed));
+        }
+        assert_eq!(fewest(&before, None, 200, &|| true, |_| false), None);
+        // One that counts needs as many as it counts.
+        let row = fewest(&before, Some(36), 200, &|| true, |row| row.len() % 37 == 36);
+        assert_eq!(row.map(|row| row.len()), Some(36));
+    }
+}

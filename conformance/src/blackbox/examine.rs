@@ -3,7 +3,7 @@
 
 use std::time::{Duration, Instant};
 
-use super::finding::{Failure, Finding, Kind};
+use super::finding::{Failure, Finding, Kind, size};
 use super::probe::Probe;
 use super::{Drawn, Scope};
 use crate::shrink::{fewest, shrink};
@@ -50,13 +50,13 @@ impl Examiner<'_> {
     /// A failure that needs nothing before it.
     fn alone(&mut self, drawn: &Drawn, kind: &Kind, goes_on: &dyn Fn() -> bool) -> Option<Finding> {
         let steps = if kind.is_slow() { SLOW_STEPS } else { STEPS };
-        let (scope, id) = (self.scope, &drawn.check.id);
+        let scope = self.scope;
         let smallest = shrink(drawn.probe.clone(), steps, goes_on, |probe| {
-            let check = scope.check(probe, id.clone())?;
+            let check = smaller(scope, probe, drawn)?;
             Some(self.fails(&check, kind).is_some())
         });
         let finding = |this: &mut Self, probe: &Probe| {
-            let check = scope.check(probe, id.clone())?;
+            let check = smaller(scope, probe, drawn)?;
             let outcome = this.fails_after(&[], &check, kind, goes_on)?;
             Some(Finding { kind: kind.clone(), check, before: Vec::new(), outcome, times: 1 })
         };
@@ -66,7 +66,7 @@ impl Examiner<'_> {
         // What was asked while shrinking has played a part.
         let steps = steps.min(FRESH_STEPS);
         let smallest = shrink(drawn.probe.clone(), steps, goes_on, |probe| {
-            let check = scope.check(probe, id.clone())?;
+            let check = smaller(scope, probe, drawn)?;
             Some(self.fails_after(&[], &check, kind, goes_on).is_some())
         });
         finding(self, &smallest).or_else(|| finding(self, &drawn.probe))
@@ -85,16 +85,15 @@ impl Examiner<'_> {
         let mut before = fewest(before, None, steps, goes_on, |before| {
             self.fails_after(before, &drawn.check, kind, goes_on).is_some()
         })?;
-        let last = &drawn.check.id;
         let smallest = shrink(drawn.probe.clone(), steps, goes_on, |probe| {
-            let check = scope.check(probe, last.clone())?;
+            let check = smaller(scope, probe, drawn)?;
             Some(self.fails_after(&before, &check, kind, goes_on).is_some())
         });
-        let check = scope.check(&smallest, last.clone())?;
+        let check = smaller(scope, &smallest, drawn)?;
         for place in 0..before.len() {
             let Some(drawn) = before.get(place).cloned() else { continue };
             let with = |probe: &Probe| {
-                let check = scope.check(probe, drawn.check.id.clone())?;
+                let check = smaller(scope, probe, &drawn)?;
                 let mut before = before.clone();
                 let drawn = Drawn { probe: probe.clone(), check, ..drawn.clone() };
                 before.iter_mut().skip(place).take(1).for_each(|slot| *slot = drawn.clone());
@@ -134,6 +133,13 @@ impl Examiner<'_> {
         }
         self.fails(check, kind)
     }
+}
+
+/// The check of a probe that `drawn` was shrunk to. A probe without a damage may be longer: `None`
+/// then, and if there is no right answer.
+fn smaller(scope: &Scope<'_>, probe: &Probe, drawn: &Drawn) -> Option<Check> {
+    let check = scope.check(probe, drawn.check.id.clone())?;
+    (size(&check) <= size(&drawn.check)).then_some(check)
 }
 
 /// The finding with its checks in a row.

@@ -1,6 +1,6 @@
 //! Fuzzing finds the mutants too, without a list of checks, and shrinks the failures.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::iter;
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -78,10 +78,22 @@ fn every_mutant_is_found() {
     assert!(missed.is_empty(), "{missed:#?}");
 }
 
+/// A finding has the id of the probe that it was shrunk from.
 #[test]
-fn what_is_found_is_made_small() {
+fn what_is_found_is_made_small_and_fails_as_before() {
+    let spec = Spec::embedded().unwrap();
+    let options = Options { wire: dynamixel2::WIRE, seed: 1, cases: 3_000 };
+    let drawn = blackbox::checks(&spec, &options, Builtin::default().hello());
+    let drawn: BTreeMap<_, _> = drawn.into_iter().map(|check| (check.id, check.question)).collect();
     for mutant in MUTANTS.iter().step_by(4) {
         let findings = fuzzed(Mutated::new(mutant), 1, 2_000).findings;
+        for Finding { kind, check, outcome, .. } in &findings {
+            let again = check.clone().judge(Mutated::new(mutant).ask(&check.question));
+            assert_eq!(again, *outcome, "{}", mutant.name);
+            assert_eq!((check.question.name(), &check.requirement), (kind.op, &kind.requirement));
+            let (before, after) = (size(&drawn[&check.id]), size(&check.question));
+            assert!(after <= before, "{}: {before} to {after}: {:?}", mutant.name, check.question);
+        }
         let sizes = findings.iter().map(|finding| size(&finding.check.question));
         // A length of two bytes is 256 bytes, and twice as many digits; the call has them again.
         let smallest = sizes.min().filter(|size| *size < 1_400);
