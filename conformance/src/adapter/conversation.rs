@@ -76,6 +76,9 @@ pub(crate) enum Lost {
     /// The adapter ended, or closed its output.
     #[error("the adapter {}", ended(*.0))]
     Ended(Option<ExitStatus>),
+    /// The program is to end.
+    #[error("interrupted")]
+    Interrupted,
     /// A line is longer than allowed.
     #[error("a line longer than 16 MiB")]
     TooLong,
@@ -149,6 +152,7 @@ impl Conversation {
             Some(Line::Text(line)) => self.read(&line),
             Some(Line::TooLong) => Err(Lost::TooLong),
             Some(Line::End) => Err(Lost::Ended(self.running.exit_status())),
+            Some(Line::Interrupt) => Err(Lost::Interrupted),
             None => Err(Lost::Silent(limit)),
         }
     }

@@ -15,6 +15,8 @@ pub mod schema;
 mod trace;
 mod value;
 
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 pub use greeting::{Contradiction, Greeting};
@@ -54,10 +56,18 @@ pub struct Settings {
     pub trace: Option<Trace>,
     /// The number of this process in the trace.
     pub number: u32,
+    /// When this is set, no answer is awaited any more.
+    pub interrupted: Arc<AtomicBool>,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { timeouts: Timeouts::default(), restarts: None, trace: None, number: 1 }
+        Self {
+            timeouts: Timeouts::default(),
+            restarts: None,
+            trace: None,
+            number: 1,
+            interrupted: Arc::default(),
+        }
     }
 }

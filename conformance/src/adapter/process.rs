@@ -2,8 +2,9 @@
 
 use std::io;
 use std::process::{ExitStatus, Stdio};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use tokio::io::{AsyncBufReadExt, AsyncReadExt, AsyncWriteExt, BufReader};
 use tokio::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command};
@@ -20,6 +21,8 @@ use crate::legible::{LONGEST_TEXT, legible};
 const MAX_LINE: usize = 16 << 20;
 /// How many bytes of an adapter's standard error are kept.
 const MAX_LOG: usize = 16 << 10;
+/// The longest delay before an interrupt is noticed. An answer that comes by then is still taken.
+const INTERRUPT: Duration = Duration::from_millis(100);
 /// How long to wait for the last output of a process that is ending.
 const GRACE: Duration = Duration::from_millis(200);
 
@@ -40,6 +43,7 @@ pub(crate) struct Running {
     logging: Option<JoinHandle<()>>,
     log: Arc<Mutex<Vec<u8>>>,
     trace: Option<(Trace, u32)>,
+    interrupted: Arc<AtomicBool>,
 }
 
 /// Its standard input and output, and the bytes that are on the way.
@@ -62,6 +66,8 @@ pub(crate) enum Line {
     TooLong,
     /// The adapter ended, or closed its output.
     End,
+    /// The program is to end.
+    Interrupt,
 }
 
 impl Running {
@@ -110,6 +116,7 @@ impl Running {
             logging,
             log,
             trace,
+            interrupted: Arc::clone(&settings.interrupted),
         })
     }
 
@@ -123,8 +130,7 @@ impl Running {
 
     /// Waits for the next line; `None` if the time limit is reached and the process is still there.
     pub(crate) fn receive(&mut self, limit: Duration) -> Option<Line> {
-        let pipes = &mut self.pipes;
-        let line = self.runtime.block_on(async { timeout(limit, pipes.exchange()).await.ok() });
+        let line = self.wait(limit);
         // Its children may hold the pipe open after it has ended.
         let mut has_ended = || matches!(self.child.try_wait(), Ok(Some(_)));
         let line = line.or_else(|| has_ended().then_some(Line::End));
@@ -132,9 +138,26 @@ impl Running {
             Some(Line::Text(text)) => self.note('<', text),
             Some(Line::TooLong) => self.note('!', b"a line that is too long"),
             Some(Line::End) => self.note('!', b"ended, or closed its output"),
+            Some(Line::Interrupt) => self.note('!', b"was not awaited, as the program is to end"),
             None => self.note('!', b"did not answer in time"),
         }
         line
+    }
+
+    /// Waits for a line, so long at most.
+    fn wait(&mut self, limit: Duration) -> Option<Line> {
+        let started = Instant::now();
+        loop {
+            let left = limit.saturating_sub(started.elapsed());
+            let pipes = &mut self.pipes;
+            let next = async { timeout(left.min(INTERRUPT), pipes.exchange()).await };
+            match self.runtime.block_on(next) {
+                Ok(line) => return Some(line),
+                Err(_) if self.interrupted.load(Ordering::Relaxed) => return Some(Line::Interrupt),
+                Err(_) if left <= INTERRUPT => return None,
+                Err(_) => {}
+            }
+        }
     }
 
     /// The last lines that it wrote to its standard error, each of them legible.

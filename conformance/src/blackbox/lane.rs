@@ -120,6 +120,8 @@ impl Questions for Asking<'_> {
         }
         let Some(drawn) = self.dealt.get(place) else { return };
         let heard = match answer {
+            // It was not awaited to the end.
+            Answer::NotAsked(_) if self.shared.over.load(Ordering::Relaxed) => return,
             Answer::NotAsked(reason) => Heard::Lost(reason),
             Answer::Skipped(reason) => Heard::Skipped(reason),
             answer => Failure::of(&drawn.check, answer)

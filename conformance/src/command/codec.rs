@@ -5,7 +5,8 @@ use std::num::{NonZeroU32, NonZeroUsize};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::atomic::Ordering;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use actucheck::adapter::Wire;
@@ -50,7 +51,7 @@ Examples:
   actucheck codec --jobs 4 --max-fail 10 -- ./my-adapter
       four adapters side by side, until something failed ten times
 
-Ctrl-C ends a run early and reports what was found so far.
+Ctrl-C ends a run early and reports what was found so far; a second one ends it without.
 
 A file of a report is replaced when the new report is whole. If a run cannot begin, as of a mistyped \
 command, the reports of the run before stay, but a junit report says in an error why: else a CI \
@@ -104,7 +105,8 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     let outputs = Outputs::open(&options.reports, others)?;
     let write_expect = options.write_expect.as_ref().map(|path| new_file(path, options));
     let write_expect = write_expect.transpose()?;
-    let (mut outputs, start) = outputs.unless_failed(Start::new(options, &spec))?;
+    let interrupted = shared::interrupted()?;
+    let (mut outputs, start) = outputs.unless_failed(Start::new(options, &spec, &interrupted))?;
     let Start { mut subjects, wires, plan, records, mut expectations } = start;
     let hello = subjects.hello.clone();
     let size = plan.size();
@@ -112,7 +114,6 @@ pub(crate) fn run(options: &Codec) -> Result<ExitCode, Failure> {
     let template = "{bar:30} {pos}/{len} checks  {per_sec}  {eta} left";
     let progress = shared::progress(Some(size as u64), template);
     let (started, date) = (Instant::now(), shared::date());
-    let interrupted = shared::interrupted()?;
     let run = Run {
         spec: &spec,
         date,
@@ -221,9 +222,13 @@ struct Start<'a> {
 }
 
 impl<'a> Start<'a> {
-    fn new(options: &Codec, spec: &'a Spec) -> Result<Self, Failure> {
+    fn new(
+        options: &Codec,
+        spec: &'a Spec,
+        interrupted: &Arc<AtomicBool>,
+    ) -> Result<Self, Failure> {
         let selection = &options.selection;
-        let mut subjects = Subjects::start(&options.adapter, options.jobs)?;
+        let mut subjects = Subjects::start(&options.adapter, options.jobs, interrupted)?;
         let hello = subjects.hello.clone();
         let wires = selection.offered_wires(&hello)?;
         let mut plan = selection.growth.plan(spec, &wires, Some(&hello));

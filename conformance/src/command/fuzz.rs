@@ -82,7 +82,9 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
     let spec = shared::spec()?;
     Target::all_differ(options.adapter.trace().into_iter().chain([options.out.as_path()]))?;
     let out = Target::new(&options.out)?;
-    let mut subjects = Subjects::start_with(&options.adapter, options.jobs, Some(RESTARTS))?;
+    let interrupted = shared::interrupted()?;
+    let mut subjects =
+        Subjects::start_with(&options.adapter, options.jobs, Some(RESTARTS), &interrupted)?;
     let hello = subjects.hello.clone();
     if !hello.wires.iter().any(|id| id == options.wire.id()) {
         return Err(shared::not_offered(options.wire, &hello));
@@ -92,7 +94,6 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
     let time = options.time.or_else(|| options.cases.is_none().then_some(MINUTE));
 
     let (started, date) = (Instant::now(), shared::date());
-    let interrupted = shared::interrupted()?;
     let progress = progress(options.cases);
     let probes = blackbox::Options { wire: options.wire, seed, cases };
     let fuzzed = fuzz(&spec, &probes, &mut subjects.all, &|asked, found| {

@@ -46,7 +46,8 @@ pub(crate) struct Replay {
 /// Asks one check, or those of a file, and prints the whole report on them.
 pub(crate) fn run(options: &Replay) -> Result<ExitCode, Failure> {
     let spec = shared::spec()?;
-    let mut subjects = Subjects::start(&options.adapter, 1)?;
+    let interrupted = shared::interrupted()?;
+    let mut subjects = Subjects::start(&options.adapter, 1, &interrupted)?;
     let hello = subjects.hello.clone();
     let checks = named(options, &spec, &hello)?;
     let mut asked = earlier(options, &spec, &hello)?;

@@ -371,9 +371,12 @@ impl Questions for Worker<'_, '_, '_> {
         let place = self.place(number);
         let mut lost = self.lost.take();
         let is_process = self.history.is_some();
+        let is_over = self.work.merge.is_over();
         let slot = self.slot_mut(place);
         let Some(Slot { state: State::Open(_, repeated), .. }) = slot else { return };
         let heard = match answer {
+            // It was not awaited to the end: the check is left.
+            Answer::NotAsked(_) if is_over => return,
             Answer::NotAsked(ref reason) => {
                 lost = None;
                 // The other processes would not start again either.

@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io;
+use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use thiserror::Error;
@@ -90,6 +91,9 @@ impl Process {
             return Err(gone.clone());
         }
         if self.conversation.is_none() {
+            if self.settings.interrupted.load(Ordering::Relaxed) {
+                return Err(Lost::Interrupted.to_string());
+            }
             let begun = match self.settings.restarts.filter(|most| self.restarts >= *most) {
                 Some(most) => Err(format!("the adapter failed {} times", most.saturating_add(1))),
                 None => start(&self.command, &self.settings)
@@ -309,6 +313,7 @@ fn greet(conversation: &mut Conversation, limit: Duration) -> Result<Greeting, S
             limit.as_secs_f32()
         ),
         Lost::Ended(_) => format!("ended before it said hello: {lost}"),
+        Lost::Interrupted => "had not said hello when the program was interrupted".to_owned(),
         lost => format!("answered hello wrongly: {lost}"),
     })?;
     let Ok(Reply::Ok(object)) = reply else {
@@ -326,6 +331,7 @@ impl From<Lost> for Answer {
         match lost {
             Lost::Silent(_) => Self::TimedOut(detail),
             Lost::Ended(_) => Self::Crashed(detail),
+            Lost::Interrupted => Self::NotAsked(detail),
             _ => Self::Faulty(detail),
         }
     }

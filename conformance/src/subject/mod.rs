@@ -82,6 +82,6 @@ pub enum Answer {
     Crashed(String),
     /// The answer violates the adapter protocol.
     Faulty(String),
-    /// The adapter could not be restarted to ask it.
+    /// The adapter could not be restarted to ask it, or the program was interrupted.
     NotAsked(String),
 }

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::time::Duration;
 
 use super::example::Example;
-use super::talk::{Answer, ONLY_REPLIES, TOO_LONG, Talk};
+use super::talk::{Answer, ONLY_REPLIES, TOO_LONG, Talk, interrupted};
 use super::{Point, Problem, Report, shape};
 use crate::adapter::conversation::ended;
 use crate::adapter::process::Line;
@@ -305,6 +305,7 @@ fn silence(talk: &mut Talk) -> Found {
             "write nothing but replies to standard output; messages go to standard error",
         )),
         Some(Line::TooLong) => Err(Problem::ending(TOO_LONG, ONLY_REPLIES)),
+        Some(Line::Interrupt) => Err(interrupted()),
         Some(Line::End) => {
             Err(Problem::ending(format!("it {}", ended(talk.end())), "end at `bye` only"))
         }
@@ -321,6 +322,7 @@ fn bye(talk: &mut Talk) -> Found {
             None => Err(Problem::new("it closed its output, but runs on", mend)),
         },
         Some(Line::Text(_) | Line::TooLong) => Err(Problem::new("it replied", mend)),
+        Some(Line::Interrupt) => Err(interrupted()),
         None => Err(Problem::new("it runs on", mend)),
     }
 }

@@ -87,6 +87,7 @@ fn without_reply(lost: &Lost) -> Problem {
             "write a line for each request, end it with a line feed and flush it; \
              --timeout, and --start-timeout at the start, give it more time",
         ),
+        Lost::Interrupted => interrupted(),
         Lost::TooLong => Problem::ending(TOO_LONG, ONLY_REPLIES),
         Lost::NoObject { error, .. } => {
             Problem::ending(format!("the reply is no JSON object: {error}"), ONLY_REPLIES)
@@ -100,6 +101,11 @@ fn without_reply(lost: &Lost) -> Problem {
             Problem::ending(what, COPY_ID)
         }
     }
+}
+
+/// Nothing is wrong, but the rest is not checked.
+pub(super) fn interrupted() -> Problem {
+    Problem::ending("interrupted", "check it again")
 }
 
 pub(super) const TOO_LONG: &str = "a line is longer than 16 MiB";

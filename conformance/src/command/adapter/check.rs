@@ -45,7 +45,7 @@ const WIDTH: usize = 400;
 pub(crate) fn run(options: &Check) -> Result<ExitCode, Failure> {
     let spec = shared::spec()?;
     let plan = suite::plan(&spec, &Wire::ALL, &Options::new());
-    let settings = options.exchange.settings()?;
+    let settings = options.exchange.settings(&shared::interrupted()?)?;
     let command = options.command.join(" ");
     let report = lint::check(&options.command, &settings, &[plan]).map_err(|error| {
         let message = format!("cannot run `{command}`: {error}; give the command after `--`");

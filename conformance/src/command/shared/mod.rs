@@ -36,11 +36,20 @@ pub(crate) fn spec() -> Result<Spec, Failure> {
     })
 }
 
-/// Returns a flag that Ctrl-C sets, or what else asks the program to end.
+/// The exit status at a second Ctrl-C, as a shell would tell it.
+const INTERRUPTED: i32 = 130;
+
+/// Returns a flag that Ctrl-C sets, or what else asks the program to end. A second Ctrl-C ends it at
+/// once: it may be writing to somebody who does not read.
 pub(crate) fn interrupted() -> Result<Arc<AtomicBool>, Failure> {
     let flag = Arc::new(AtomicBool::new(false));
     let setter = Arc::clone(&flag);
-    ctrlc::set_handler(move || setter.store(true, Ordering::Relaxed))
+    let end = move || {
+        if setter.swap(true, Ordering::Relaxed) {
+            std::process::exit(INTERRUPTED);
+        }
+    };
+    ctrlc::set_handler(end)
         .map_err(|error| Failure::incomplete(format!("cannot listen for Ctrl-C: {error}")))?;
     Ok(flag)
 }

@@ -1,6 +1,8 @@
 //! The subject that is judged: the built-in codec, or a library behind an adapter.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use actucheck::adapter::{Hello, Settings, Timeouts, Trace, lint};
@@ -43,11 +45,12 @@ impl Adapter {
 }
 
 impl Exchange {
-    /// How to run the adapter. Creates the trace file.
-    pub(crate) fn settings(&self) -> Result<Settings, Failure> {
+    /// How to run the adapter, until it is `interrupted`. Creates the trace file.
+    pub(crate) fn settings(&self, interrupted: &Arc<AtomicBool>) -> Result<Settings, Failure> {
         let timeouts = Timeouts { start: self.start_timeout, request: self.timeout };
         let trace = self.trace.as_deref().map(open_trace).transpose()?;
-        Ok(Settings { timeouts, trace, ..Settings::default() })
+        let interrupted = Arc::clone(interrupted);
+        Ok(Settings { timeouts, trace, interrupted, ..Settings::default() })
     }
 }
 
@@ -60,9 +63,14 @@ pub(crate) struct Subjects {
 }
 
 impl Subjects {
-    /// Starts `jobs` processes of the adapter, or the built-in codec without one.
-    pub(crate) fn start(adapter: &Adapter, jobs: u8) -> Result<Self, Failure> {
-        Self::start_with(adapter, jobs, None)
+    /// Starts `jobs` processes of the adapter, or the built-in codec without one. They are not awaited
+    /// any more when `interrupted` is set.
+    pub(crate) fn start(
+        adapter: &Adapter,
+        jobs: u8,
+        interrupted: &Arc<AtomicBool>,
+    ) -> Result<Self, Failure> {
+        Self::start_with(adapter, jobs, None, interrupted)
     }
 
     /// The same, with a limit of restarts per process.
@@ -70,6 +78,7 @@ impl Subjects {
         adapter: &Adapter,
         jobs: u8,
         restarts: Option<u32>,
+        interrupted: &Arc<AtomicBool>,
     ) -> Result<Self, Failure> {
         if adapter.command.is_empty() {
             // clap does not distinguish `--` with nothing after it from a missing `--`.
@@ -87,7 +96,7 @@ impl Subjects {
             subjects.all.resize_with(jobs.into(), || Box::new(Builtin::default()));
             return Ok(subjects);
         }
-        let settings = adapter.exchange.settings()?;
+        let settings = adapter.exchange.settings(interrupted)?;
         let start = |number| {
             Process::start(&adapter.command, Settings { restarts, number, ..settings.clone() })
                 .map_err(Failure::not_started)
