@@ -9,6 +9,7 @@
 mod bad;
 mod forms;
 mod mistakes;
+mod vectors;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,5 +1,6 @@
 //! Who asks and who answers: a status packet does not say what it answers.
 
+use std::mem::take;
 use std::time::Duration;
 
 use actucheck_codec::crc;
@@ -9,6 +10,8 @@ use actucheck_spec::wire::{Direction, Fast};
 
 use super::super::device_of;
 use super::super::stream::{Converse, Heard, Role, Silent, Turn};
+use super::held::Held;
+use super::warnings::Question;
 use super::{PREFIX, warnings};
 
 /// Bytes of a block of a fast status packet beside its data: error, ID and CRC.
@@ -23,6 +26,7 @@ pub(super) struct Talk {
     ask: Option<Ask>,
     /// Whether any device has answered.
     answered: bool,
+    held: Held,
     scratch: Vec<u8>,
 }
 
@@ -56,7 +60,14 @@ impl Asked {
 
 impl Talk {
     pub(super) fn new(table: Option<&'static Device>) -> Self {
-        Self { table, models: [None; 256], ask: None, answered: false, scratch: Vec::new() }
+        Self {
+            table,
+            models: [None; 256],
+            ask: None,
+            answered: false,
+            held: Held::default(),
+            scratch: Vec::new(),
+        }
     }
 
     fn table(&self, id: u8) -> Option<&'static Device> {
@@ -84,11 +95,16 @@ impl Talk {
         bytes.clear();
         bytes.extend_from_slice(heard.bytes);
         devices.clear();
-        if self.scratch.len() < frame.params_len() {
-            self.scratch.resize(frame.params_len(), 0);
+        let (mut scratch, mut held) = (take(&mut self.scratch), take(&mut self.held));
+        if scratch.len() < frame.params_len() {
+            scratch.resize(frame.params_len(), 0);
         }
-        let request = Request::parse(frame, &mut self.scratch);
-        let warnings = warnings::request(frame, &request, turn.table);
+        let request = Request::parse(frame, &mut scratch);
+        let table = |id| self.table(id);
+        let warnings = warnings::request(frame, &request, &table, &held);
+        if let Ok(request) = &request {
+            held.request(frame.id(), request, table);
+        }
         let mut fast = None;
         match request {
             Ok(Request::SyncRead(read)) => {
@@ -113,6 +129,7 @@ impl Talk {
             }
             _ => devices.push(Asked::of(frame.id(), None)),
         }
+        (self.scratch, self.held) = (scratch, held);
         self.ask = Some(Ask {
             at: heard.place.at,
             end: heard.end,
@@ -152,7 +169,10 @@ impl Talk {
         let (kind, id) = (Instruction::Status.name(), frame.id());
         // The first parameter is the error.
         let size = frame.params_len().saturating_sub(1);
-        let mut turn = Turn { kind, device: Some(id), table: self.table(id), ..Turn::default() };
+        let table = self.table(id);
+        let error = frame.error().unwrap_or_default();
+        let warnings = warnings::error(error, table);
+        let mut turn = Turn { kind, device: Some(id), table, warnings, ..Turn::default() };
         let Some(ask) = &mut self.ask else { return unasked(turn, frame) };
         let everyone = ask.devices.is_empty();
         let asked = ask.devices.iter_mut().find(|asked| asked.id == id && !asked.answered);
@@ -162,14 +182,23 @@ impl Talk {
         ask.followed = true;
         let after = heard.place.time.zip(ask.end).and_then(|(begin, end)| begin.checked_sub(end));
         turn.role = Role::Answer { to: ask.at, name: ask.instruction.name(), after };
-        let failed = frame.error().is_some_and(|error| error.number().code() != 0);
+        let instruction = ask.instruction;
+        let length = asked.as_ref().and_then(|asked| asked.length);
+        let question = Question { instruction, everyone, length };
+        turn.warnings.extend(warnings::answer(error, size, question, table));
         if let Some(asked) = asked {
             asked.answered = true;
             turn.address = asked.address;
-            let length = asked.length.map(usize::from).filter(|length| *length != size);
-            if let Some(length) = length.filter(|_| !(failed && size == 0)) {
-                turn.notes.push(format!("{length} bytes were asked for, {size} came"));
+        }
+        match (table, turn.address) {
+            (Some(table), _) if error.number().code() != 0 => {
+                self.held.refused(id, table, &ask.bytes);
             }
+            (Some(table), Some(address)) => {
+                let data = || frame.params().skip(1).collect();
+                self.held.take(id, table, address, size, data);
+            }
+            _ => {}
         }
         if ask.instruction == Instruction::Ping
             && let Some((model, firmware)) = ping(frame)
@@ -212,7 +241,10 @@ impl Talk {
             _ => fast.length,
         };
         match FastStatus::parse(heard.bytes, length, &fast.ids) {
-            Ok(_) => {
+            Ok(packet) => {
+                let errors =
+                    packet.blocks().flat_map(|block| warnings::error(block.error, turn.table));
+                turn.warnings.extend(errors);
                 ask.mark(&fast.ids);
                 turn.context.fast = Some(Fast { length, ids: fast.ids });
             }

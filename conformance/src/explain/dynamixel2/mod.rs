@@ -2,10 +2,12 @@
 
 mod body;
 mod converse;
+mod held;
 mod mistakes;
 mod split;
 mod warnings;
 mod words;
+mod writes;
 
 use actucheck_codec::dynamixel2::{BROADCAST_ID, FastStatus, Frame, FrameError, Instruction};
 use actucheck_codec::layout::{self, Item};

@@ -1,0 +1,89 @@
+//! What is wrong in writing registers.
+
+use actucheck_codec::register::{Access, Area, Device, RegisterError, Row};
+
+use super::held::Held;
+use super::warnings::{Warnings, kebab};
+
+/// Bytes that are written to a device's control table.
+#[derive(Clone, Copy)]
+pub(super) struct Write<'a> {
+    pub(super) id: u8,
+    pub(super) table: &'static Device,
+    pub(super) address: u16,
+    pub(super) data: &'a [u8],
+}
+
+impl Warnings {
+    /// What is wrong with a write.
+    pub(super) fn write(&mut self, write: Write<'_>, held: &Held) {
+        let Write { id, table, address, data } = write;
+        self.table = Some(table);
+        let mut lock = held.lock(id, table);
+        for row in touched(table, address, data.len()) {
+            let (name, size) = (row.name, usize::from(row.kind.size()));
+            if row.access == Access::ReadOnly {
+                let text = format!("{name} is read-only");
+                self.add(&["table.read-only", "status-packet.error.write-access"], text);
+                continue;
+            }
+            if let Some(lock) = lock.take_if(|_| row.area == Area::Eeprom) {
+                let text = format!("{name} is in the EEPROM area, and {} was seen on", lock.name);
+                let rules =
+                    ["table.eeprom-lock", "torque-enable.lock", "status-packet.error.locked"];
+                self.add(&rules, text);
+            }
+            let from = row.address.checked_sub(address).map(usize::from);
+            if let Some(bytes) = from.and_then(|from| data.get(from..from + size)) {
+                self.value(row, bytes, &|address| held.value(id, address));
+            } else {
+                let text = format!("{name} has {size} bytes, and not all of them are written");
+                self.add(&["table.size", "status-packet.error.data-length"], text);
+            }
+        }
+    }
+
+    /// What is wrong with a register's value.
+    fn value(&mut self, row: &Row, bytes: &[u8], held: &dyn Fn(u16) -> Option<i64>) {
+        let Some(value) = row.decode(bytes) else { return };
+        // Another range may apply.
+        if row.meanings.iter().any(|meaning| held(meaning.when.address).is_none()) {
+            return;
+        }
+        let Err(error) = row.check(value, held) else { return };
+        // Of ranges on which the documents do not agree, each has the values that have a name.
+        if !row.settled && (row.values.is_empty() || row.value_name(value).is_some()) {
+            return;
+        }
+        let limit = match error {
+            RegisterError::OutOfRange { limit: Some(address), .. } => {
+                self.table.and_then(|table| table.register(address))
+            }
+            _ => None,
+        };
+        if let Some(limit) = limit {
+            let rule = format!("{}.error", kebab(limit.name));
+            let text = format!("{error}, by {}", limit.name);
+            self.add(&[&rule, "status-packet.error.data-limit"], text);
+        } else {
+            let rules = ["range", "values"].map(|rule| format!("{}.{rule}", kebab(row.name)));
+            let [range, values] = &rules;
+            self.add(&[range, values, "status-packet.error.data-range"], error.to_string());
+        }
+    }
+}
+
+/// The registers that have some of these bytes.
+fn touched(
+    table: &'static Device,
+    address: u16,
+    length: usize,
+) -> impl Iterator<Item = &'static Row> {
+    let end = usize::from(address) + length;
+    let before = |row: &&Row| {
+        usize::from(row.address) + usize::from(row.kind.size()) <= usize::from(address)
+    };
+    let first = table.registers.partition_point(before);
+    let rows = table.registers.get(first..).unwrap_or_default();
+    rows.iter().copied().take_while(move |row| usize::from(row.address) < end)
+}

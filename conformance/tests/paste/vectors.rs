@@ -1,0 +1,33 @@
+//! What a document prints is not warned of, not even where an erratum is about it.
+
+use actucheck::explain::DEVICES;
+use actucheck::explain::stream::{Event, Follower};
+use actucheck_spec::Spec;
+use actucheck_spec::model::Outcome;
+use actucheck_spec::wire::Packet;
+
+#[test]
+fn test_vectors_have_no_warning() {
+    let spec = Spec::embedded().unwrap();
+    let (mut found, mut packets) = (Vec::new(), 0);
+    for (file, vector) in spec.vectors().filter(|(_, row)| row.result == Outcome::Valid) {
+        let of_document = DEVICES.into_iter().find(|device| {
+            let sources = spec.device(device.id).map(|device| &device.source);
+            sources.into_iter().flatten().any(|place| place.document == file.source.document)
+        });
+        let direction = vector.packet.as_ref().map(Packet::direction);
+        for table in [None, of_document] {
+            let mut follower = Follower::new(file.wire, table).unwrap();
+            let mut take = |event: Event<'_>| {
+                let Event::Packet(_, turn) = event else { return };
+                packets += 1;
+                let rules = turn.warnings.iter().map(|warning| warning.requirement);
+                found.extend(rules.map(|rule| (vector.id.as_str(), rule)));
+            };
+            follower.feed(vector.frame(), direction, None, None, &mut take);
+            follower.end(&mut take);
+        }
+    }
+    assert!(found.is_empty(), "{found:?}");
+    assert!(packets > 100, "{packets} packets");
+}
