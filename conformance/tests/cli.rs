@@ -372,6 +372,36 @@ fn a_pipe_gets_no_colour_and_no_progress() {
 }
 
 #[test]
+fn packets_are_drawn_in_colours_only_where_there_are_some() {
+    let decode = |colour: &str, arguments: &[&str]| {
+        let mut command = Command::cargo_bin("actucheck").unwrap();
+        let output = command.arg("decode").args(arguments).env(colour, "1").output().unwrap();
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let innfos = ["--direction", "request", "ee 06 0a 00 04 01 00 00 00 01 d8 ed"];
+    let stream = [WRITE, WRITE];
+    for arguments in [&[WRITE][..], &stream, &innfos] {
+        let coloured = decode("CLICOLOR_FORCE", arguments);
+        let plain = decode("NO_COLOR", arguments);
+        assert!(!plain.contains('\u{1b}'));
+        // All bytes of a packet, those of a field next to each other.
+        let shown = anstream::adapter::strip_str(&coloured).to_string();
+        let bytes = |line: &&str| line.starts_with("       ");
+        let drawn: Vec<_> = shown.lines().filter(bytes).collect();
+        assert!(!drawn.is_empty(), "{shown}");
+        for line in &drawn {
+            let hex: Vec<_> = line.split_whitespace().collect();
+            assert!(
+                arguments.iter().any(|told| told.eq_ignore_ascii_case(&hex.join(" "))),
+                "{line}"
+            );
+        }
+        let rest: Vec<_> = shown.lines().filter(|line| !drawn.contains(line)).collect();
+        assert_eq!(rest, plain.lines().collect::<Vec<_>>());
+    }
+}
+
+#[test]
 fn completions_are_there_for_a_shell() {
     let (status, stdout, _) = actucheck(&["completions", "bash"]);
     assert_eq!(status, 0);

@@ -2,6 +2,7 @@
 
 mod input;
 mod packet;
+mod page;
 mod sink;
 mod text;
 

@@ -2,13 +2,14 @@
 
 use actucheck::adapter::{Output, Question, Wire};
 use actucheck::explain::mistake::{self, Fit};
-use actucheck::explain::{Asked, Invalid, Row, Warning, damaged, explain};
+use actucheck::explain::{Asked, Invalid, Warning, damaged, explain};
 use actucheck::subject::{Answer, Builtin, Subject as _};
 use actucheck_spec::wire::{Direction, Packet};
 use serde::Serialize;
 
 use super::super::shared::Failure;
-use super::super::shared::table::{self, BOLD};
+use super::super::shared::table::BOLD;
+use super::page::fields;
 
 /// The packet in words, or as an object; and whether it is one.
 pub(super) fn text(
@@ -51,16 +52,6 @@ fn damaged_packet(wire: Wire, asked: &Asked<'_>, error: &Invalid) -> String {
 pub(super) fn warned(warnings: &[Warning]) -> String {
     let line = |warning| format!("       {BOLD}warning{BOLD:#}: {warning}\n");
     warnings.iter().map(line).collect::<Vec<_>>().concat()
-}
-
-/// The fields as lines.
-pub(super) fn fields(rows: &[Row]) -> String {
-    let rows = rows.iter().map(|row| {
-        let offset = format!("{:>5}", row.offset);
-        [offset, row.bytes.clone(), row.field.clone(), row.meaning.clone()]
-    });
-    let lines = table::lines("", &rows.collect::<Vec<_>>());
-    lines.into_iter().map(|line| line + "\n").collect()
 }
 
 /// The mistakes that may explain bytes, a line each; the likeliest if there are many.

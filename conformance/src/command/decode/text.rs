@@ -13,7 +13,8 @@ use actucheck::legible::legible;
 
 use super::super::shared::table::{BOLD, DIM};
 use super::Show;
-use super::packet::{fields, fits, warned};
+use super::packet::{fits, warned};
+use super::page;
 use super::sink::Sink;
 
 /// Bytes of a run that are shown.
@@ -113,7 +114,7 @@ impl<W: Write> Text<W> {
         write!(self.out, "{}", warned(&turn.warnings))?;
         match explanation {
             Ok(explanation) if self.show == Show::Fields && turn.role != Role::Echo => {
-                write!(self.out, "{}", fields(&explanation.rows))
+                write!(self.out, "{}", page::fields(&explanation.rows))
             }
             Ok(_) => Ok(()),
             Err(_) => writeln!(self.out, "       {}", bytes(heard.bytes, heard.bytes.len())),
@@ -129,7 +130,7 @@ impl<W: Write> Text<W> {
         writeln!(self.out, "       {}", bytes(skipped.bytes, all))?;
         skipped.notes.iter().try_for_each(|note| writeln!(self.out, "       {note}"))?;
         if self.show == Show::Fields {
-            write!(self.out, "{}", fields(&skipped.fields(self.wire)))?;
+            write!(self.out, "{}", page::table(&skipped.fields(self.wire)))?;
         }
         write!(self.out, "{}", fits(&skipped.fits(self.wire)))
     }

@@ -17,7 +17,7 @@ pub(crate) struct Look {
     quiet: bool,
 }
 
-/// The narrowest terminal that a report is fitted to.
+/// The narrowest terminal that a text is fitted to.
 const NARROWEST: usize = 40;
 
 impl Look {
@@ -32,9 +32,13 @@ impl Look {
 
     /// How a report is printed, with what its reader can do next.
     pub(crate) fn terminal(self, next: Option<&str>) -> Terminal<'_> {
-        let width = textwrap::termwidth().max(NARROWEST);
-        Terminal { detail: self.detail(), width, next }
+        Terminal { detail: self.detail(), width: terminal_width(), next }
     }
+}
+
+/// The columns that are written to.
+pub(crate) fn terminal_width() -> usize {
+    textwrap::termwidth().max(NARROWEST)
 }
 
 /// What the reader of a failing report can do next.

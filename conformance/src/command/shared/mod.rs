@@ -19,7 +19,7 @@ use actucheck_spec::Spec;
 
 pub(crate) use begun::{command_line, date};
 pub(crate) use failure::Failure;
-pub(crate) use look::{Look, next};
+pub(crate) use look::{Look, next, terminal_width};
 pub(crate) use outputs::{Outputs, Reports, both};
 pub(crate) use progress::progress;
 pub(crate) use selection::{Growth, Selection, not_offered};
