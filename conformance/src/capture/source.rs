@@ -57,11 +57,11 @@ impl Lines {
         }
         self.number += 1;
         let wrong = |what: &str| Unreadable::Line { line: self.number, what: what.to_owned() };
-        if bytes.len() > LONGEST_LINE {
-            return Err(wrong("longer than 1 MiB; break it into lines"));
-        }
         if !is_text(&bytes) {
             return Err(wrong("this is no text; for a file of plain bytes give --input raw"));
+        }
+        if bytes.len() > LONGEST_LINE {
+            return Err(wrong("longer than 1 MiB; break it into lines"));
         }
         // A byte order mark is no part of the first line.
         let text = String::from_utf8_lossy(&bytes);

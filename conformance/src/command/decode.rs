@@ -141,7 +141,7 @@ fn single(options: &Decode, wire: Wire, input: &Input) -> Option<Single> {
         events += 1;
         if let Event::Packet(heard, turn) = event {
             single.context.direction = told.or(heard.direction);
-            single.warnings = turn.warnings;
+            single.warnings.clone_from(&turn.warnings);
         }
     };
     for piece in &input.beginning {

@@ -141,7 +141,7 @@ pub struct Silent {
 #[derive(Clone, Debug)]
 pub enum Event<'a> {
     /// A packet.
-    Packet(Heard<'a>, Turn),
+    Packet(Heard<'a>, &'a Turn),
     /// Bytes that are no packet.
     Skipped(Skipped<'a>),
     /// Devices that did not answer.
@@ -280,7 +280,7 @@ impl Parts {
                 if let Some(silent) = turn.silent.take() {
                     take(Event::Silent(silent));
                 }
-                take(Event::Packet(heard, turn));
+                take(Event::Packet(heard, &turn));
             }
             Cut::Skipped(count, bytes, reason) => {
                 self.at += count;
@@ -292,8 +292,7 @@ impl Parts {
 
     /// The place of the next byte.
     fn place(&mut self) -> Place {
-        while let [(end, ..), _, ..] = self.pieces.make_contiguous()
-            && *end <= self.at
+        while self.pieces.len() > 1 && self.pieces.front().is_some_and(|(end, ..)| *end <= self.at)
         {
             self.pieces.pop_front();
         }
@@ -311,23 +310,30 @@ impl Parts {
 /// The wire that a stream seems to be of: the one with most frames in its beginning.
 #[must_use]
 pub fn wire_of(pieces: &[(Vec<u8>, Option<Direction>)]) -> Wire {
-    let frames = |listen: Listen| {
-        let (mut split, _) = listen(None);
-        let mut bytes = 0_u64;
-        let mut count = |cut: Cut<'_>| {
-            if let Cut::Frame(frame, _) = cut {
-                bytes += frame.len() as u64;
-            }
-        };
-        for (piece, direction) in pieces {
-            split.feed(piece, *direction, &mut count);
-        }
-        split.pause(&mut count);
-        bytes
-    };
     // Of equals the first is the default.
-    let found = WIRES.into_iter().map(|own| (frames(own.listen), own.wire));
+    let found = WIRES.into_iter().map(|own| (framed(own.listen, pieces), own.wire));
     found.rev().max_by_key(|(bytes, _)| *bytes).map_or_else(Wire::default, |(_, wire)| wire)
+}
+
+/// Whether some bytes have a frame of any wire.
+pub(crate) fn has_frame(bytes: &[u8]) -> bool {
+    WIRES.into_iter().any(|own| framed(own.listen, &[(bytes.to_vec(), None)]) > 0)
+}
+
+/// How many bytes are in frames.
+fn framed(listen: Listen, pieces: &[(Vec<u8>, Option<Direction>)]) -> u64 {
+    let (mut split, _) = listen(None);
+    let mut bytes = 0_u64;
+    let mut count = |cut: Cut<'_>| {
+        if let Cut::Frame(frame, _) = cut {
+            bytes += frame.len() as u64;
+        }
+    };
+    for (piece, direction) in pieces {
+        split.feed(piece, *direction, &mut count);
+    }
+    split.pause(&mut count);
+    bytes
 }
 
 #[cfg(test)]

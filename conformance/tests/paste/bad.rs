@@ -1,6 +1,6 @@
 //! Inputs that nobody means: one sentence, and no panic.
 
-use std::io::{BufReader, Read as _, repeat};
+use std::io::{BufRead, BufReader, Read as _, repeat};
 
 use actucheck::capture::{self, Form, Unreadable};
 use actucheck::explain::stream::{Follower, wire_of};
@@ -10,15 +10,26 @@ use proptest::prelude::*;
 /// A line of 100 MB is refused before it is in memory.
 #[test]
 fn a_line_without_end_is_refused() {
-    for byte in *b"F5 [\\'" {
+    let forms = [Form::Hex, Form::Decimal, Form::Escaped, Form::Dump];
+    for (form, byte) in forms.into_iter().flat_map(|form| b"F5 [\\'\xFF".map(|byte| (form, byte))) {
         let input = BufReader::new(repeat(byte).take(100 << 20));
-        let error = match capture::open(input, Some(Form::Hex)) {
-            Ok(mut reading) => reading.pieces.find_map(Result::err),
-            Err(error) => Some(error),
+        let line = match byte {
+            0xFF => "line 1: this is no text; for a file of plain bytes give --input raw",
+            _ => "line 1: longer than 1 MiB; break it into lines",
         };
-        let line = Some("line 1: longer than 1 MiB; break it into lines".to_owned());
-        assert_eq!(error.map(|error| error.to_string()), line);
+        assert_eq!(refused(input, Some(form)).unwrap(), line, "{form}");
     }
+    let input = BufReader::new(repeat(b'F').take(100 << 20));
+    assert_eq!(refused(input, None).unwrap(), "line 1: longer than 1 MiB; break it into lines");
+}
+
+/// Why an input can't be read to its end.
+fn refused(input: impl BufRead + Send + 'static, form: Option<Form>) -> Option<String> {
+    let error = match capture::open(input, form) {
+        Ok(mut reading) => reading.pieces.find_map(Result::err),
+        Err(error) => Some(error),
+    };
+    error.map(|error| error.to_string())
 }
 
 /// So is a row of a table whose quote is not closed.
@@ -26,9 +37,8 @@ fn a_line_without_end_is_refused() {
 fn a_row_without_end_is_refused() {
     let rows = "time,data\n".to_owned() + &"0.1,0xFF\n".repeat(10_000) + "0.1,\"";
     let input = BufReader::new(std::io::Cursor::new(rows).chain(repeat(b'F').take(100 << 20)));
-    let mut reading = capture::open(input, Some(Form::Csv)).unwrap();
-    let row = Some("line 10002: longer than 1 MiB; is a quote not closed?".to_owned());
-    assert_eq!(reading.pieces.find_map(Result::err).map(|error| error.to_string()), row);
+    let row = "line 10002: longer than 1 MiB; is a quote not closed?";
+    assert_eq!(refused(input, Some(Form::Csv)).unwrap(), row);
 }
 
 /// Takes an input through a form and through each wire.

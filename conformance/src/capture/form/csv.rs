@@ -149,7 +149,7 @@ impl Table {
         if !found {
             return Ok(None);
         }
-        let cell = row.get(columns.data).unwrap_or_default();
+        let cell = row.get(columns.data).ok_or_else(|| wrong("this row has no data".to_owned()))?;
         let bytes = read(*notation, cell).map_err(wrong)?;
         let direction = columns.name.and_then(|name| line::direction(row.get(name)?));
         let (time, note) = (columns.time(row), columns.note(row));

@@ -4,9 +4,10 @@ use std::sync::LazyLock;
 
 use regex::Regex;
 
+use super::other::forgotten;
 use super::up_to_error;
 use crate::capture::source::{Lines, Sampled};
-use crate::capture::{Piece, Pieces, Unreadable};
+use crate::capture::{Form, Piece, Pieces, Unreadable};
 
 /// The most bytes that a line stands for, with the lines that a `*` leaves out.
 const MOST: u64 = 1 << 20;
@@ -135,6 +136,11 @@ pub(in crate::capture) fn is_dump(text: &str) -> bool {
     begins && (first.colon || column) && count > 0
 }
 
+/// The bytes of a line that is a dump by itself.
+pub(super) fn bytes(line: &str) -> Option<Vec<u8>> {
+    Row::of(line).filter(|_| is_dump(line))?.bytes(None)
+}
+
 /// The pieces of a dump.
 pub(super) fn pieces(input: Sampled) -> Pieces {
     let radix = if is_octal(&String::from_utf8_lossy(input.sample())) { 8 } else { 16 };
@@ -170,6 +176,11 @@ impl Dump {
             }
             // What is no row are words between two dumps, such as the name of a file.
             let row = Row::of(&line);
+            if row.is_none()
+                && let Some(what) = forgotten(Form::Dump, &line)
+            {
+                return Err(Unreadable::Line { line: self.lines.number, what });
+            }
             let piece = self.held(row.as_ref().and_then(|row| row.offset(self.radix)))?;
             let number = self.lines.number;
             self.held = row.filter(|row| !row.rest.is_empty()).map(|row| (row, number));

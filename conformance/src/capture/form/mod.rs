@@ -5,6 +5,7 @@ mod decimal;
 mod dump;
 mod escaped;
 mod hex;
+mod other;
 mod pcap;
 mod raw;
 mod text;
@@ -87,9 +88,9 @@ impl Form {
     /// The pieces of an input in this form.
     pub(super) fn pieces(self, input: Sampled) -> Pieces {
         match self {
-            Self::Hex => text::pieces(input, hex::Hex),
-            Self::Decimal => text::pieces(input, decimal::Decimal),
-            Self::Escaped => text::pieces(input, escaped::Escaped),
+            Self::Hex => text::pieces(input, self, hex::Hex),
+            Self::Decimal => text::pieces(input, self, decimal::Decimal),
+            Self::Escaped => text::pieces(input, self, escaped::Escaped),
             Self::Dump => dump::pieces(input),
             Self::Csv => csv::pieces(input),
             Self::Pcap => pcap::pieces(input),

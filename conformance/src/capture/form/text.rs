@@ -4,10 +4,11 @@ use std::collections::VecDeque;
 
 use actucheck_spec::wire::Direction;
 
+use super::other::{forgotten, instead};
 use super::up_to_error;
 use crate::capture::line::{self, Marked};
 use crate::capture::source::{Lines, Sampled};
-use crate::capture::{Piece, Pieces, Unreadable};
+use crate::capture::{Form, Piece, Pieces, Unreadable};
 
 /// How bytes are written within a line.
 pub(in crate::capture) trait Notation {
@@ -24,10 +25,10 @@ pub(in crate::capture) trait Notation {
     fn bytes(&self, text: &str) -> Result<Vec<u8>, String>;
 }
 
-/// The pieces of a text.
-pub(super) fn pieces(input: Sampled, notation: impl Notation + 'static) -> Pieces {
+/// The pieces of a text in a form, which has this notation.
+pub(super) fn pieces(input: Sampled, form: Form, notation: impl Notation + 'static) -> Pieces {
     let lines = input.into_lines();
-    let mut text = Text { lines, notation, standing: None, ready: VecDeque::new() };
+    let mut text = Text { lines, form, notation, standing: None, ready: VecDeque::new() };
     up_to_error(move || {
         while text.ready.is_empty() && text.line()? {}
         Ok(text.ready.pop_front())
@@ -36,6 +37,7 @@ pub(super) fn pieces(input: Sampled, notation: impl Notation + 'static) -> Piece
 
 struct Text<N> {
     lines: Lines,
+    form: Form,
     notation: N,
     /// The direction in a line of its own, which is that of the lines after it.
     standing: Option<Direction>,
@@ -48,6 +50,7 @@ impl<N: Notation> Text<N> {
         let Some(line) = self.lines.next()? else { return Ok(false) };
         let number = self.lines.number;
         let wrong = |what| Unreadable::Line { line: number, what };
+        let fault = |what| wrong(instead(self.form, &line).unwrap_or(what));
         let (before, payload) = self.notation.split(&line);
         let (time, marked) = line::read(before, payload);
         let mut found = false;
@@ -60,7 +63,7 @@ impl<N: Notation> Text<N> {
                     unmarked = Some(Err(what));
                     continue;
                 }
-                Err(what) => return Err(wrong(what)),
+                Err(what) => return Err(fault(what)),
             };
             if direction.is_none() {
                 unmarked = Some(Ok(bytes));
@@ -75,10 +78,12 @@ impl<N: Notation> Text<N> {
         }
         // What stands before a direction is a name or a number, unless no bytes follow.
         if !found && let Some(bytes) = unmarked {
-            let bytes = bytes.map_err(wrong)?;
+            let bytes = bytes.map_err(fault)?;
             if !bytes.is_empty() {
                 let (direction, line) = (self.standing, Some(number));
                 self.ready.push_back(Piece { bytes, direction, time, line, ..Piece::default() });
+            } else if let Some(what) = forgotten(self.form, &line) {
+                return Err(wrong(what));
             }
         }
         Ok(true)
