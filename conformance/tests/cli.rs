@@ -491,5 +491,5 @@ fn the_readme_shows_what_the_program_prints() {
             }
         }
     }
-    assert_eq!(run, ["decode", "decode", "encode"]);
+    assert_eq!(run, ["decode", "decode", "decode", "encode"]);
 }

@@ -35,6 +35,8 @@ Examples:
   actucheck decode '[255, 255, 253, 0, 1, 3, 0, 1, 25, 78]'
   actucheck decode --show lines bus.log
       the packets of a log, one line each, and who answers what
+  actucheck decode --strict --device ja40 --show lines bus.log
+      the same, and fails if a packet is valid but says what the device's document does not allow
 
 The form of the bytes is found by itself: hex with any separators, decimal lists, arrays of
 programs, text with \\xFF, dumps of xxd, hexdump or Wireshark, tables of logic analysers, pcap and
@@ -55,7 +57,8 @@ be written.";
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Decode {
-    /// Print the packet object of the adapter protocol; of a stream, an object on each line
+    /// Print the packet object of the adapter protocol, with warnings if there are any; of a stream,
+    /// an object on each line
     #[arg(long)]
     json: bool,
     /// The form of the bytes, if it is not to be found
@@ -76,7 +79,7 @@ pub(crate) struct Decode {
     /// The request that a fast status packet answers: bytes per device, and the devices in order
     #[arg(long, value_name = "LENGTH:ID,ID…", value_parser = fast, conflicts_with = "address")]
     fast: Option<Fast>,
-    /// Fail if there is a warning
+    /// Fail if a valid packet is wrong in its meaning
     #[arg(long)]
     strict: bool,
     /// How much of a stream is shown

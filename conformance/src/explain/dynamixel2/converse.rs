@@ -1,17 +1,23 @@
 //! Who asks and who answers: a status packet does not say what it answers.
 
+use std::iter::repeat;
 use std::mem::take;
 use std::time::Duration;
 
 use actucheck_codec::crc;
-use actucheck_codec::dynamixel2::{BROADCAST_ID, FastStatus, Frame, Instruction, Request};
+use actucheck_codec::dynamixel2::{
+    BROADCAST_ID, FastStatus, Frame, Instruction, Request, StatusError,
+};
 use actucheck_codec::register::Device;
 use actucheck_spec::wire::{Direction, Fast};
 
 use super::super::device_of;
+use super::super::diff::spaced;
 use super::super::stream::{Converse, Heard, Role, Silent, Turn};
+use super::extension::{self, FAST_BULK_READ};
 use super::held::Held;
 use super::warnings::Question;
+use super::words::{error_words, whom};
 use super::{PREFIX, warnings};
 
 /// Bytes of a block of a fast status packet beside its data: error, ID and CRC.
@@ -77,7 +83,7 @@ impl Talk {
 
     fn request(&mut self, heard: &Heard<'_>, frame: &Frame<'_>) -> Turn {
         let instruction = frame.instruction();
-        let kind = instruction.name();
+        let kind = extension::name(instruction);
         let device = Some(frame.id()).filter(|id| *id != BROADCAST_ID);
         let turn = Turn { kind, device, table: self.table(frame.id()), ..Turn::default() };
         if let Some(ask) = &mut self.ask
@@ -105,6 +111,12 @@ impl Talk {
         if let Ok(request) = &request {
             held.request(frame.id(), request, table);
         }
+        let request = match request {
+            Ok(Request::Unknown { params, .. }) if instruction == FAST_BULK_READ => {
+                Request::of(Instruction::BulkRead, params)
+            }
+            request => request,
+        };
         let mut fast = None;
         match request {
             Ok(Request::SyncRead(read)) => {
@@ -130,6 +142,9 @@ impl Talk {
             _ => devices.push(Asked::of(frame.id(), None)),
         }
         (self.scratch, self.held) = (scratch, held);
+        if instruction == FAST_BULK_READ {
+            fast = of_one_length(&devices);
+        }
         self.ask = Some(Ask {
             at: heard.place.at,
             end: heard.end,
@@ -154,6 +169,7 @@ impl Talk {
                 | Instruction::BulkRead
                 | Instruction::FastSyncRead
                 | Instruction::FastSyncWrite
+                | FAST_BULK_READ
         );
         if !always || !self.answered {
             return None;
@@ -161,7 +177,7 @@ impl Talk {
         let silent = ask.devices.iter().filter(|asked| !asked.answered);
         let devices: Vec<_> = silent.map(|asked| asked.id).collect();
         let told = !devices.is_empty();
-        told.then_some(Silent { to: ask.at, name: ask.instruction.name(), devices })
+        told.then_some(Silent { to: ask.at, name: extension::name(ask.instruction), devices })
     }
 
     fn status(&mut self, heard: &Heard<'_>, frame: &Frame<'_>) -> Turn {
@@ -218,12 +234,8 @@ impl Talk {
         self.answered = true;
         let kind = "Fast Status";
         let mut turn = Turn { kind, table: self.table, ..Turn::default() };
-        let Some((ask, fast)) = self
-            .ask
-            .as_mut()
-            .and_then(|ask| Some((ask.fast.clone()?, ask)))
-            .map(|(fast, ask)| (ask, fast))
-        else {
+        let is_asked = |ask: &&mut Ask| ask.fast.is_some() || ask.instruction == FAST_BULK_READ;
+        let Some(ask) = self.ask.as_mut().filter(is_asked) else {
             turn.role = Role::Unasked;
             turn.notes.push(
                 "its request is not here, so its blocks are not known; tell them with --fast"
@@ -233,8 +245,16 @@ impl Talk {
         };
         ask.followed = true;
         let after = heard.place.time.zip(ask.end).and_then(|(begin, end)| begin.checked_sub(end));
-        turn.role = Role::Answer { to: ask.at, name: ask.instruction.name(), after };
-        turn.address = ask.devices.first().and_then(|asked| asked.address);
+        turn.role = Role::Answer { to: ask.at, name: extension::name(ask.instruction), after };
+        let Some(fast) = ask.fast.clone() else {
+            let lengths = ask.devices.iter().filter_map(|asked| asked.length);
+            let blocks = whole_blocks(heard.bytes, lengths);
+            turn.notes.extend(blocks.iter().filter_map(|block| block_words(block)));
+            ask.mark(&ids(&blocks));
+            return turn;
+        };
+        let first = ask.devices.first().and_then(|asked| asked.address);
+        turn.address = first.filter(|_| ask.devices.iter().all(|asked| asked.address == first));
         let length = match ask.instruction {
             // Some devices add data to the answer to a write.
             Instruction::FastSyncWrite => data_of_write(heard.bytes, fast.ids.len()),
@@ -249,7 +269,7 @@ impl Talk {
                 turn.context.fast = Some(Fast { length, ids: fast.ids });
             }
             Err(error) => {
-                ask.mark(&whole_blocks(heard.bytes, length));
+                ask.mark(&ids(&whole_blocks(heard.bytes, repeat(length))));
                 turn.notes.push(error.to_string());
             }
         }
@@ -296,7 +316,7 @@ impl Converse for Talk {
                     && id == BROADCAST_ID
                     && code == Instruction::Status.code()
                 {
-                    let found = whole_blocks(packet, fast.length);
+                    let found = ids(&whole_blocks(packet, repeat(fast.length)));
                     if !found.is_empty() {
                         let ids: Vec<_> = found.iter().map(u8::to_string).collect();
                         notes.push(format!("whole blocks of devices {}", ids.join(", ")));
@@ -344,18 +364,42 @@ fn data_of_write(bytes: &[u8], devices: usize) -> u16 {
     u16::try_from(block.saturating_sub(BLOCK)).unwrap_or_default()
 }
 
-/// The devices whose blocks are whole: each CRC covers all before it.
-fn whole_blocks(bytes: &[u8], length: u16) -> Vec<u8> {
+/// The blocks that are whole, without their CRCs: each CRC covers all before it.
+fn whole_blocks(bytes: &[u8], lengths: impl Iterator<Item = u16>) -> Vec<&[u8]> {
     let mut found = Vec::new();
-    let (head, blocks) = bytes.split_at_checked(PREFIX + 1).unwrap_or_default();
+    let (head, mut rest) = bytes.split_at_checked(PREFIX + 1).unwrap_or_default();
     let mut crc = crc::umts(head);
-    for block in blocks.chunks_exact(BLOCK + usize::from(length)) {
-        let Some((before @ [_, id, ..], sum)) = block.split_last_chunk() else { continue };
+    for length in lengths {
+        let Some((block, after)) = rest.split_at_checked(BLOCK + usize::from(length)) else {
+            break;
+        };
+        let Some((before, sum)) = block.split_last_chunk() else { break };
         crc = crc::umts_update(crc, before);
         if crc == u16::from_le_bytes(*sum) {
-            found.push(*id);
+            found.push(before);
         }
         crc = crc::umts_update(crc, sum);
+        rest = after;
     }
     found
+}
+
+/// The devices of blocks.
+fn ids(blocks: &[&[u8]]) -> Vec<u8> {
+    blocks.iter().filter_map(|block| block.get(1).copied()).collect()
+}
+
+/// A block in words.
+fn block_words(block: &[u8]) -> Option<String> {
+    let [error, id, data @ ..] = block else { return None };
+    let error = error_words(StatusError(*error));
+    Some(format!("{}: {error}, data {}", whom(*id), spaced(data)))
+}
+
+/// What a fast status packet has if each device is asked for as many bytes.
+fn of_one_length(devices: &[Asked]) -> Option<Fast> {
+    let length = devices.first()?.length?;
+    let ids = devices.iter().map(|asked| asked.id).collect();
+    let is_same = devices.iter().all(|asked| asked.length == Some(length));
+    is_same.then_some(Fast { length, ids })
 }

@@ -2,6 +2,7 @@
 
 mod body;
 mod converse;
+mod extension;
 mod held;
 mod mistakes;
 mod split;
@@ -63,7 +64,7 @@ fn packet(
     let instruction = frame.instruction();
     let body: Vec<u8> = std::iter::once(instruction.code()).chain(frame.params()).collect();
     let wire = WireBody::of(frame.stuffed_params(), &body);
-    table.push(PREFIX, wire.text(0, 1), "instruction", instruction.name());
+    table.push(PREFIX, wire.text(0, 1), "instruction", extension::meaning(instruction));
 
     let params = body.get(1..).unwrap_or_default();
     let title = if let Some(error) = frame.error() {
@@ -72,7 +73,7 @@ fn packet(
         format!("status packet of {}: {}", whom(frame.id()), error_words(error))
     } else {
         instruction_params(&mut table, &wire, instruction, params, device);
-        format!("instruction packet: {} to {}", instruction.name(), whom(frame.id()))
+        format!("instruction packet: {} to {}", extension::name(instruction), whom(frame.id()))
     };
     crc(&mut table);
     Ok(Explanation { title, rows: table.rows })
@@ -126,7 +127,7 @@ fn instruction_params(
     params: &[u8],
     device: Option<&Device>,
 ) {
-    let Some(layout) = instruction.parameters() else {
+    let Some(layout) = extension::parameters(instruction) else {
         if !params.is_empty() {
             let text = wire.text(1, 1 + params.len());
             table.push(wire.place(1), text, "parameters", "of an unknown instruction");
@@ -145,7 +146,7 @@ fn instruction_params(
             Err(error) => {
                 let (start, end) = (params.len().min(error.offset()), params.len());
                 let text = wire.text(1 + start, 1 + end);
-                let meaning = format!("does not fit {}: {error}", instruction.name());
+                let meaning = format!("does not fit {}: {error}", extension::name(instruction));
                 table.push(wire.place(1 + start), text, "parameters", &meaning);
             }
         }

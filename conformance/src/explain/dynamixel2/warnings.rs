@@ -10,6 +10,7 @@ use actucheck_codec::register::Device;
 
 use super::super::diff::spaced;
 use super::super::warning::Warning;
+use super::extension::FAST_BULK_READ;
 use super::held::{Held, writes};
 use super::writes::Write;
 
@@ -128,7 +129,7 @@ impl Warnings {
     fn request(&mut self, id: u8, request: &Request<'_>, table: TableOf<'_>, held: &Held) {
         let instruction = request.instruction();
         match request {
-            Request::Unknown { code, .. } => {
+            Request::Unknown { code, .. } if instruction != FAST_BULK_READ => {
                 let text = format!("no document knows an instruction {code:#04X}");
                 self.add(&["status-packet.error.instruction"], text);
             }
