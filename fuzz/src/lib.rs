@@ -1,6 +1,6 @@
 //! Fuzz targets as plain functions: libFuzzer calls them, and so does every test run.
 //!
-//! A target panics when its oracle finds the codec wrong; that is its whole interface. Expected
+//! A target panics when its oracle finds the code wrong; that is its whole interface. Expected
 //! results come from the spec's reference model or from the documents' YAML, never from the codec.
 
 #![allow(clippy::panic, clippy::indexing_slicing, clippy::unwrap_used)] // a panic is the finding
@@ -42,12 +42,14 @@ pub enum Seeds {
     Wire(Wire),
     /// Files of a spec folder.
     Yaml,
+    /// Texts that the suite reads.
+    Texts,
 }
 
 impl Seeds {
     /// Every family.
     pub fn all() -> impl Iterator<Item = Self> {
-        Wire::ALL.into_iter().map(Self::Wire).chain([Self::Yaml])
+        Wire::ALL.into_iter().map(Self::Wire).chain([Self::Yaml, Self::Texts])
     }
 
     /// Its folder's name.
@@ -56,6 +58,7 @@ impl Seeds {
         match self {
             Self::Wire(wire) => wire.id(),
             Self::Yaml => "yaml",
+            Self::Texts => "texts",
         }
     }
 }
@@ -63,6 +66,7 @@ impl Seeds {
 const DYNAMIXEL2: Seeds = Seeds::Wire(wire::dynamixel2::WIRE);
 const INNFOS: Seeds = Seeds::Wire(wire::innfos::WIRE);
 const YAML: Seeds = Seeds::Yaml;
+const TEXTS: Seeds = Seeds::Texts;
 
 macro_rules! table {
     ($($name:ident $(, $repair:ident)?: $seeds:ident, $max_len:literal;)*) => {
@@ -91,6 +95,7 @@ table! {
     innfos_frame, repair: INNFOS, 300;
     innfos_stream, repair: INNFOS, 500;
     spec_yaml: YAML, 2000;
+    readers: TEXTS, 12000;
 }
 
 /// The `main` of a target's binary: libFuzzer's under cargo-fuzz, else a replay of the files that

@@ -7,7 +7,7 @@ use std::fs;
 use actucheck_spec::{Spec, load};
 
 use crate::dictionary::{self, Tokens};
-use crate::targets::spec_yaml;
+use crate::targets::{readers, spec_yaml};
 use crate::{Seeds, TARGETS, Target};
 
 /// Inputs up to this many bytes are short.
@@ -42,14 +42,21 @@ pub fn all(spec: &Spec) -> Vec<File> {
 /// The seeds of a family by name: a wire's vectors by their ids; the loader's files by their paths
 /// or by their cases.
 fn seeds(spec: &Spec, seeds: Seeds) -> Vec<(String, Vec<u8>)> {
-    let Seeds::Wire(wire) = seeds else {
-        let file = |(path, text): &(&str, &str)| {
-            (path.replace('/', "."), format!("# as {path}\n{text}").into())
-        };
-        return spec_yaml::BASE.iter().map(file).chain(cases()).collect();
+    let wire = match seeds {
+        Seeds::Wire(wire) => wire,
+        Seeds::Texts => return readers::seeds(),
+        Seeds::Yaml => return files().collect(),
     };
     let vectors = spec.vectors().filter(|(file, _)| file.wire == wire);
     vectors.map(|(_, vector)| (vector.id.clone(), vector.frame().to_vec())).collect()
+}
+
+/// The loader's files.
+fn files() -> impl Iterator<Item = (String, Vec<u8>)> {
+    let file = |(path, text): &(&str, &str)| {
+        (path.replace('/', "."), format!("# as {path}\n{text}").into())
+    };
+    spec_yaml::BASE.iter().map(file).chain(cases())
 }
 
 /// The files of the loader's test cases, each with a defect or with a register of each kind.
@@ -79,9 +86,13 @@ fn options(target: &Target) -> String {
 fn dictionary(spec: &Spec, seeds: Seeds) -> String {
     let tokens = match seeds {
         Seeds::Wire(wire) => dictionary::of(wire, spec),
-        Seeds::Yaml => keys(),
+        Seeds::Yaml => keys(load::embedded().iter().map(|source| source.text.as_str())),
+        Seeds::Texts => {
+            let seeds = readers::seeds();
+            keys(seeds.iter().filter_map(|(_, text)| std::str::from_utf8(text).ok()))
+        }
     };
-    let mut text = "# Generated from the YAML in spec/.\n".to_owned();
+    let mut text = "# Generated; see `src/published.rs`.\n".to_owned();
     for token in tokens.iter().filter(|token| !token.is_empty()) {
         text.push('"');
         for byte in token {
@@ -96,18 +107,38 @@ fn dictionary(spec: &Spec, seeds: Seeds) -> String {
     text
 }
 
-/// The keys of the files, and YAML's own syntax.
-fn keys() -> Tokens {
+/// The keys of the texts, YAML's own syntax, and the largest number.
+fn keys<'a>(texts: impl IntoIterator<Item = &'a str>) -> Tokens {
     let word = |character: char| character.is_ascii_lowercase() || character == '_';
     let mut tokens = Tokens::new();
-    for source in load::embedded() {
-        let keys = source.text.split(|character| !word(character) && character != ':');
+    for text in texts {
+        let keys = text.split(|character| !word(character) && character != ':');
         let keys = keys.filter(|key| key.len() > 2 && key.find(':') == Some(key.len() - 1));
         tokens.extend(keys.map(|key| format!("{key} ").into()));
+        // In JSON a quote is between a key and its colon.
+        let parts: Vec<_> = text.split('"').collect();
+        let keys = parts.windows(2).filter(|pair| pair[1].starts_with(':'));
+        let keys = keys.map(|pair| pair[0]).filter(|key| key.chars().all(word));
+        tokens.extend(keys.map(|key| format!("\"{key}\":").into()));
     }
     let syntax = [
-        "- ", "\n  ", "[", "]", "{", "}", "'", "\"", "#", "&a ", "*a", "!!str ", "|\n", "---\n",
-        "§", "𝄞",
+        "- ",
+        "\n  ",
+        "[",
+        "]",
+        "{",
+        "}",
+        "'",
+        "\"",
+        "#",
+        "&a ",
+        "*a",
+        "!!str ",
+        "|\n",
+        "---\n",
+        "§",
+        "𝄞",
+        "18446744073709551615",
     ];
     tokens.extend(syntax.map(|token| token.as_bytes().to_vec()));
     tokens

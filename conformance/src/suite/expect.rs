@@ -18,6 +18,7 @@ use file::{File, Row};
 
 use super::plan::Plan;
 use super::select::Patterns;
+use crate::input;
 use crate::verdict::{Outcome, Verdict};
 
 /// The expected failures of a subject, and what came out of them so far.
@@ -92,8 +93,21 @@ impl Expectations {
     /// # Errors
     /// If it can't be read, is malformed, or has an id that no options yield.
     pub fn read(path: &Path, plan: &Plan<'_>, widest: &Plan<'_>) -> Result<Self, ExpectError> {
-        let name = path.display().to_string();
-        let File { is_blank, comment, rows } = File::read(path)?;
+        Self::parse(&path.display().to_string(), &input::yaml_text(path)?, plan, widest)
+    }
+
+    /// Reads the text of the file `name`, as [`Expectations::read`] does.
+    ///
+    /// # Errors
+    /// If it is malformed, or has an id that no options yield.
+    pub fn parse(
+        name: &str,
+        text: &str,
+        plan: &Plan<'_>,
+        widest: &Plan<'_>,
+    ) -> Result<Self, ExpectError> {
+        let name = name.to_owned();
+        let File { is_blank, comment, rows } = File::parse(&name, text)?;
         let texts = rows.iter().flat_map(|row| &row.ids).map(String::as_str);
         let patterns = Patterns::new(texts)
             .map_err(|message| ExpectError::Parse { path: name.clone(), message })?;

@@ -6,6 +6,7 @@ pub mod innfos_frame;
 pub mod innfos_stream;
 mod model;
 pub mod packet;
+pub mod readers;
 pub mod register;
 pub mod spec_yaml;
 mod stream;

@@ -1,7 +1,6 @@
 //! The expected-failures file.
 
 use std::fmt;
-use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -70,21 +69,20 @@ struct Content {
 const COMMENT: &str = "# Failures that are expected; `actucheck codec --expect` reads this file.\n";
 
 impl File {
-    /// Reads the file at `path`. An empty file has no rows.
-    pub(super) fn read(path: &Path) -> Result<Self, ExpectError> {
-        let name = path.display().to_string();
-        let text = input::yaml_text(path)?;
+    /// Reads the text of the file `name`. An empty file has no rows.
+    pub(super) fn parse(name: &str, text: &str) -> Result<Self, ExpectError> {
+        let path = || name.to_owned();
         let lines = text.split_inclusive('\n');
         let comment: String = lines.take_while(|line| line.starts_with('#')).collect();
         if text.trim().is_empty() {
             return Ok(Self { is_blank: true, ..Self::default() });
         }
-        let content: Content = input::yaml(&text)
-            .map_err(|message| ExpectError::Parse { path: name.clone(), message })?;
+        let content: Content =
+            input::yaml(text).map_err(|message| ExpectError::Parse { path: path(), message })?;
         let rows = content.expected_failures.unwrap_or_default();
         if let Some(empty) = rows.iter().position(|row| row.ids.is_empty()) {
             let message = "it names no check; add one to `ids`, or take the row out".to_owned();
-            return Err(ExpectError::Row { path: name, row: empty + 1, message });
+            return Err(ExpectError::Row { path: path(), row: empty + 1, message });
         }
         Ok(Self { is_blank: false, comment, rows })
     }

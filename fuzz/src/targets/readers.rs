@@ -1,0 +1,160 @@
+//! The readers of texts that others write: replies of adapters, reports, saved checks and
+//! expected-failures files.
+
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+use actucheck::adapter::{Greeting, Output, Question};
+use actucheck::report::{Format, json, read};
+use actucheck::suite::check::{Check, Demand};
+use actucheck::suite::expect::{Expectations, Failures};
+use actucheck::suite::plan::Plan;
+use actucheck::suite::{Options, plan, saved};
+use actucheck_spec::Spec;
+use actucheck_spec::wire::Wire;
+use serde::Deserialize;
+
+const REPORT: &str = include_str!("readers/report.json");
+const HELLO: &str = r#"{"protocol":2,"implementation":{"name":"n","version":"1","language":"C"},
+"roles":["host","tester"],"wires":["dynamixel2","can"],"ops":["crc","hello","reset"],
+"max_in_flight":4,"limits":{"max_packet":100,"max_send":0}}"#;
+
+const EXPECTED: &str = r#"# Of this build
+expected_failures:
+- ids: [innfos.alarms.request/encode, "*.plain.*/{de,en}code"]
+  reason: a
+  upstream: https://example.com
+- ids: ["*.basic.one-?*/[!e]*"]
+  reason: b
+  flaky: true
+"#;
+
+static SPEC: LazyLock<Spec> = LazyLock::new(|| Spec::embedded().unwrap());
+
+/// The first check of each op, wire and kind of demand in a short run, by what it is the first of.
+static CHECKS: LazyLock<BTreeMap<String, Check>> = LazyLock::new(|| {
+    let options = Options { cases: 10, ..Options::new().with_bodies(1) };
+    let mut first = BTreeMap::new();
+    for check in plan(&SPEC, &Wire::ALL, &options).checks() {
+        let demand = match check.demand {
+            Demand::Yield(_) => "yield",
+            Demand::Near { .. } => "near",
+            Demand::YieldOneOf(_) => "one-of",
+            Demand::Reject(_) => "reject",
+            Demand::Record(_) => "record",
+        };
+        let (wire, op) = (check.question.wire(), check.question.name());
+        first.entry(format!("{}.{op}.{demand}", wire.id())).or_insert(check);
+    }
+    first
+});
+
+/// They are all that an expected-failures file can name: to search a whole plan takes too long.
+static PLAN: LazyLock<Plan<'_>> = LazyLock::new(|| Plan::of(CHECKS.values().cloned().collect()));
+
+/// The first line of an input says what reads the rest: `# as report`.
+///
+/// # Panics
+/// If a reader panics, or what it accepted says something else when it is written and read again.
+pub fn check(input: &[u8]) {
+    let Ok(text) = std::str::from_utf8(input) else { return };
+    let Some((first, text)) = text.split_once('\n') else { return };
+    match first {
+        "# as hello" => drop(Greeting::read(text).map(Greeting::meant)),
+        "# as reply" => CHECKS.values().for_each(|check| reply(&check.question, text)),
+        "# as report" => report(text),
+        "# as checks" => checks(text),
+        "# as expected" => expected(text),
+        _ => {}
+    }
+}
+
+fn reply(question: &Question, text: &str) {
+    let Ok(output) = Output::read(question, text) else { return };
+    let written = serde_json::to_string(&output).unwrap();
+    assert_eq!(Output::read(question, &written).as_ref(), Ok(&output), "{written}");
+}
+
+fn report(text: &str) {
+    let Ok(report) = read::parse("report", text) else { return };
+    let mut written = Vec::new();
+    json::write(&report, &mut written).unwrap();
+    let written = String::from_utf8(written).unwrap();
+    let again = read::parse("report", &written);
+    assert_eq!(again.unwrap_or_else(|error| panic!("{error}\n{written}")), report);
+    for format in Format::ALL.into_iter().filter(|format| *format != Format::Jsonl) {
+        format.write(&report, &mut Vec::new()).unwrap();
+    }
+}
+
+fn checks(text: &str) {
+    let Ok(checks) = saved::parse("checks", text) else { return };
+    let written = saved::write(&checks).unwrap();
+    let again = saved::parse("checks", &written);
+    assert_eq!(again.unwrap_or_else(|error| panic!("{error}\n{written}")), checks);
+}
+
+/// The file is held to another reading of it, as it can't be compared itself.
+fn expected(text: &str) {
+    let Ok(expected) = Expectations::parse("expected", text, &PLAN, &PLAN) else { return };
+    let written = expected.with(&Failures::default(), &PLAN, &SPEC).unwrap().text;
+    let again = Expectations::parse("expected", &written, &PLAN, &PLAN);
+    again.unwrap_or_else(|error| panic!("{error}\n{written}"));
+    assert_eq!(rows(&written), rows(text), "{written}");
+    let comment: String =
+        text.split_inclusive('\n').take_while(|line| line.starts_with('#')).collect();
+    assert!(written.starts_with(&comment), "{written}");
+}
+
+#[derive(Debug, PartialEq, Deserialize)]
+struct Row {
+    ids: Vec<String>,
+    reason: String,
+    upstream: Option<String>,
+    #[serde(default)]
+    flaky: bool,
+}
+
+/// The rows of an expected-failures file; none if it is empty.
+fn rows(text: &str) -> Vec<Row> {
+    let file: Option<BTreeMap<String, Option<Vec<Row>>>> = serde_yaml::from_str(text).unwrap();
+    file.into_iter().flat_map(BTreeMap::into_values).flatten().flatten().collect()
+}
+
+/// An answer to `hello`, a report, an expected-failures file, and checks with their right answers.
+pub(crate) fn seeds() -> Vec<(String, Vec<u8>)> {
+    let seed = |name: &str, form: &str, text: &str| {
+        (format!("{form}.{name}"), format!("# as {form}\n{text}").into_bytes())
+    };
+    let small = [("hello", HELLO), ("report", REPORT), ("expected", EXPECTED)];
+    let mut seeds: Vec<_> = small.map(|(form, text)| seed("small", form, text)).into();
+    for (name, check) in &*CHECKS {
+        let text = saved::write(std::slice::from_ref(check)).unwrap();
+        seeds.push(seed(name, "checks", &text));
+        if let Demand::Yield(output) | Demand::Near { output, .. } = &check.demand {
+            let text = serde_json::to_string(output).unwrap();
+            seeds.push(seed(name, "reply", &text));
+        }
+    }
+    seeds
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Else every input is refused, and nothing is held.
+    #[test]
+    fn there_is_something_to_read() {
+        read::parse("report", REPORT).unwrap();
+        Greeting::read(HELLO).unwrap();
+        Expectations::parse("expected", EXPECTED, &PLAN, &PLAN).unwrap();
+        assert!(CHECKS.len() > Wire::ALL.len() * 4, "{} checks", CHECKS.len());
+        for check in CHECKS.values() {
+            if let Demand::Yield(output) = &check.demand {
+                let text = serde_json::to_string(output).unwrap();
+                assert_eq!(Output::read(&check.question, &text).as_ref(), Ok(output));
+            }
+        }
+    }
+}
