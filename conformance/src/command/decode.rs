@@ -1,5 +1,6 @@
 //! `actucheck decode`.
 
+mod fitted;
 mod input;
 mod packet;
 mod page;
@@ -19,6 +20,7 @@ use actucheck_spec::wire::{Context, Direction, Fast};
 use clap::Args;
 
 use super::shared::{self, Failure, one_of, wire};
+use fitted::Fitted;
 use input::Input;
 use sink::{Lines, Sink, Told};
 use text::Text;
@@ -184,6 +186,7 @@ fn stream(options: &Decode, wire: Wire, input: Input) -> Result<ExitCode, Failur
     let sink: Box<dyn Sink> = if options.json {
         Box::new(Lines { out, wire, show })
     } else {
+        let out = Fitted::new(out, page::width());
         Box::new(Text { out, wire, show, begin: None })
     };
     let mut told = Told { sink, summary: Summary::default(), written: Ok(()) };

@@ -9,7 +9,8 @@ use serde::Serialize;
 
 use super::super::shared::Failure;
 use super::super::shared::table::BOLD;
-use super::page::fields;
+use super::fitted::fitted;
+use super::page::{fields, width};
 
 /// The packet in words, or as an object; and whether it is one.
 pub(super) fn text(
@@ -39,13 +40,15 @@ pub(super) fn text(
         return object(wire, asked, warnings).map(|text| (text, true));
     }
     let (title, fields) = (&explanation.title, fields(&explanation.rows));
-    Ok((format!("{BOLD}{title}{BOLD:#}\n{}{fields}", warned(warnings)), true))
+    let text = format!("{BOLD}{title}{BOLD:#}\n{}{fields}", warned(warnings));
+    Ok((fitted(&text, width()), true))
 }
 
 /// What is wrong with the bytes, what can be read of them all the same, and what may explain them.
 fn damaged_packet(wire: Wire, asked: &Asked<'_>, error: &Invalid) -> String {
     let fits = fits(&mistake::fits(wire, asked.bytes, &asked.context));
-    format!("{BOLD}no valid packet{BOLD:#}, {error}\n{}{fits}", fields(&damaged(wire, asked)))
+    let fields = fields(&damaged(wire, asked));
+    fitted(&format!("{BOLD}no valid packet{BOLD:#}, {error}\n{fields}{fits}"), width())
 }
 
 /// The warnings as lines.

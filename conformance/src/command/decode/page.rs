@@ -25,6 +25,11 @@ pub(super) fn table(rows: &[Row]) -> String {
     STDOUT.table(rows)
 }
 
+/// The columns of the standard output; as many as needed if it is no terminal.
+pub(super) fn width() -> usize {
+    STDOUT.width
+}
+
 /// What is written on.
 struct Page {
     /// Columns.
