@@ -1,4 +1,6 @@
-//! Whole numbers and doubles, without the standard library's rounding.
+//! Whole numbers and doubles, without the standard library's rounding, and lists of numbers in words.
+
+use core::fmt;
 
 /// The whole number nearest to `value`; of two that are equally near, the one farther from 0. Beyond
 /// the type's range, its largest or smallest number; `None` for NaN.
@@ -24,6 +26,18 @@ pub(crate) fn to_f64(value: i64) -> f64 {
     #[allow(clippy::cast_precision_loss)]
     let double = value as f64;
     double
+}
+
+/// `4 or 17`.
+pub(crate) struct Or<'a, T>(pub(crate) &'a [T]);
+
+impl<T: fmt::Display> fmt::Display for Or<'_, T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (index, one) in self.0.iter().enumerate() {
+            write!(f, "{}{one}", if index == 0 { "" } else { " or " })?;
+        }
+        Ok(())
+    }
 }
 
 #[cfg(test)]

@@ -46,7 +46,7 @@ fn named_values_are_those_of_the_document() {
 fn a_range_binds_only_where_the_documents_agree_on_it() {
     let other = ja_variant::OperatingMode::Unknown(0);
     let error = ja_variant::OPERATING_MODE.write(1, other).unwrap_err();
-    assert_eq!(error.to_string(), "Operating Mode is one of [4, 17], not 0");
+    assert_eq!(error.to_string(), "Operating Mode is 4 or 17, not 0");
     assert!(ja_variant::OPERATING_MODE.write_unchecked(1, other).is_ok());
 
     // The JA40's table has 4 and 17, its text describes 0 too.

@@ -2,6 +2,7 @@ use core::fmt;
 
 use super::Command;
 use crate::EncodeError;
+use crate::number::Or;
 
 /// Why bytes are not a valid frame. Offsets count from the first byte of the frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -130,12 +131,9 @@ impl fmt::Display for MessageError {
             Self::NoReply { command } => write!(f, "{} is not answered", command.name()),
             Self::Size { command, found, expected } => {
                 write!(f, "{} has ", command.name())?;
-                for (index, size) in expected.iter().enumerate() {
-                    let or = if index == 0 { "" } else { " or " };
-                    match size {
-                        0 => write!(f, "{or}no")?,
-                        size => write!(f, "{or}{size}")?,
-                    }
+                match expected {
+                    [0] => f.write_str("no")?,
+                    sizes => Or(sizes).fmt(f)?,
                 }
                 let s = if *expected == [1] { "" } else { "s" };
                 write!(f, " byte{s} of data here, not {found}")

@@ -1,6 +1,7 @@
 use core::fmt;
 
 use crate::dynamixel2::ErrorNumber;
+use crate::number::Or;
 
 /// Why a register can't be written or read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,7 +83,7 @@ impl fmt::Display for RegisterError {
                 write!(f, "{register} is {min} to {max}, not {value}")
             }
             Self::NotListed { register, value, listed } => {
-                write!(f, "{register} is one of {listed:?}, not {value}")
+                write!(f, "{register} is {}, not {value}", Or(listed))
             }
             Self::Size { register, found, expected } => {
                 write!(f, "{register} has {expected} bytes, not {found}")

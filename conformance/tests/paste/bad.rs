@@ -3,7 +3,9 @@
 use std::io::{BufRead, BufReader, Read as _, repeat};
 
 use actucheck::capture::{self, Form, Unreadable};
-use actucheck::explain::stream::{Follower, wire_of};
+use actucheck::explain::DEVICES;
+use actucheck::explain::stream::{Event, Follower, wire_of};
+use actucheck_codec::dynamixel2::{Instruction, frame};
 use actucheck_spec::wire::Wire;
 use proptest::prelude::*;
 
@@ -80,6 +82,34 @@ proptest! {
         for form in Form::ALL.into_iter().map(Some).chain([None]) {
             if let Err(error) = take(&input, form) {
                 prop_assert_eq!(error.to_string().lines().count(), 1);
+            }
+        }
+    }
+
+    /// Whatever valid packets say, it is judged, and a warning is a line that cites a section.
+    #[test]
+    fn any_packets_are_judged(
+        packets in prop::collection::vec((any::<u8>(), 0..8_u8, 0..900_u16, prop::collection::vec(any::<u8>(), 0..9)), 1..20),
+    ) {
+        for table in DEVICES.into_iter().map(Some).chain([None]) {
+            let mut follower = Follower::new(Wire::default(), table).unwrap();
+            for (code, id, address, data) in &packets {
+                // Half of them read or write, and half of them answer.
+                let code = match code { 0..64 => 2, 64..128 => 3, 128..192 => 0x55, code => *code };
+                let id = if *id == 0 { 254 } else { *id };
+                let address = address.to_le_bytes();
+                let params: &[&[u8]] = if code == 0x55 { &[&[0], data] } else { &[&address, data] };
+                let mut buffer = [0; 64];
+                let code = Instruction::from_code(code);
+                let packet = frame::encode(id, code, params, &mut buffer).unwrap();
+                follower.feed(packet, None, None, None, &mut |event| {
+                    if let Event::Packet(_, turn) = event {
+                        for warning in &turn.warnings {
+                            assert_eq!(warning.to_string().lines().count(), 1, "{warning}");
+                            assert!(!warning.section.is_empty());
+                        }
+                    }
+                });
             }
         }
     }

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use actucheck_codec::crc;
 use actucheck_codec::dynamixel2::{
-    BROADCAST_ID, FastStatus, Frame, Instruction, Request, StatusError,
+    BROADCAST_ID, FastStatus, Frame, FrameError, Instruction, Request, StatusError,
 };
 use actucheck_codec::register::Device;
 use actucheck_spec::wire::{Direction, Fast};
@@ -191,16 +191,20 @@ impl Talk {
         let mut turn = Turn { kind, device: Some(id), table, warnings, ..Turn::default() };
         let Some(ask) = &mut self.ask else { return unasked(turn, frame) };
         let everyone = ask.devices.is_empty();
-        let asked = ask.devices.iter_mut().find(|asked| asked.id == id && !asked.answered);
-        if asked.is_none() && !everyone {
+        let place = ask.devices.iter().position(|asked| asked.id == id && !asked.answered);
+        if place.is_none() && !everyone {
             return unasked(turn, frame);
         }
+        let (asked, later) = match place.and_then(|place| ask.devices.get_mut(place..)) {
+            Some([asked, later @ ..]) => (Some(asked), later.iter().any(|asked| asked.answered)),
+            _ => (None, false),
+        };
         ask.followed = true;
         let after = heard.place.time.zip(ask.end).and_then(|(begin, end)| begin.checked_sub(end));
         turn.role = Role::Answer { to: ask.at, name: ask.instruction.name(), after };
         let instruction = ask.instruction;
         let length = asked.as_ref().and_then(|asked| asked.length);
-        let question = Question { instruction, everyone, length };
+        let question = Question { instruction, everyone, later, length };
         turn.warnings.extend(warnings::answer(error, size, question, table));
         if let Some(asked) = asked {
             asked.answered = true;
@@ -271,6 +275,9 @@ impl Talk {
             Err(error) => {
                 ask.mark(&ids(&whole_blocks(heard.bytes, repeat(length))));
                 turn.notes.push(error.to_string());
+                if matches!(error, FrameError::BlockId { .. }) {
+                    turn.warnings.extend(warnings::order(ask.instruction, turn.table));
+                }
             }
         }
         turn
@@ -308,7 +315,7 @@ impl Converse for Talk {
             && error.offset() > 0
             && bytes.starts_with(&actucheck_codec::dynamixel2::HEADER)
         {
-            notes.push(error.to_string());
+            notes.push(warnings::cited(error));
             if let Some(ask) = &mut self.ask {
                 ask.followed = true;
                 // A fast status packet has whole blocks, even if it ends early.

@@ -32,7 +32,7 @@ pub(super) fn explain(asked: &Asked<'_>) -> Result<Explanation, Invalid> {
         Some(fast) => fast_status(asked.bytes, fast, asked.device, asked.address),
         None => packet(asked.bytes, asked.device, asked.address),
     };
-    explanation.map_err(|error| Invalid::new(error.offset(), &error))
+    explanation.map_err(|error| Invalid::new(error.offset(), &warnings::cited(error)))
 }
 
 /// A right packet that has what can be read of these bytes, which begin like a packet.

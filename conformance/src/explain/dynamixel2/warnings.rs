@@ -2,8 +2,8 @@
 
 use actucheck_codec::dynamixel2::instruction::Clear;
 use actucheck_codec::dynamixel2::{
-    CLEAR_KEY, CONTROL_TABLE_BACKUP_KEY, ErrorNumber, Frame, Instruction, Request, RequestError,
-    StatusError,
+    CLEAR_KEY, CONTROL_TABLE_BACKUP_KEY, ErrorNumber, Frame, FrameError, Instruction, Request,
+    RequestError, StatusError,
 };
 use actucheck_codec::layout::{Field, LayoutError, Size};
 use actucheck_codec::register::Device;
@@ -49,6 +49,8 @@ pub(super) struct Question {
     pub(super) instruction: Instruction,
     /// Whether it was for every device.
     pub(super) everyone: bool,
+    /// Whether a device that it names later has answered.
+    pub(super) later: bool,
     /// How many bytes it asked for.
     pub(super) length: Option<u16>,
 }
@@ -71,7 +73,7 @@ pub(super) fn answer(
     table: Option<&'static Device>,
 ) -> Vec<Warning> {
     let mut warnings = Warnings { table, list: Vec::new() };
-    let Question { instruction, everyone, length } = question;
+    let Question { instruction, everyone, later, length } = question;
     let name = instruction.name();
     let is_known = !matches!(instruction, Instruction::Unknown(_));
     if everyone && is_known && !instruction.answers_broadcast() {
@@ -79,6 +81,9 @@ pub(super) fn answer(
         let [broadcast, silence] = &own;
         let names = [broadcast, silence, "response.broadcast.silence", "response.broadcast"];
         warnings.add(&names, format!("{name} to every device is not answered"));
+    }
+    if later {
+        warnings.order(instruction);
     }
     let expected = length.map(usize::from).or_else(|| sum(instruction.status()?));
     // With an error there may be no data.
@@ -88,6 +93,20 @@ pub(super) fn answer(
         warnings.add(&[&own(instruction, "status")], text);
     }
     warnings.list
+}
+
+/// What is wrong with answers that come in another order than they were asked for.
+pub(super) fn order(instruction: Instruction, table: Option<&'static Device>) -> Vec<Warning> {
+    let mut warnings = Warnings { table, list: Vec::new() };
+    warnings.order(instruction);
+    warnings.list
+}
+
+/// Why a packet is none, with the section if that is about what its ID means.
+pub(super) fn cited(error: FrameError) -> String {
+    let of_id = matches!(error, FrameError::Id { .. }).then_some("dynamixel2.packet.id.range");
+    let warning = Warning::of(of_id.map(str::to_owned), error.to_string());
+    warning.map_or_else(|| error.to_string(), |warning| warning.to_string())
 }
 
 /// The warnings of a packet.
@@ -105,6 +124,11 @@ impl Warnings {
         let ids = documents
             .flat_map(|document| names.iter().map(move |name| format!("{document}.{name}")));
         self.list.extend(Warning::of(ids, text));
+    }
+
+    fn order(&mut self, instruction: Instruction) {
+        let text = format!("{} names the devices in another order", instruction.name());
+        self.add(&[&own(instruction, "order")], text);
     }
 
     /// What is wrong with parameters that could not be read.
