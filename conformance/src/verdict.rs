@@ -9,6 +9,7 @@ use serde::de::IgnoredAny;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::adapter::{Output, Question};
+use crate::explain::mistake::{self, Fit};
 
 /// The result of a check in one word.
 #[derive(
@@ -245,6 +246,17 @@ impl Outcome {
     pub fn cause(&self) -> Because {
         let own = || Because { check: self.id.clone(), requirement: self.requirement.clone() };
         self.because.clone().unwrap_or_else(own)
+    }
+
+    /// The mistake that explains a wrong answer.
+    #[must_use]
+    pub fn mistake(&self) -> Option<Fit> {
+        let failed = self.verdict == Verdict::Fail;
+        mistake::of_answer(
+            self.request.as_ref().filter(|_| failed)?,
+            self.expected.as_ref()?,
+            self.actual.as_ref()?,
+        )
     }
 
     /// The expected and the actual bytes, if they differ. For packets: the parameters of the first

@@ -60,7 +60,7 @@ be written.";
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Decode {
     /// Print the packet object of the adapter protocol, with warnings if there are any; of a stream,
-    /// an object on each line
+    /// or of bytes that are no packet, an object on each line
     #[arg(long)]
     json: bool,
     /// The form of the bytes, if it is not to be found
@@ -141,10 +141,11 @@ fn single(options: &Decode, wire: Wire, input: &Input) -> Option<Single> {
         return None;
     }
     let Some(mut follower) = Follower::new(wire, options.device) else { return Some(single) };
-    let mut events = 0;
+    let (mut events, mut packets) = (0, 0);
     let mut take = |event: Event<'_>| {
         events += 1;
         if let Event::Packet(heard, turn) = event {
+            packets += 1;
             single.context.direction = told.or(heard.direction);
             single.warnings.clone_from(&turn.warnings);
         }
@@ -156,7 +157,9 @@ fn single(options: &Decode, wire: Wire, input: &Input) -> Option<Single> {
         }
     }
     follower.end(&mut take);
-    (asked || events == 1).then_some(single)
+    // What is wrong with bytes has an object only among the lines of a stream.
+    let lines = options.json && packets == 0;
+    (asked || events == 1 && !lines).then_some(single)
 }
 
 fn packet(

@@ -40,6 +40,7 @@ pub struct Collector<'a> {
     run: &'a Run<'a>,
     /// By requirement, in the order in which they were first accused.
     causes: IndexMap<String, Cause>,
+    mistakes: Counts,
     requirements: IndexMap<String, Collected>,
     questions: IndexMap<(String, String), Counts>,
     skips: Counts,
@@ -59,8 +60,8 @@ impl<'a> Collector<'a> {
     #[must_use]
     pub fn new(run: &'a Run<'a>) -> Self {
         let (causes, requirements, questions) = Default::default();
-        let (skips, expected_failures) = Default::default();
-        Self { run, causes, requirements, questions, skips, expected_failures }
+        let (mistakes, skips, expected_failures) = Default::default();
+        Self { run, causes, mistakes, requirements, questions, skips, expected_failures }
     }
 
     /// Adds an outcome. Outcomes arrive in the order of the plan.
@@ -73,6 +74,9 @@ impl<'a> Collector<'a> {
         }
         if outcome.verdict.accuses() {
             self.accuse(&outcome);
+        }
+        if let Some(fit) = outcome.mistake() {
+            self.mistakes.add(fit.mistake, &outcome.id);
         }
         if let Some(behaviour) = &outcome.behaviour {
             let question = (outcome.requirement.clone(), behaviour.question.clone());
@@ -144,6 +148,7 @@ impl<'a> Collector<'a> {
             causes: std::mem::take(&mut self.causes).into_values().collect(),
             requirements,
             profile: self.profile(),
+            mistakes: self.mistakes.tallies(),
             skips: self.skips.tallies(),
             expected_failures: self.expected_failures.tallies(),
             not_passed,

@@ -28,6 +28,9 @@ pub struct Report {
     /// The requirements that failures accuse, the most basic first.
     #[serde(default)]
     pub causes: Vec<Cause>,
+    /// The mistakes that explain wrong answers, with the number of failures that fit each.
+    #[serde(default)]
+    pub mistakes: Vec<Tally>,
     /// Each requirement that checks were about, in the order of the documents.
     pub requirements: Vec<RequirementResult>,
     /// What the implementation does where the documents leave it unspecified.
@@ -201,6 +204,9 @@ pub struct CheckResult {
     /// The part of the frame with the first byte that differs.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub differs_in: Option<String>,
+    /// What explains the answer, in words: `fits if …`. It is not certain.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mistake: Option<String>,
     /// The number of bytes of the request and the outputs that were cut off.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub left_out: Option<usize>,

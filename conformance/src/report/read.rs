@@ -144,11 +144,12 @@ impl From<Version3> for Report {
             let key = (places.get_index_of(requirement.as_str()), verdict);
             let new = || (requirement.clone(), Smallest::default());
             let (_, smallest) = not_passed.entry(key).or_insert_with(new);
-            let CheckResult { outcome, diff, differs_in, left_out, replay } = result;
+            let CheckResult { outcome, diff, differs_in, mistake, left_out, replay } = result;
             smallest.add(outcome, |outcome| CheckResult {
                 outcome,
                 diff,
                 differs_in,
+                mistake,
                 left_out,
                 replay,
             });
@@ -162,6 +163,7 @@ impl From<Version3> for Report {
             header,
             summary,
             causes: Vec::new(),
+            mistakes: Vec::new(),
             requirements,
             profile,
             skips,
@@ -206,6 +208,9 @@ fn contradiction(report: &Report) -> Option<String> {
                 "it tells of {counted} checks with verdict {verdict}, not {told}"
             ));
         }
+    }
+    if sum(report.mistakes.iter().map(|tally| tally.count)) > totals.count(Verdict::Fail) {
+        return Some("its mistakes explain more failures than there are".to_owned());
     }
     let mut rows = BTreeSet::new();
     for row in &report.not_passed {

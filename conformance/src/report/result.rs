@@ -67,6 +67,7 @@ impl Run<'_> {
             }
             _ => None,
         };
+        let mistake = outcome.mistake().map(|fit| fit.to_string());
         let replay = self.replay(&outcome);
         outcome.detail = legible(&outcome.detail, LONGEST_TEXT);
         outcome.reason = outcome.reason.map(|reason| legible(&reason, LONGEST_TEXT));
@@ -74,7 +75,7 @@ impl Run<'_> {
             + leave_out(&mut outcome.expected)
             + leave_out(&mut outcome.actual);
         let left_out = (left_out > 0).then_some(left_out);
-        CheckResult { outcome, diff, differs_in, left_out, replay }
+        CheckResult { outcome, diff, differs_in, mistake, left_out, replay }
     }
 
     /// The command that asks the check again, quoted for a shell; `None` if that does not bring the

@@ -81,7 +81,10 @@ fn at_fault(
     if findings.is_empty() {
         return Vec::new();
     }
-    let mut parts = vec![vec![format!("{BOLD}At fault{BOLD:#}, the most basic first:")]];
+    let mut heading: Vec<_> =
+        report.explained(BRIEF).iter().map(|line| cut(line, width, 0)).collect();
+    heading.push(format!("{BOLD}At fault{BOLD:#}, the most basic first:"));
+    let mut parts = vec![heading];
     let fixed = [&[vec![text::header(report)]], &*parts, end].concat();
     let fixed: usize = fixed.iter().map(|lines| rows(lines, width)).sum();
     let others = BRIEF + 2;

@@ -106,7 +106,11 @@ fn causes(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     if report.causes.is_empty() {
         return Ok(());
     }
-    writeln!(out, "\n{BOLD}At fault{BOLD:#}, the most basic first:")?;
+    writeln!(out)?;
+    for line in report.explained(usize::MAX) {
+        writeln!(out, "{line}")?;
+    }
+    writeln!(out, "{BOLD}At fault{BOLD:#}, the most basic first:")?;
     let width = report.causes.iter().map(|cause| cause.requirement.len()).max().unwrap_or(0);
     for cause in &report.causes {
         writeln!(out, "  {:width$}  {}", cause.requirement, cause.effect())?;

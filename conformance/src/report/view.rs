@@ -76,6 +76,16 @@ impl Report {
         findings
     }
 
+    /// The mistakes that explain several failures each, at most so many, in a line each.
+    #[must_use]
+    pub fn explained(&self, most: usize) -> Vec<String> {
+        let line = |Tally { text, count, example }: &Tally| {
+            let failures = words::count(*count, "wrong answer");
+            format!("{failures} fit one mistake, {text}; the first is of {example}")
+        };
+        self.mistakes.iter().filter(|tally| tally.count > 1).take(most).map(line).collect()
+    }
+
     /// Why failures are expected, at most so many reasons, in a line each.
     #[must_use]
     pub fn excused(&self, most: usize) -> Vec<String> {
@@ -228,6 +238,7 @@ impl CheckResult {
             ("params", params),
             ("instead", instead),
             ("differs", self.differs().map(Evidence::Words)),
+            ("mistake", self.mistake.clone().map(Evidence::Words)),
             ("because", Some(Evidence::Words(detail.clone()))),
             ("reason", reason.clone().map(Evidence::Words)),
             ("follows", self.follows().map(Evidence::Words)),

@@ -263,6 +263,7 @@ fn what_contradicts_itself_is_refused() {
         ("/skips/0/count", json!(u64::MAX)),
         ("/profile/0/behaviours/0/count", json!(u64::MAX)),
         ("/expected_failures/0/count", json!(7)),
+        ("/mistakes/0/count", json!(u64::MAX)),
         ("/not_passed", json!([])),
         ("/requirements/1", whole["requirements"][0].clone()),
         ("/totals/pass", json!(u64::MAX)),

@@ -1,7 +1,8 @@
+use actucheck::adapter::Question;
 use actucheck::report::compare::Comparison;
-use actucheck::report::model::NotPassed;
+use actucheck::report::model::{CheckResult, NotPassed};
 use actucheck::report::{Format, Report};
-use actucheck::verdict::Verdict;
+use actucheck::verdict::{Outcome, Verdict};
 use anstream::adapter::strip_bytes;
 use textwrap::core::display_width;
 
@@ -42,6 +43,7 @@ fn a_terminal_shows_the_worst_last() {
       expected  ff ff fd 00 01 [0a] 00 03 34 02 ff ff fd [fd] ff [23 51]
       got       ff ff fd 00 01 [09] 00 03 34 02 ff ff fd ff [7f 05]
       differs   byte 5, in the length
+      mistake   fits if the sender left out byte stuffing (1 byte FD)
       because   the answer differs
       replay    actucheck replay dynamixel2.stuffing.goal-position/encode -- ./adapter 'two words'
 
@@ -67,6 +69,7 @@ fn a_failing_run_fits_a_screen() {
       expected  ff ff fd 00 01 [0a] 00 03 34 02 ff ff fd [fd] ff [23 51]
       got       ff ff fd 00 01 [09] 00 03 34 02 ff ff fd ff [7f 05]
       differs   byte 5, in the length
+      mistake   fits if the sender left out byte stuffing (1 byte FD)
       replay    actucheck replay dynamixel2.stuffing.goal-position/encode -- ./adapter 'two words'
 
     interrupted: 7 checks not asked
@@ -100,6 +103,30 @@ fn what_follows_from_a_requirement_is_counted_once() {
     let text = on_terminal(&report, Detail::Screen, 80);
     let told: Vec<_> = text.lines().filter(|line| line.contains(" others follow")).collect();
     assert!(matches!(told.as_slice(), [line] if line.starts_with("CRASH ")), "{text}");
+}
+
+#[test]
+fn failures_that_fit_one_mistake_are_told_before_the_list() {
+    let report = sample::unstuffed_whole();
+    let told = report.mistakes.iter().map(|tally| (tally.text.as_str(), tally.count));
+    let told: Vec<_> = told.collect();
+    let [("no byte stuffing", count)] = *told else { panic!("{told:?}") };
+    // Every packet that is sent, and is not the right one, fits it.
+    let sent = |result: &&CheckResult| {
+        let Outcome { request, expected, .. } = &result.outcome;
+        matches!(request, Some(Question::Encode { .. })) && expected.is_some()
+    };
+    let failed = report.not_passed.iter().filter(|row| row.verdict == Verdict::Fail);
+    let kept: Vec<_> = failed.flat_map(|row| &row.smallest).filter(sent).collect();
+    assert!(!kept.is_empty() && kept.iter().all(|result| result.mistake.is_some()), "{kept:#?}");
+    assert!(count > kept.len(), "{count}");
+    for text in [written(Format::Text, &report), on_terminal(&report, Detail::Screen, 100)] {
+        let (before, after) = text.split_once("At fault").unwrap();
+        assert!(before.contains("wrong answers fit one mistake, no byte stuffing"), "{text}");
+        let row = "  mistake   fits if the sender left out byte stuffing (1 byte FD)";
+        assert!(after.contains(row), "{text}");
+    }
+    assert_eq!(sample::right().mistakes, []);
 }
 
 #[test]
@@ -193,6 +220,7 @@ fn a_summary_in_markdown_begins_with_the_causes_and_folds_the_rest() {
         expected  ff ff fd 00 01 [0a] 00 03 34 02 ff ff fd [fd] ff [23 51]
         got       ff ff fd 00 01 [09] 00 03 34 02 ff ff fd ff [7f 05]
         differs   byte 5, in the length
+        mistake   fits if the sender left out byte stuffing (1 byte FD)
         because   the answer differs
         replay    actucheck replay dynamixel2.stuffing.goal-position/encode -- ./adapter 'two words'
 

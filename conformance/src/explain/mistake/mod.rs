@@ -5,6 +5,7 @@
 //! bits fits by chance once in 65,536 trials, so a mistake that has many ways is listed behind those
 //! that have few, and its words say how often it fits by chance.
 
+mod answer;
 mod crc;
 mod text;
 
@@ -17,8 +18,14 @@ use serde::Serialize;
 use super::Own;
 use super::diff::spaced;
 
+pub use self::answer::of_answer;
 pub(super) use self::crc::ALGORITHMS;
 use self::text::TEXT;
+
+pub(super) const CRC_SWAPPED: &str = "CRC bytes swapped";
+pub(super) const OTHER_CRC: &str = "other CRC";
+pub(super) const NO_STUFFING: &str = "no byte stuffing";
+pub(super) const STUFFING_TWICE: &str = "byte stuffing twice";
 
 /// Longest run of bytes that is looked at: that of the longest packet.
 const LONGEST: usize = 66 << 10;
@@ -40,18 +47,51 @@ pub struct Fit {
     pub conditions: Vec<String>,
     /// How many more there are.
     pub more: usize,
-    /// How many were tried. Each fits by chance once in 65,536 trials.
+    /// How many were tried. Each that a CRC decides fits by chance once in 65,536 trials.
     pub trials: u32,
-    /// The packets that were meant, one for each condition, where they are known.
+    /// The packets that were meant, where they are known.
     #[serde(skip)]
     pub meant: Vec<Vec<u8>>,
 }
 
+/// Tries a mistake on bytes.
+type Find = fn(&[u8], &mut Trials<'_>);
+
 /// A mistake that may explain bytes.
 pub(super) struct Mistake {
-    pub(super) name: &'static str,
-    /// Tries it on bytes that are no packet.
-    pub(super) find: fn(&[u8], &mut Trials<'_>),
+    name: &'static str,
+    /// Whether a program makes it, not a line.
+    by_program: bool,
+    find: Find,
+}
+
+impl Mistake {
+    /// One that a program makes.
+    pub(super) const fn of_program(name: &'static str, find: Find) -> Self {
+        Self { name, by_program: true, find }
+    }
+
+    /// One that a line makes, or who copies bytes.
+    pub(super) const fn of_line(name: &'static str, find: Find) -> Self {
+        Self { name, by_program: false, find }
+    }
+
+    /// Whether it fits bytes. `known` are the packets that likelier mistakes lead to.
+    fn fit(&self, bytes: &[u8], is_packet: &dyn Fn(&[u8]) -> bool, known: &[Fit]) -> Option<Fit> {
+        let mut trials = Trials { is_packet, count: 0, fits: Vec::new() };
+        (self.find)(bytes, &mut trials);
+        let Trials { count, mut fits, .. } = trials;
+        if count > FEW {
+            let known = |meant: &Vec<u8>| known.iter().any(|fit| fit.meant.contains(meant));
+            fits.retain(|(meant, _)| !meant.as_ref().is_some_and(known));
+        }
+        let more = fits.len().saturating_sub(TOLD);
+        let (meant, mut conditions): (Vec<_>, Vec<_>) = fits.into_iter().unzip();
+        conditions.truncate(TOLD);
+        let meant = meant.into_iter().flatten().collect();
+        let fit = Fit { mistake: self.name, conditions, more, trials: count, meant };
+        (!fit.conditions.is_empty()).then_some(fit)
+    }
 }
 
 /// The trials of one mistake.
@@ -104,22 +144,7 @@ pub fn fits(wire: Wire, bytes: &[u8], context: &Context) -> Vec<Fit> {
     }
     let mut found: Vec<Fit> = Vec::new();
     for mistake in own.mistakes.iter().chain([&TEXT]) {
-        let mut trials = Trials { is_packet: &is_packet, count: 0, fits: Vec::new() };
-        (mistake.find)(bytes, &mut trials);
-        let Trials { count, mut fits, .. } = trials;
-        if count > FEW {
-            // A likelier mistake leads to the same packet.
-            let known = |meant: &Vec<u8>| found.iter().any(|fit| fit.meant.contains(meant));
-            fits.retain(|(meant, _)| !meant.as_ref().is_some_and(known));
-        }
-        if fits.is_empty() {
-            continue;
-        }
-        let more = fits.len().saturating_sub(TOLD);
-        let (meant, mut conditions): (Vec<_>, Vec<_>) = fits.into_iter().unzip();
-        conditions.truncate(TOLD);
-        let meant = meant.into_iter().flatten().collect();
-        found.push(Fit { mistake: mistake.name, conditions, more, trials: count, meant });
+        found.extend(mistake.fit(bytes, &is_packet, &found));
     }
     found
 }

@@ -1,7 +1,7 @@
 //! Parts of a packet that are wrong, missing or left over.
 
 use actucheck_spec::wire::dynamixel2::reference::{
-    BROADCAST, HEADER, PATTERN, PREFIX, STATUS, crc, frame, stuff,
+    BROADCAST, HEADER, PATTERN, PREFIX, STATUS, crc, frame, stuff, unstuff,
 };
 
 use super::super::super::mistake::{Trials, difference, hex};
@@ -36,10 +36,18 @@ pub(super) fn stuffing(bytes: &[u8], trials: &mut Trials<'_>) {
         let condition = || {
             let missing = meant.len() - bytes.len();
             let s = if missing == 1 { "" } else { "s" };
-            format!("byte stuffing is added, {missing} byte{s} FD, which the sender left out")
+            format!("the sender left out byte stuffing ({missing} byte{s} FD)")
         };
         trials.packet_if(crc_is_right(bytes), meant.clone(), condition);
     }
+}
+
+/// Added to what had it. Alone, such a packet is right; it says something else than was meant.
+pub(super) fn twice(bytes: &[u8], trials: &mut Trials<'_>) {
+    let Some(seen) = Seen::whole(bytes) else { return };
+    let Ok(once) = unstuff(seen.body) else { return };
+    let condition = || "the sender added byte stuffing twice".to_owned();
+    trials.packet_if(crc_is_right(bytes), frame(seen.id, &once), condition);
 }
 
 /// The body without byte stuffing, where it has any.

@@ -6,26 +6,27 @@ mod layout;
 
 use actucheck_spec::wire::dynamixel2::reference::{HEADER, PREFIX, crc, repair};
 
-use super::super::mistake::Mistake;
+use super::super::mistake::{CRC_SWAPPED, Mistake, NO_STUFFING, OTHER_CRC, STUFFING_TWICE};
 
 /// The mistakes, the likeliest first; those with most trials last.
 pub(in super::super) const MISTAKES: &[Mistake] = &[
-    Mistake { name: "CRC bytes swapped", find: checksum::swapped },
-    Mistake { name: "CRC left at zero", find: checksum::zero },
-    Mistake { name: "wrong length", find: layout::length },
-    Mistake { name: "no byte stuffing", find: layout::stuffing },
-    Mistake { name: "no reserved byte", find: layout::reserved },
-    Mistake { name: "wrong header", find: layout::header },
-    Mistake { name: "no instruction 0x55", find: layout::status },
-    Mistake { name: "CRC over other bytes", find: checksum::range },
-    Mistake { name: "other CRC", find: checksum::algorithm },
-    Mistake { name: "bytes after the packet", find: layout::trailing },
-    Mistake { name: "Protocol 1.0", find: layout::protocol_1 },
-    Mistake { name: "cut short", find: layout::cut },
-    Mistake { name: "one byte too many", find: byte::needless },
-    Mistake { name: "one bit changed", find: byte::bit },
-    Mistake { name: "one byte changed", find: byte::changed },
-    Mistake { name: "one byte missing", find: byte::missing },
+    Mistake::of_program(CRC_SWAPPED, checksum::swapped),
+    Mistake::of_program("CRC left at zero", checksum::zero),
+    Mistake::of_program("wrong length", layout::length),
+    Mistake::of_program(NO_STUFFING, layout::stuffing),
+    Mistake::of_program(STUFFING_TWICE, layout::twice),
+    Mistake::of_program("no reserved byte", layout::reserved),
+    Mistake::of_program("wrong header", layout::header),
+    Mistake::of_program("no instruction 0x55", layout::status),
+    Mistake::of_program("CRC over other bytes", checksum::range),
+    Mistake::of_program(OTHER_CRC, checksum::algorithm),
+    Mistake::of_line("bytes after the packet", layout::trailing),
+    Mistake::of_line("Protocol 1.0", layout::protocol_1),
+    Mistake::of_line("cut short", layout::cut),
+    Mistake::of_line("one byte too many", byte::needless),
+    Mistake::of_line("one bit changed", byte::bit),
+    Mistake::of_line("one byte changed", byte::changed),
+    Mistake::of_line("one byte missing", byte::missing),
 ];
 
 /// Bytes that have a header and are long enough for a packet.

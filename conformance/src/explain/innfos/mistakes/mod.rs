@@ -6,27 +6,27 @@ mod layout;
 
 use actucheck_spec::wire::innfos::reference::PREFIX;
 
-use super::super::mistake::Mistake;
+use super::super::mistake::{CRC_SWAPPED, Mistake, OTHER_CRC};
 use super::CRC_AND_END;
 
 /// The mistakes, the likeliest first; those with most trials last.
 pub(in super::super) const MISTAKES: &[Mistake] = &[
-    Mistake { name: "CRC bytes swapped", find: checksum::swapped },
-    Mistake { name: "CRC left at zero", find: checksum::zero },
-    Mistake { name: "needless CRC", find: checksum::needless },
-    Mistake { name: "wrong length", find: layout::length },
-    Mistake { name: "no CRC", find: checksum::missing },
-    Mistake { name: "other direction", find: layout::direction },
-    Mistake { name: "wrong header", find: layout::header },
-    Mistake { name: "wrong end byte", find: layout::end },
-    Mistake { name: "CRC over other bytes", find: checksum::range },
-    Mistake { name: "other CRC", find: checksum::algorithm },
-    Mistake { name: "bytes after the packet", find: layout::trailing },
-    Mistake { name: "cut short", find: layout::cut },
-    Mistake { name: "one byte too many", find: byte::needless },
-    Mistake { name: "one bit changed", find: byte::bit },
-    Mistake { name: "one byte changed", find: byte::changed },
-    Mistake { name: "one byte missing", find: byte::missing },
+    Mistake::of_program(CRC_SWAPPED, checksum::swapped),
+    Mistake::of_program("CRC left at zero", checksum::zero),
+    Mistake::of_program("needless CRC", checksum::needless),
+    Mistake::of_program("wrong length", layout::length),
+    Mistake::of_program("no CRC", checksum::missing),
+    Mistake::of_line("other direction", layout::direction),
+    Mistake::of_program("wrong header", layout::header),
+    Mistake::of_program("wrong end byte", layout::end),
+    Mistake::of_program("CRC over other bytes", checksum::range),
+    Mistake::of_program(OTHER_CRC, checksum::algorithm),
+    Mistake::of_line("bytes after the packet", layout::trailing),
+    Mistake::of_line("cut short", layout::cut),
+    Mistake::of_line("one byte too many", byte::needless),
+    Mistake::of_line("one bit changed", byte::bit),
+    Mistake::of_line("one byte changed", byte::changed),
+    Mistake::of_line("one byte missing", byte::missing),
 ];
 
 /// Bytes as the parts of a frame with a CRC.
