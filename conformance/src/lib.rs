@@ -11,6 +11,7 @@ pub mod adapter;
 pub mod blackbox;
 pub mod capture;
 pub mod compose;
+pub mod device;
 pub mod explain;
 pub mod input;
 pub mod legible;

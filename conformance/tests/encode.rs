@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
 use actucheck::compose::{ComposeError, Composed, Phrase, Word, compose};
+use actucheck::device::Tables;
 use actucheck_spec::Spec;
 use actucheck_spec::model::HexBytes;
 use actucheck_spec::wire::innfos::{Format, Operation, reference};
@@ -14,14 +15,14 @@ use serde_json::Value;
 fn composed(spec: &Spec, arguments: &str) -> Result<Composed, ComposeError> {
     let mut arguments = shlex::split(arguments).unwrap().into_iter();
     let (mut wire, mut direction) = (Wire::ALL[0], Direction::Request);
-    let (mut ids, mut device, mut actuator) = (Vec::new(), None, None);
+    let (mut ids, mut tables, mut actuator) = (Vec::new(), Tables::default(), None);
     let mut others = Vec::new();
     while let Some(argument) = arguments.next() {
         let mut value = || arguments.next().unwrap();
         match argument.as_str() {
             "--wire" => wire = value().parse().unwrap(),
             "--id" => ids = value().split(',').map(|id| id.parse().unwrap()).collect(),
-            "--device" => device = spec.device(&value()),
+            "--device" => tables = value().parse().unwrap(),
             "--actuator" => actuator = Some(value()),
             "--direction" => {
                 direction = Direction::ALL[usize::from(value() == Direction::ALL[1].to_string())];
@@ -31,7 +32,8 @@ fn composed(spec: &Spec, arguments: &str) -> Result<Composed, ComposeError> {
     }
     let words: Vec<Word> = others[1..].iter().map(|word| word.parse().unwrap()).collect();
     let (verb, actuator) = (others[0].as_str(), actuator.as_deref());
-    compose(spec, wire, &Phrase { verb, direction, ids: &ids, device, actuator, words: &words })
+    let (ids, words, tables) = (&ids, &words, &tables);
+    compose(spec, wire, &Phrase { verb, direction, ids, tables, actuator, words })
 }
 
 /// The bytes of a packet that the spec allows.
@@ -244,6 +246,9 @@ fn what_makes_no_packet_says_why() {
         ("ping --id 1 --actuator dd-6010", "for another wire"),
         ("ping --id 1 --direction reply", "for another wire"),
         ("ping --id 1 --device ja40 goal-position", "is about no registers"),
+        ("bulk-read --device 1=ja40,2=xm430-w210 --id 1,2 goal-position", "of different kinds"),
+        ("read --device 2=ja40 --id 1 goal-position", "for a register add --device"),
+        ("read --device none --id 1 goal-position", "for a register add --device"),
         ("clear --id 1 key=44584C22", "add option"),
         ("0x9A --id 1 data=00", "give `params=HEX` alone"),
         ("read --id 1 params=00 address=1", "no other word"),
@@ -292,7 +297,7 @@ fn wrong_usage_is_one_sentence() {
         ("ping --id 1 --flip 10.0", "there is no byte 10: the packet has 10 bytes"),
         ("ping --id 1 --flip 1.8", "a bit is written as BYTE.BIT"),
         ("--wire innfos read --id 6 position --no-stuffing", "no byte stuffing"),
-        ("ping --id 1 --device ja41", "no device `ja41`; there are ja-variant, ja40"),
+        ("ping --id 1 --device ja41", "no device is called `ja41`; did you mean `ja40`?"),
     ] {
         let (status, stdout, stderr) = encode(words);
         assert_eq!((status, stdout.as_slice()), (2, &b""[..]), "{words}");

@@ -10,6 +10,9 @@ pub struct Device {
     pub name: &'static str,
     /// The model number that Ping returns, if the document states it.
     pub model_number: Option<u16>,
+    /// Whether the control table has every register. A table that has not tells nothing about other
+    /// addresses.
+    pub complete: bool,
     /// The instructions that it supports.
     pub instructions: &'static [Instruction],
     /// Address of the register that keeps the EEPROM area read-only while it is not 0.

@@ -12,14 +12,13 @@ use std::process::ExitCode;
 
 use actucheck::adapter::Wire;
 use actucheck::capture::{Form, Piece};
+use actucheck::device::Tables;
 use actucheck::explain::stream::{Event, Follower, Summary, wire_of};
-use actucheck::explain::{Asked, DEVICES, Warning};
-use actucheck_codec::ja40;
-use actucheck_codec::register::Device;
+use actucheck::explain::{Asked, Warning};
 use actucheck_spec::wire::{Context, Direction, Fast};
 use clap::Args;
 
-use super::shared::{self, Failure, one_of, wire};
+use super::shared::{self, DeviceOption, Failure, one_of, wire};
 use fitted::Fitted;
 use input::Input;
 use sink::{Lines, Sink, Told};
@@ -29,10 +28,13 @@ const EXAMPLES: &str = "\
 Examples:
   actucheck decode ff fffd 00 01 0300 01 194e
   actucheck decode --json 'FF FF FD 00 01 09 00 03 34 02 D0 07 00 00 1E C9'
-  actucheck decode --address 580 fffffd00010800550 0946c0000f5af
+  actucheck decode --device ja40 --address 580 fffffd00010800550 0946c0000f5af
       a status packet, whose data was read at address 580
   actucheck decode --fast 4:1,2 fffffd00fe11005500 01d0070000 0c83 00 02 09000000 1140
       the packet that answers a Fast Sync Read of 4 bytes from devices 1 and 2
+  actucheck decode --device 1=ja40,2=my-servo.yaml bus.log
+      registers have the names of these control tables; without --device, of the model that a
+      device answers to Ping
   actucheck decode --wire innfos --direction request ee 06 0a 00 04 01 00 00 00 01 d8 ed
   actucheck decode '[255, 255, 253, 0, 1, 3, 0, 1, 25, 78]'
   actucheck decode --show lines bus.log
@@ -72,9 +74,8 @@ pub(crate) struct Decode {
     /// The direction of bytes whose direction is not in the input
     #[arg(long, alias = "kind", value_parser = one_of(DIRECTIONS))]
     direction: Option<Direction>,
-    /// The device whose registers are meant; of a single packet, ja40 if not told
-    #[arg(long, value_name = "DEVICE", value_parser = one_of(DEVICES.map(|device| (device, device.id, device.name))))]
-    device: Option<&'static Device>,
+    #[command(flatten)]
+    device: DeviceOption,
     /// The address at which a status packet's data was read
     #[arg(long, value_name = "ADDRESS")]
     address: Option<u16>,
@@ -113,15 +114,16 @@ impl Show {
 
 /// Explains one packet or a stream.
 pub(crate) fn run(options: &Decode) -> Result<ExitCode, Failure> {
+    let tables = options.device.tables()?;
     let input = Input::open(&options.bytes, options.input)?;
     let wire = options.wire.unwrap_or_else(|| {
         let pieces = input.beginning.iter();
         let direction = |piece: &Piece| piece.direction.or(options.direction);
         wire_of(&pieces.map(|piece| (piece.bytes.clone(), direction(piece))).collect::<Vec<_>>())
     });
-    match single(options, wire, &input) {
-        Some(single) => packet(options, wire, single, &input),
-        None => stream(options, wire, input),
+    match single(options, wire, &tables, &input) {
+        Some(single) => packet(options, wire, single, &tables, &input),
+        None => stream(options, wire, tables, input),
     }
 }
 
@@ -132,7 +134,7 @@ struct Single {
 }
 
 /// What is known about the one packet that the input is to be read as; `None` if it is a stream.
-fn single(options: &Decode, wire: Wire, input: &Input) -> Option<Single> {
+fn single(options: &Decode, wire: Wire, tables: &Tables, input: &Input) -> Option<Single> {
     let told = options.direction;
     let context = Context { fast: options.fast.clone(), direction: told };
     let mut single = Single { context, warnings: Vec::new() };
@@ -140,7 +142,7 @@ fn single(options: &Decode, wire: Wire, input: &Input) -> Option<Single> {
     if !asked && (!input.whole || input.named || options.show.is_some()) {
         return None;
     }
-    let Some(mut follower) = Follower::new(wire, options.device) else { return Some(single) };
+    let Some(mut follower) = Follower::new(wire, tables.clone()) else { return Some(single) };
     let (mut events, mut packets) = (0, 0);
     let mut take = |event: Event<'_>| {
         events += 1;
@@ -166,12 +168,12 @@ fn packet(
     options: &Decode,
     wire: Wire,
     single: Single,
+    tables: &Tables,
     input: &Input,
 ) -> Result<ExitCode, Failure> {
     let Single { context, warnings } = single;
     let bytes: Vec<u8> = input.beginning.iter().flat_map(|piece| &piece.bytes).copied().collect();
-    let device = options.device.or(Some(&ja40::DEVICE));
-    let asked = Asked { bytes: &bytes, context, device, address: options.address };
+    let asked = Asked { bytes: &bytes, context, tables, address: options.address };
     let (text, valid) = packet::text(wire, &asked, &warnings, options.json)?;
     if input.form != Form::Hex {
         anstream::eprintln!("read as {}", input.form);
@@ -181,8 +183,8 @@ fn packet(
     Ok(if failed { ExitCode::from(Failure::FAILED) } else { ExitCode::SUCCESS })
 }
 
-fn stream(options: &Decode, wire: Wire, input: Input) -> Result<ExitCode, Failure> {
-    let mut follower = Follower::new(wire, options.device)
+fn stream(options: &Decode, wire: Wire, tables: Tables, input: Input) -> Result<ExitCode, Failure> {
+    let mut follower = Follower::new(wire, tables)
         .ok_or_else(|| Failure::usage(format!("streams of {wire} are not followed")))?;
     let out = BufWriter::new(anstream::stdout().lock());
     let show = options.show.unwrap_or(Show::Fields);

@@ -7,12 +7,10 @@ use actucheck::adapter::Wire;
 use actucheck::compose::damage::{Bit, Damage};
 use actucheck::compose::notation::Notation;
 use actucheck::compose::{Composed, Encoded, Phrase, Word, compose};
-use actucheck_spec::Spec;
-use actucheck_spec::model::Device;
 use actucheck_spec::wire::{Direction, Packet};
 use clap::Args;
 
-use super::shared::{self, Failure, one_of, wire};
+use super::shared::{self, DeviceOption, Failure, one_of, wire};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -47,9 +45,8 @@ pub(crate) struct Encode {
     /// The ID or address of the device, or of all devices in the packet
     #[arg(long = "id", value_name = "ID", value_delimiter = ',')]
     ids: Vec<u8>,
-    /// The device whose registers are named
-    #[arg(long, value_name = "DEVICE")]
-    device: Option<String>,
+    #[command(flatten)]
+    device: DeviceOption,
     /// The model of the actuator, whose full scale a value is a fraction of
     #[arg(long, value_name = "MODEL")]
     actuator: Option<String>,
@@ -105,12 +102,13 @@ const FORMS: [(Form, &str, &str); 5] = [
 
 /// Builds the packet and writes it.
 pub(crate) fn run(options: &Encode) -> Result<ExitCode, Failure> {
+    let tables = options.device.tables()?;
     let spec = shared::spec()?;
     let phrase = Phrase {
         verb: &options.verb,
         direction: options.direction,
         ids: &options.ids,
-        device: options.device.as_ref().map(|id| device(&spec, id)).transpose()?,
+        tables: &tables,
         actuator: options.actuator.as_deref(),
         words: &options.words,
     };
@@ -136,13 +134,6 @@ pub(crate) fn run(options: &Encode) -> Result<ExitCode, Failure> {
     };
     shared::seen("the packet", written.and_then(|()| out.flush()))?;
     Ok(ExitCode::SUCCESS)
-}
-
-fn device<'s>(spec: &'s Spec, id: &str) -> Result<&'s Device, Failure> {
-    spec.device(id).ok_or_else(|| {
-        let known: Vec<_> = spec.devices.iter().map(|file| file.content.device.as_str()).collect();
-        Failure::usage(format!("no device `{id}`; there are {}", known.join(", ")))
-    })
 }
 
 fn damaged(options: &Encode, composed: &Composed) -> Result<Vec<u8>, Failure> {

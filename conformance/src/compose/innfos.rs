@@ -25,7 +25,7 @@ const FLAGS: [(&str, &str); 8] = [
 
 pub(super) fn compose(spec: &Spec, phrase: &Phrase<'_>) -> Result<Composed, ComposeError> {
     let innfos = &spec.wires.innfos.content;
-    if phrase.device.is_some() {
+    if !phrase.tables.is_empty() {
         let message = "--device is for another wire; take it away";
         return Err(ComposeError::Misplaced(message.to_owned()));
     }

@@ -10,6 +10,8 @@ pub mod notation;
 mod number;
 mod word;
 
+use std::collections::BTreeSet;
+
 use actucheck_spec::Spec;
 use actucheck_spec::model::{Device, HexBytes};
 use actucheck_spec::schema::of_written;
@@ -18,6 +20,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use thiserror::Error;
 
+use crate::device::Tables;
 use crate::legible::legible;
 use crate::names::{as_word, similar};
 
@@ -32,8 +35,8 @@ pub struct Phrase<'a> {
     pub direction: Direction,
     /// The IDs of the devices.
     pub ids: &'a [u8],
-    /// The device whose registers are named, if any.
-    pub device: Option<&'a Device>,
+    /// The control tables of the devices whose registers are named.
+    pub tables: &'a Tables,
     /// The model of the actuator, if a value is a fraction of its full scale.
     pub actuator: Option<&'a str>,
     /// Registers, fields and values.
@@ -107,6 +110,21 @@ impl Encoded {
 #[must_use]
 pub fn schema() -> (&'static str, String) {
     ("encoded", of_written::<Encoded>())
+}
+
+impl Phrase<'_> {
+    /// The control tables of the packet's devices, each once; `None` is one that is not known.
+    fn devices<'s>(&self, spec: &'s Spec) -> Vec<Option<&'s Device>> {
+        let of_words = self.words.iter().filter_map(|word| word.id);
+        let mut ids: Vec<_> = self.ids.iter().copied().chain(of_words).collect();
+        if ids.is_empty() {
+            ids.push(u8::MAX); // no device has it, so it has the table of all others
+        }
+        let mut devices: Vec<_> = ids.iter().map(|id| self.tables.written(*id, spec)).collect();
+        let mut seen = BTreeSet::new();
+        devices.retain(|device| seen.insert(device.map(|device| &device.device)));
+        devices
+    }
 }
 
 type Compose = fn(&Spec, &Phrase<'_>) -> Result<Composed, ComposeError>;

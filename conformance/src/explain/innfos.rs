@@ -6,7 +6,6 @@ mod split;
 mod warnings;
 
 use actucheck_codec::innfos::{self, Frame, FrameError, Message, MessageError, Value};
-use actucheck_codec::register::Device;
 use actucheck_spec::wire::Direction;
 use actucheck_spec::wire::innfos::Packet;
 use actucheck_spec::wire::innfos::reference::encode;
@@ -14,6 +13,7 @@ use actucheck_spec::wire::innfos::reference::encode;
 use super::stream::{Converse, Split};
 use super::table::{Explanation, Table, rounded};
 use super::{Asked, Invalid};
+use crate::device::Tables;
 
 pub(super) use mistakes::MISTAKES;
 
@@ -47,7 +47,7 @@ pub(super) fn mended(bytes: &[u8], direction: Option<Direction>) -> Option<Vec<u
 }
 
 /// Finds frames in a stream, and follows who asks and who answers.
-pub(super) fn listen(_: Option<&'static Device>) -> (Box<dyn Split>, Box<dyn Converse>) {
+pub(super) fn listen(_: Tables) -> (Box<dyn Split>, Box<dyn Converse>) {
     (Box::new(split::Frames::default()), Box::new(converse::Talk::default()))
 }
 

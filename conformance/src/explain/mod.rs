@@ -11,13 +11,12 @@ mod warning;
 
 use std::fmt;
 
-use actucheck_codec::register::Device;
-use actucheck_codec::{ja_variant, ja40, xm430_w210};
 use actucheck_spec::wire::{self, Context, Direction, Wire};
 
 use self::mistake::Mistake;
 use self::stream::Listen;
 use self::table::Table;
+use crate::device::Tables;
 
 pub use self::table::{Explanation, Row};
 pub use self::warning::Warning;
@@ -29,8 +28,8 @@ pub struct Asked<'a> {
     pub bytes: &'a [u8],
     /// What a reader has to know beside the bytes.
     pub context: Context,
-    /// The device whose registers are meant, if it is known.
-    pub device: Option<&'a Device>,
+    /// The control tables of the devices, where they are known.
+    pub tables: &'a Tables,
     /// The address at which the data of an answer was read, if known.
     pub address: Option<u16>,
 }
@@ -82,15 +81,6 @@ impl Own {
     fn of(wire: Wire) -> Option<Self> {
         WIRES.into_iter().find(|own| own.wire == wire)
     }
-}
-
-/// The devices whose registers have names here.
-pub const DEVICES: [&Device; 3] = [&ja40::DEVICE, &ja_variant::DEVICE, &xm430_w210::DEVICE];
-
-/// The device with a model number.
-#[must_use]
-pub fn device_of(model: u16) -> Option<&'static Device> {
-    DEVICES.into_iter().find(|device| device.model_number == Some(model))
 }
 
 /// Explains a whole frame.

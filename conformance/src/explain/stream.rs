@@ -9,13 +9,13 @@ mod summary;
 use std::collections::VecDeque;
 use std::time::Duration;
 
-use actucheck_codec::register::Device;
 use actucheck_spec::wire::{Context, Direction, Wire};
 
 pub use summary::{Answers, Summary};
 
 use super::mistake::{self, Fit};
 use super::{Asked, Own, Row, WIRES, Warning, damaged};
+use crate::device::Tables;
 
 /// The next bytes of a stream.
 pub(super) enum Cut<'a> {
@@ -51,7 +51,7 @@ pub(super) trait Converse {
 }
 
 /// What a wire has for streams.
-pub(super) type Listen = fn(Option<&'static Device>) -> (Box<dyn Split>, Box<dyn Converse>);
+pub(super) type Listen = fn(Tables) -> (Box<dyn Split>, Box<dyn Converse>);
 
 /// Where bytes of a stream are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -86,8 +86,8 @@ pub struct Turn {
     pub role: Role,
     /// The device that it is for or from; `None` if that is no single one.
     pub device: Option<u8>,
-    /// The device's control table, if it is known.
-    pub table: Option<&'static Device>,
+    /// The control tables of all devices, where they are known.
+    pub tables: Tables,
     /// The device's model number, if this frame tells it.
     pub model: Option<u16>,
     /// What reading it takes beside its bytes.
@@ -169,8 +169,8 @@ impl Skipped<'_> {
     /// Their fields as far as they can be read, if they begin like a packet.
     #[must_use]
     pub fn fields(&self, wire: Wire) -> Vec<Row> {
-        let context = self.context();
-        damaged(wire, &Asked { bytes: self.bytes, context, device: None, address: None })
+        let (context, tables) = (self.context(), &Tables::default());
+        damaged(wire, &Asked { bytes: self.bytes, context, tables, address: None })
     }
 
     /// The mistakes that explain them, the likeliest first.
@@ -202,11 +202,11 @@ struct Parts {
 }
 
 impl Follower {
-    /// Follows a wire. `table` is the control table of all devices, if that is known. `None` for a
-    /// wire whose streams are not followed.
+    /// Follows a wire, with the control tables that are known before. `None` for a wire whose streams
+    /// are not followed.
     #[must_use]
-    pub fn new(wire: Wire, table: Option<&'static Device>) -> Option<Self> {
-        let (split, converse) = (Own::of(wire)?.listen)(table);
+    pub fn new(wire: Wire, tables: Tables) -> Option<Self> {
+        let (split, converse) = (Own::of(wire)?.listen)(tables);
         let parts = Parts { converse, at: 0, fed: 0, pieces: VecDeque::new() };
         Some(Self { parts, split, direction: None })
     }
@@ -322,7 +322,7 @@ pub(crate) fn has_frame(bytes: &[u8]) -> bool {
 
 /// How many bytes are in frames.
 fn framed(listen: Listen, pieces: &[(Vec<u8>, Option<Direction>)]) -> u64 {
-    let (mut split, _) = listen(None);
+    let (mut split, _) = listen(Tables::default());
     let mut bytes = 0_u64;
     let mut count = |cut: Cut<'_>| {
         if let Cut::Frame(frame, _) = cut {
@@ -342,7 +342,8 @@ mod tests {
 
     #[test]
     fn long_noise_in_many_lines_is_not_remembered_line_by_line() {
-        let mut follower = Follower::new(Wire::default(), None).expect("the default is followed");
+        let mut follower =
+            Follower::new(Wire::default(), Tables::default()).expect("the default is followed");
         for line in 1..=400_000 {
             follower.feed(&[0], None, Some(line), None, &mut |_| {});
         }

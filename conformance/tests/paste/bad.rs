@@ -3,7 +3,7 @@
 use std::io::{BufRead, BufReader, Read as _, repeat};
 
 use actucheck::capture::{self, Form, Unreadable};
-use actucheck::explain::DEVICES;
+use actucheck::device::{KNOWN, Tables};
 use actucheck::explain::stream::{Event, Follower, wire_of};
 use actucheck_codec::dynamixel2::{Instruction, frame};
 use actucheck_spec::wire::Wire;
@@ -47,7 +47,7 @@ fn a_row_without_end_is_refused() {
 fn take(input: &[u8], form: Option<Form>) -> Result<(), Unreadable> {
     let reading = capture::open(std::io::Cursor::new(input.to_vec()), form)?;
     let mut followers: Vec<_> =
-        Wire::ALL.into_iter().filter_map(|wire| Follower::new(wire, None)).collect();
+        Wire::ALL.into_iter().filter_map(|wire| Follower::new(wire, Tables::default())).collect();
     for piece in reading.pieces {
         let piece = piece?;
         let _ = wire_of(&[(piece.bytes.clone(), piece.direction)]);
@@ -91,8 +91,8 @@ proptest! {
     fn any_packets_are_judged(
         packets in prop::collection::vec((any::<u8>(), 0..8_u8, 0..900_u16, prop::collection::vec(any::<u8>(), 0..9)), 1..20),
     ) {
-        for table in DEVICES.into_iter().map(Some).chain([None]) {
-            let mut follower = Follower::new(Wire::default(), table).unwrap();
+        for tables in KNOWN.map(Tables::from).into_iter().chain([Tables::default()]) {
+            let mut follower = Follower::new(Wire::default(), tables).unwrap();
             for (code, id, address, data) in &packets {
                 // Half of them read or write, and half of them answer.
                 let code = match code { 0..64 => 2, 64..128 => 3, 128..192 => 0x55, code => *code };

@@ -1,6 +1,6 @@
 //! What a document prints is not warned of, not even where an erratum is about it.
 
-use actucheck::explain::DEVICES;
+use actucheck::device::{KNOWN, Tables};
 use actucheck::explain::stream::{Event, Follower};
 use actucheck_spec::Spec;
 use actucheck_spec::model::Outcome;
@@ -11,13 +11,13 @@ fn test_vectors_have_no_warning() {
     let spec = Spec::embedded().unwrap();
     let (mut found, mut packets) = (Vec::new(), 0);
     for (file, vector) in spec.vectors().filter(|(_, row)| row.result == Outcome::Valid) {
-        let of_document = DEVICES.into_iter().find(|device| {
+        let of_document = KNOWN.into_iter().find(|device| {
             let sources = spec.device(device.id).map(|device| &device.source);
             sources.into_iter().flatten().any(|place| place.document == file.source.document)
         });
         let direction = vector.packet.as_ref().map(Packet::direction);
-        for table in [None, of_document] {
-            let mut follower = Follower::new(file.wire, table).unwrap();
+        for tables in [Tables::default(), of_document.map(Tables::from).unwrap_or_default()] {
+            let mut follower = Follower::new(file.wire, tables).unwrap();
             let mut take = |event: Event<'_>| {
                 let Event::Packet(_, turn) = event else { return };
                 packets += 1;

@@ -18,6 +18,7 @@ pub(super) fn module(spec: &Spec, device: &Device, codec: &TokenStream) -> Token
     let doc = format!(" The {} control table: {}.", device.title, places(&device.source));
     let (id, title) = (&device.device, &device.title);
     let model_number = option(device.model_number.map(|number| quote!(#number)));
+    let complete = device.complete;
     let instructions = device.instructions.iter().map(|name| type_name(name));
     let lock = option(device.eeprom_lock.as_ref().and_then(|name| {
         let address = device.register(name)?.address;
@@ -49,6 +50,7 @@ pub(super) fn module(spec: &Spec, device: &Device, codec: &TokenStream) -> Token
                 id: #id,
                 name: #title,
                 model_number: #model_number,
+                complete: #complete,
                 instructions: &[#(Instruction::#instructions),*],
                 eeprom_lock: #lock,
                 registers: &[#(#names.row),*],

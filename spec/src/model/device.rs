@@ -18,6 +18,10 @@ pub struct Device {
     pub source: Vec<Citation>,
     /// The model number that Ping returns; absent if the document states none.
     pub model_number: Option<u16>,
+    /// Whether the control table has every register. A table that has not tells nothing about other
+    /// addresses.
+    #[serde(default)]
+    pub complete: bool,
     /// Ids of the errata that it depends on.
     #[serde(default)]
     pub errata: Vec<String>,

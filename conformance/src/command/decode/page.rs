@@ -121,6 +121,7 @@ fn style(field: &str) -> Style {
 #[cfg(test)]
 mod tests {
     use actucheck::adapter::Wire;
+    use actucheck::device::Tables;
     use actucheck::explain::{Asked, explain};
     use actucheck_codec::ja40;
     use actucheck_spec::wire::Context;
@@ -135,7 +136,7 @@ mod tests {
         let asked = Asked {
             bytes: &STUFFED,
             context: Context::default(),
-            device: Some(&ja40::DEVICE),
+            tables: &Tables::from(&ja40::DEVICE),
             address: None,
         };
         let rows = explain(Wire::default(), &asked).unwrap().rows;

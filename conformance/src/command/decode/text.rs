@@ -6,9 +6,10 @@ use std::time::Duration;
 
 use actucheck::adapter::Wire;
 use actucheck::capture::Form;
+use actucheck::device::of_model;
 use actucheck::explain::diff::spaced;
 use actucheck::explain::stream::{Event, Heard, Place, Role, Silent, Skipped, Summary, Turn};
-use actucheck::explain::{Asked, Explanation, device_of, explain};
+use actucheck::explain::{Asked, Explanation, explain};
 use actucheck::legible::legible;
 
 use super::super::shared::table::{BOLD, DIM};
@@ -97,8 +98,8 @@ impl<W: Write> Sink for Text<W> {
 
 impl<W: Write> Text<W> {
     fn packet(&mut self, heard: &Heard<'_>, turn: &Turn) -> io::Result<()> {
-        let (context, device, address) = (turn.context.clone(), turn.table, turn.address);
-        let asked = Asked { bytes: heard.bytes, context, device, address };
+        let (context, tables, address) = (turn.context.clone(), &turn.tables, turn.address);
+        let asked = Asked { bytes: heard.bytes, context, tables, address };
         let explanation = explain(self.wire, &asked);
         let title = explanation.as_ref().map_or(turn.kind, |explanation| &explanation.title);
         let place = self.place(&heard.place);
@@ -179,7 +180,7 @@ fn role(role: Role) -> String {
 
 fn device(id: u8, model: Option<u16>) -> String {
     let Some(model) = model else { return id.to_string() };
-    match device_of(model) {
+    match of_model(model) {
         Some(device) => format!("{id} ({})", device.name),
         None => format!("{id} (model {model})"),
     }

@@ -1,6 +1,7 @@
 //! What several subcommands have in common: groups of options, and where their output goes.
 
 mod begun;
+mod device;
 mod failure;
 mod look;
 mod outputs;
@@ -18,6 +19,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use actucheck_spec::Spec;
 
 pub(crate) use begun::{command_line, date};
+pub(crate) use device::DeviceOption;
 pub(crate) use failure::Failure;
 pub(crate) use look::{Look, next, terminal_width};
 pub(crate) use outputs::{Outputs, Reports, both};

@@ -38,10 +38,21 @@ impl<'a> Part<'a> {
         }
         let (fields, others): (Vec<_>, Vec<_>) =
             words().partition(|word| fields.contains(&as_word(&word.name).as_str()));
-        let span = match (others.as_slice(), phrase.device) {
+        let devices = match id {
+            Some(id) => vec![phrase.tables.written(id, spec)],
+            None => phrase.devices(spec),
+        };
+        let span = match (others.as_slice(), devices.as_slice()) {
             ([], _) => None,
-            (others, Some(device)) => Some(span(device, others)?),
-            ([word, ..], None) => {
+            (others, [Some(device)]) => Some(span(device, others)?),
+            ([word, ..], [_, _, ..]) => {
+                let message = format!(
+                    "`{0}` is for devices of different kinds; say it for each, ID:{0}",
+                    word.name
+                );
+                return Err(ComposeError::Misplaced(message));
+            }
+            ([word, ..], _) => {
                 let devices = spec.devices.iter().map(|file| file.content.device.as_str());
                 let devices: Vec<_> = devices.collect();
                 let message = format!(

@@ -32,9 +32,7 @@ pub(super) fn compose(spec: &Spec, phrase: &Phrase<'_>) -> Result<Composed, Comp
         "fast-status" => fast_status(spec, wire, phrase, &mut refused)?,
         _ => instruction(spec, wire, phrase, &mut refused)?,
     };
-    if let Some(device) = phrase.device {
-        refused.extend(register::problems(spec, device, &packet));
-    }
+    refused.extend(register::problems(spec, phrase, &packet));
     frame(packet, refused)
 }
 
@@ -49,10 +47,10 @@ fn instruction(
     let name = row.map_or(phrase.verb, |row| &row.name);
     if row.is_none() {
         refused.push(format!("the documents have no instruction 0x{code:02X}"));
-    } else if let Some(device) = phrase.device
-        && !device.instructions.iter().any(|known| known == name)
-    {
-        refused.push(format!("{} has no instruction {name}", device.title));
+    } else {
+        let devices = phrase.devices(spec).into_iter().flatten();
+        let without = devices.filter(|device| !device.instructions.iter().any(|it| it == name));
+        refused.extend(without.map(|it| format!("{} has no instruction {name}", it.title)));
     }
     let is_raw = |word: &Word| word.name == "params" && word.id.is_none();
     let params = match (phrase.words, row) {

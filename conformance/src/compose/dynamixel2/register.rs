@@ -7,7 +7,7 @@ use actucheck_spec::Spec;
 use actucheck_spec::model::{Access, Bound, Device, Register};
 use actucheck_spec::wire::dynamixel2::{Packet, reference};
 
-use super::super::{ComposeError, Word, as_word, named, no_value, number, unknown};
+use super::super::{ComposeError, Phrase, Word, as_word, named, no_value, number, unknown};
 
 /// Registers next to each other.
 #[derive(Clone, Debug)]
@@ -114,14 +114,19 @@ fn flags(register: &Register, text: &str) -> Result<i64, ComposeError> {
     Ok(value)
 }
 
-/// Why the spec refuses what an instruction does with the registers of a device, each reason once.
-pub(super) fn problems(spec: &Spec, device: &Device, packet: &Packet) -> BTreeSet<String> {
+/// Why the spec refuses what an instruction does with the registers of devices, each reason once.
+pub(super) fn problems(spec: &Spec, phrase: &Phrase<'_>, packet: &Packet) -> BTreeSet<String> {
     let call = reference::call(packet);
-    let own = (call.address, call.length, &call.data);
-    let each = call.devices.iter().flatten();
-    let each = each.map(|it| (it.address.or(call.address), it.length.or(call.length), &it.data));
+    let of = |id: &u8| phrase.tables.written(*id, spec);
+    let all = phrase.devices(spec).into_iter().chain(call.ids.iter().flatten().map(of));
+    let own = all.map(|device| (device, call.address, call.length, &call.data));
+    let each =
+        call.devices.iter().flatten().map(|it| {
+            (of(&it.id), it.address.or(call.address), it.length.or(call.length), &it.data)
+        });
     let mut reasons = BTreeSet::new();
-    for (address, length, data) in [own].into_iter().chain(each) {
+    for (device, address, length, data) in own.chain(each) {
+        let Some(device) = device else { continue };
         let size = data.as_ref().map_or(usize::from(length.unwrap_or(0)), |data| data.len());
         if let Some(address) = address {
             let from = usize::from(address);

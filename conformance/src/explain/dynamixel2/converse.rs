@@ -8,10 +8,8 @@ use actucheck_codec::crc;
 use actucheck_codec::dynamixel2::{
     BROADCAST_ID, FastStatus, Frame, FrameError, Instruction, Request, StatusError,
 };
-use actucheck_codec::register::Device;
 use actucheck_spec::wire::{Direction, Fast};
 
-use super::super::device_of;
 use super::super::diff::spaced;
 use super::super::stream::{Converse, Heard, Role, Silent, Turn};
 use super::extension::{self, FAST_BULK_READ};
@@ -19,16 +17,14 @@ use super::held::Held;
 use super::warnings::Question;
 use super::words::{error_words, whom};
 use super::{PREFIX, warnings};
+use crate::device::{Tables, of_model};
 
 /// Bytes of a block of a fast status packet beside its data: error, ID and CRC.
 const BLOCK: usize = 4;
 
 /// Follows the conversation of a host with its devices.
 pub(super) struct Talk {
-    /// The control table of all devices, if the user names it.
-    table: Option<&'static Device>,
-    /// The model numbers that devices answered to Ping.
-    models: [Option<u16>; 256],
+    tables: Tables,
     ask: Option<Ask>,
     /// Whether any device has answered.
     answered: bool,
@@ -65,27 +61,16 @@ impl Asked {
 }
 
 impl Talk {
-    pub(super) fn new(table: Option<&'static Device>) -> Self {
-        Self {
-            table,
-            models: [None; 256],
-            ask: None,
-            answered: false,
-            held: Held::default(),
-            scratch: Vec::new(),
-        }
-    }
-
-    fn table(&self, id: u8) -> Option<&'static Device> {
-        let model = self.models.get(usize::from(id)).copied().flatten();
-        self.table.or_else(|| model.and_then(device_of))
+    pub(super) fn new(tables: Tables) -> Self {
+        let (held, scratch) = (Held::default(), Vec::new());
+        Self { tables, ask: None, answered: false, held, scratch }
     }
 
     fn request(&mut self, heard: &Heard<'_>, frame: &Frame<'_>) -> Turn {
         let instruction = frame.instruction();
         let kind = extension::name(instruction);
         let device = Some(frame.id()).filter(|id| *id != BROADCAST_ID);
-        let turn = Turn { kind, device, table: self.table(frame.id()), ..Turn::default() };
+        let turn = Turn { kind, device, tables: self.tables.clone(), ..Turn::default() };
         if let Some(ask) = &mut self.ask
             && !ask.followed
             && ask.bytes == heard.bytes
@@ -106,7 +91,7 @@ impl Talk {
             scratch.resize(frame.params_len(), 0);
         }
         let request = Request::parse(frame, &mut scratch);
-        let table = |id| self.table(id);
+        let table = |id| self.tables.of(id);
         let warnings = warnings::request(frame, &request, &table, &held);
         if let Ok(request) = &request {
             held.request(frame.id(), request, table);
@@ -185,10 +170,11 @@ impl Talk {
         let (kind, id) = (Instruction::Status.name(), frame.id());
         // The first parameter is the error.
         let size = frame.params_len().saturating_sub(1);
-        let table = self.table(id);
+        let table = self.tables.of(id);
+        let tables = self.tables.clone();
         let error = frame.error().unwrap_or_default();
         let warnings = warnings::error(error, table);
-        let mut turn = Turn { kind, device: Some(id), table, warnings, ..Turn::default() };
+        let mut turn = Turn { kind, device: Some(id), tables, warnings, ..Turn::default() };
         let Some(ask) = &mut self.ask else { return unasked(turn, frame) };
         let everyone = ask.devices.is_empty();
         let place = ask.devices.iter().position(|asked| asked.id == id && !asked.answered);
@@ -223,11 +209,9 @@ impl Talk {
         if ask.instruction == Instruction::Ping
             && let Some((model, firmware)) = ping(frame)
         {
-            if let Some(slot) = self.models.get_mut(usize::from(id)) {
-                *slot = Some(model);
-            }
+            self.tables.learn(id, model);
             turn.model = Some(model);
-            turn.table = self.table(id);
+            turn.tables = self.tables.clone();
             turn.notes.push(ping_words(model, firmware));
         }
         turn
@@ -237,7 +221,7 @@ impl Talk {
     fn fast_status(&mut self, heard: &Heard<'_>) -> Turn {
         self.answered = true;
         let kind = "Fast Status";
-        let mut turn = Turn { kind, table: self.table, ..Turn::default() };
+        let mut turn = Turn { kind, tables: self.tables.clone(), ..Turn::default() };
         let is_asked = |ask: &&mut Ask| ask.fast.is_some() || ask.instruction == FAST_BULK_READ;
         let Some(ask) = self.ask.as_mut().filter(is_asked) else {
             turn.role = Role::Unasked;
@@ -266,8 +250,9 @@ impl Talk {
         };
         match FastStatus::parse(heard.bytes, length, &fast.ids) {
             Ok(packet) => {
-                let errors =
-                    packet.blocks().flat_map(|block| warnings::error(block.error, turn.table));
+                let errors = packet
+                    .blocks()
+                    .flat_map(|block| warnings::error(block.error, turn.tables.of(block.id)));
                 turn.warnings.extend(errors);
                 ask.mark(&fast.ids);
                 turn.context.fast = Some(Fast { length, ids: fast.ids });
@@ -276,7 +261,8 @@ impl Talk {
                 ask.mark(&ids(&whole_blocks(heard.bytes, repeat(length))));
                 turn.notes.push(error.to_string());
                 if matches!(error, FrameError::BlockId { .. }) {
-                    turn.warnings.extend(warnings::order(ask.instruction, turn.table));
+                    let table = fast.ids.first().and_then(|id| turn.tables.of(*id));
+                    turn.warnings.extend(warnings::order(ask.instruction, table));
                 }
             }
         }
@@ -360,7 +346,7 @@ fn ping(frame: &Frame<'_>) -> Option<(u16, u8)> {
 }
 
 fn ping_words(model: u16, firmware: u8) -> String {
-    let name = device_of(model).map(|device| format!(" ({})", device.name)).unwrap_or_default();
+    let name = of_model(model).map(|device| format!(" ({})", device.name)).unwrap_or_default();
     format!("model {model}{name}, firmware {firmware}")
 }
 

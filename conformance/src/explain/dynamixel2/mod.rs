@@ -1,5 +1,6 @@
 //! One frame of DYNAMIXEL Protocol 2.0, field by field.
 
+mod address;
 mod body;
 mod converse;
 mod extension;
@@ -19,6 +20,8 @@ use actucheck_spec::wire::{Direction, Fast};
 use super::stream::{Converse, Split};
 use super::table::{Explanation, Table, low_first};
 use super::{Asked, Invalid};
+use crate::device::Tables;
+use address::address_words;
 use body::WireBody;
 pub(super) use mistakes::MISTAKES;
 use words::{error_words, numbers, value_words, whom};
@@ -29,8 +32,8 @@ const PREFIX: usize = 7;
 /// Explains a whole frame.
 pub(super) fn explain(asked: &Asked<'_>) -> Result<Explanation, Invalid> {
     let explanation = match &asked.context.fast {
-        Some(fast) => fast_status(asked.bytes, fast, asked.device, asked.address),
-        None => packet(asked.bytes, asked.device, asked.address),
+        Some(fast) => fast_status(asked.bytes, fast, asked.tables, asked.address),
+        None => packet(asked.bytes, asked.tables, asked.address),
     };
     explanation.map_err(|error| Invalid::new(error.offset(), &warnings::cited(error)))
 }
@@ -47,17 +50,13 @@ pub(super) fn mended(bytes: &[u8], _: Option<Direction>) -> Option<Vec<u8>> {
 }
 
 /// Finds packets in a stream, and follows who asks and who answers.
-pub(super) fn listen(table: Option<&'static Device>) -> (Box<dyn Split>, Box<dyn Converse>) {
-    (Box::new(split::Packets::new()), Box::new(converse::Talk::new(table)))
+pub(super) fn listen(tables: Tables) -> (Box<dyn Split>, Box<dyn Converse>) {
+    (Box::new(split::Packets::new()), Box::new(converse::Talk::new(tables)))
 }
 
 /// An instruction or status packet. `address` is the address at which a status packet's data was
 /// read, if known.
-fn packet(
-    bytes: &[u8],
-    device: Option<&Device>,
-    address: Option<u16>,
-) -> Result<Explanation, FrameError> {
+fn packet(bytes: &[u8], tables: &Tables, address: Option<u16>) -> Result<Explanation, FrameError> {
     let frame = Frame::parse(bytes)?;
     let mut table = Table::new(bytes);
     prefix(&mut table, frame.id());
@@ -69,10 +68,11 @@ fn packet(
     let params = body.get(1..).unwrap_or_default();
     let title = if let Some(error) = frame.error() {
         table.push(wire.place(1), wire.text(1, 2), "error", &error_words(error));
+        let device = tables.of(frame.id());
         status_data(&mut table, &wire, params.get(1..).unwrap_or_default(), device, address);
         format!("status packet of {}: {}", whom(frame.id()), error_words(error))
     } else {
-        instruction_params(&mut table, &wire, instruction, params, device);
+        instruction_params(&mut table, &wire, &frame, params, tables);
         format!("instruction packet: {} to {}", extension::name(instruction), whom(frame.id()))
     };
     crc(&mut table);
@@ -83,7 +83,7 @@ fn packet(
 fn fast_status(
     bytes: &[u8],
     fast: &Fast,
-    device: Option<&Device>,
+    tables: &Tables,
     address: Option<u16>,
 ) -> Result<Explanation, FrameError> {
     let packet = FastStatus::parse(bytes, fast.length, &fast.ids)?;
@@ -94,7 +94,7 @@ fn fast_status(
         table.take(1, "error", |_| error_words(block.error));
         table.take(1, "ID", |_| block.id.to_string());
         if !block.data.is_empty() {
-            let register = device.zip(address).and_then(|(device, address)| {
+            let register = tables.of(block.id).zip(address).and_then(|(device, address)| {
                 device.register(address).filter(|row| row.decode(block.data).is_some())
             });
             table.take(block.data.len(), "data", |bytes| {
@@ -123,10 +123,11 @@ fn crc(table: &mut Table<'_>) {
 fn instruction_params(
     table: &mut Table<'_>,
     wire: &WireBody<'_>,
-    instruction: Instruction,
+    frame: &Frame<'_>,
     params: &[u8],
-    device: Option<&Device>,
+    tables: &Tables,
 ) {
+    let instruction = frame.instruction();
     let Some(layout) = extension::parameters(instruction) else {
         if !params.is_empty() {
             let text = wire.text(1, 1 + params.len());
@@ -134,6 +135,11 @@ fn instruction_params(
         }
         return;
     };
+    // The devices that the next field is for.
+    let mut whom = listed(layout::fields(layout, params));
+    if whom.is_empty() {
+        whom.push(frame.id());
+    }
     let mut address = None;
     for item in layout::fields(layout, params) {
         match item {
@@ -141,7 +147,10 @@ fn instruction_params(
                 if item.field.name == "address" {
                     address = item.number().and_then(|number| u16::try_from(number).ok());
                 }
-                param(table, wire, &item, device, address);
+                if let Some(id) = id_of(&item) {
+                    whom = vec![id];
+                }
+                param(table, wire, &item, &whom, tables, address);
             }
             Err(error) => {
                 let (start, end) = (params.len().min(error.offset()), params.len());
@@ -153,11 +162,23 @@ fn instruction_params(
     }
 }
 
+/// The devices that an instruction lists.
+fn listed(fields: layout::Fields<'_>) -> Vec<u8> {
+    fields.filter_map(|item| id_of(&item.ok()?)).collect()
+}
+
+/// The ID of a device in a list, if the field is one.
+fn id_of(item: &Item<'_>) -> Option<u8> {
+    item.group.filter(|_| item.field.name == "id")?;
+    item.number().and_then(|number| u8::try_from(number).ok())
+}
+
 fn param(
     table: &mut Table<'_>,
     wire: &WireBody<'_>,
     item: &Item<'_>,
-    device: Option<&Device>,
+    whom: &[u8],
+    tables: &Tables,
     address: Option<u16>,
 ) {
     let start = 1 + item.offset;
@@ -166,24 +187,22 @@ fn param(
         |group| format!("device {} {}", group + 1, item.field.name),
     );
     if item.field.name == "data" {
+        let device = whom.first().and_then(|id| tables.of(*id));
         data(table, wire, start, &name, item.bytes, device, address);
     } else {
         let text = wire.text(start, start + item.bytes.len());
-        table.push(wire.place(start), text, &name, &meaning(item, device));
+        table.push(wire.place(start), text, &name, &meaning(item, whom, tables));
     }
 }
 
-fn meaning(item: &Item<'_>, device: Option<&Device>) -> String {
+fn meaning(item: &Item<'_>, whom: &[u8], tables: &Tables) -> String {
     let Some(value) = item.number() else {
         return String::new();
     };
-    if item.field.name == "address" {
-        let Some(device) = device else { return value.to_string() };
-        let register = u16::try_from(value).ok().and_then(|address| device.register(address));
-        return match register {
-            Some(register) => format!("{value} ({}, {})", register.name, device.name),
-            None => format!("{value} (no register of {} begins there)", device.name),
-        };
+    if item.field.name == "address"
+        && let Ok(address) = u16::try_from(value)
+    {
+        return address_words(address, whom, tables);
     }
     let named = |row: &&NamedValue| u64::try_from(row.value) == Ok(value);
     match item.field.values.iter().find(named) {
@@ -225,13 +244,19 @@ fn data(
         table.push(wire.place(start), text, name, &numbers(bytes));
         return;
     }
+    // What a table that has not every register does not have.
+    let unknown = |bytes: &[u8], words: &str| match device {
+        Some(device) if device.complete => words.to_owned(),
+        _ => numbers(bytes),
+    };
     let mut next = 0;
     for register in registers {
         let from = usize::from(register.address - address.unwrap_or_default());
         let to = from + usize::from(register.kind.size());
         if from > next {
             let text = wire.text(start + next, start + from);
-            table.push(wire.place(start + next), text, name, "no register");
+            let gap = bytes.get(next..from).unwrap_or_default();
+            table.push(wire.place(start + next), text, name, &unknown(gap, "no register"));
         }
         let value = bytes.get(from..to).and_then(|bytes| register.decode(bytes));
         let meaning = value.map_or_else(String::new, |value| value_words(register, value));
@@ -241,6 +266,7 @@ fn data(
     }
     if next < bytes.len() {
         let text = wire.text(start + next, start + bytes.len());
-        table.push(wire.place(start + next), text, name, "no whole register");
+        let rest = bytes.get(next..).unwrap_or_default();
+        table.push(wire.place(start + next), text, name, &unknown(rest, "no whole register"));
     }
 }

@@ -117,7 +117,7 @@ pub struct Said {
     title: Option<String>,
     /// The device that it is for or from; null if that is no single one.
     device: Option<u8>,
-    /// The device whose control table is used; null if it is not known.
+    /// The control table of that device, `none` if the user wants none; null if it is not known.
     table: Option<&'static str>,
     /// What it has to do with the packets before it.
     role: Part,
@@ -282,9 +282,9 @@ impl From<Role> for Part {
 }
 
 fn said(wire: Wire, heard: &Heard<'_>, turn: &Turn, fields: bool) -> Said {
-    let (context, device, address) = (turn.context.clone(), turn.table, turn.address);
+    let (context, tables, address) = (turn.context.clone(), &turn.tables, turn.address);
     let packet = wire.decode(heard.bytes, &context).ok();
-    let asked = Asked { bytes: heard.bytes, context, device, address };
+    let asked = Asked { bytes: heard.bytes, context, tables, address };
     let explanation = explain(wire, &asked).ok();
     let (title, rows) = explanation.map(|shown| (shown.title, shown.rows)).unzip();
     let fields =
@@ -297,7 +297,7 @@ fn said(wire: Wire, heard: &Heard<'_>, turn: &Turn, fields: bool) -> Said {
         kind: turn.kind,
         title,
         device: turn.device,
-        table: device.map(|device| device.id),
+        table: turn.device.and_then(|id| tables.of(id)).map(|table| table.id),
         role: turn.role.into(),
         notes: turn.notes.clone(),
         warnings: turn.warnings.clone(),

@@ -354,6 +354,7 @@ pub mod motor {
         id: "motor",
         name: "Motor",
         model_number: None,
+        complete: false,
         instructions: &[Instruction::Ping],
         eeprom_lock: Some(2u16),
         registers: &[LIMIT.row, TORQUE.row, GOAL.row, MODE.row, STATE.row],

@@ -7,11 +7,11 @@ use actucheck_spec::wire::{Form, Number, Value};
 use super::super::{not_fitting, output, rejection};
 use super::Result;
 use crate::adapter::{Given, Output, RegisterOf, Rejection};
-use crate::explain::DEVICES;
+use crate::device::KNOWN;
 
 /// The codec's answer to the op `value`.
 pub(super) fn ask(of: &RegisterOf, form: &Form, given: &Given) -> Result {
-    let device = DEVICES.into_iter().find(|device| device.id == of.device);
+    let device = KNOWN.into_iter().find(|device| device.id == of.device);
     let row = device.and_then(|device| device.register(of.address));
     let row = row.ok_or_else(|| rejection(Fault::Parameter, &"no such register"))?;
     match given {

@@ -1,0 +1,145 @@
+//! The words with which a user chooses control tables.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::rc::Rc;
+use std::str::FromStr;
+
+use actucheck_codec::register::Device;
+use actucheck_spec::{Diagnostic, Spec};
+use serde_json::Value;
+use thiserror::Error;
+
+use super::table::{self, Absent};
+use super::{Bus, Chosen, KNOWN, NONE, Tables};
+use crate::input::{self, InputError};
+use crate::legible::{LONGEST_TEXT, legible};
+use crate::names::nearest;
+
+/// Defects of a file that are told.
+const TOLD: usize = 10;
+
+/// Why words choose no control tables.
+#[derive(Debug, Error)]
+pub enum DeviceError {
+    /// No device has this name.
+    #[error("no device is called `{name}`; {hint}")]
+    Unknown {
+        /// The name.
+        name: String,
+        /// What may be meant.
+        hint: String,
+    },
+    /// The ID is larger than a byte.
+    #[error("`{0}` begins with no ID; write it as 1=ja40")]
+    NoId(String),
+    /// Two tables are for the same device.
+    #[error("`{0}` is the second table for the same devices; give each ID one")]
+    Twice(String),
+    /// The file can't be read.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// The file is no control table.
+    #[error("{0}")]
+    Defects(String),
+}
+
+/// `ja40`, `1=ja40,2=my-servo.yaml`, or `none`. A file is read once, and kept to the program's end.
+impl FromStr for Tables {
+    type Err = DeviceError;
+
+    fn from_str(text: &str) -> Result<Self, DeviceError> {
+        let mut bus = Bus::default();
+        let mut files = BTreeMap::new();
+        for word in text.split(',').map(str::trim) {
+            let (id, name) = parts(word)?;
+            let chosen = match (known(name), files.get(name)) {
+                (Some(chosen), _) | (None, Some(&chosen)) => chosen,
+                (None, None) if is_file(name) => {
+                    let chosen = read(name)?;
+                    files.insert(name, chosen);
+                    chosen
+                }
+                (None, None) => return Err(unknown(name)),
+            };
+            let earlier = match id {
+                Some(id) => bus.chosen.insert(id, chosen),
+                None => bus.others.replace(chosen),
+            };
+            if earlier.is_some() {
+                return Err(DeviceError::Twice(legible(word, LONGEST_TEXT)));
+            }
+        }
+        Ok(Self(Some(Rc::new(bus))))
+    }
+}
+
+/// The ID, if the word begins with one, and the table's name.
+fn parts(word: &str) -> Result<(Option<u8>, &str), DeviceError> {
+    match word.split_once('=') {
+        Some((id, name)) if id.bytes().all(|digit| digit.is_ascii_digit()) => {
+            let no_id = |_| DeviceError::NoId(legible(word, LONGEST_TEXT));
+            id.parse().map(|id| (Some(id), name)).map_err(no_id)
+        }
+        _ => Ok((None, word)),
+    }
+}
+
+fn known(name: &str) -> Option<Chosen> {
+    let found = names().find(|device| device.id == name);
+    found.map(|table| Chosen { table, file: None })
+}
+
+fn names() -> impl Iterator<Item = &'static Device> {
+    KNOWN.into_iter().chain([&NONE])
+}
+
+fn is_file(name: &str) -> bool {
+    let ending = Path::new(name).extension();
+    ending.is_some_and(|ending| ending == "yaml" || ending == "yml")
+}
+
+fn unknown(name: &str) -> DeviceError {
+    let ids = || names().map(|device| device.id.to_owned());
+    let all = || {
+        format!("there are {}, and files that end in .yaml", ids().collect::<Vec<_>>().join(", "))
+    };
+    let hint = nearest(name, ids()).map_or_else(all, |meant| format!("did you mean `{meant}`?"));
+    DeviceError::Unknown { name: legible(name, LONGEST_TEXT), hint }
+}
+
+/// Reads a user's file, with the rules that the spec's own files keep.
+fn read(path: &str) -> Result<Chosen, DeviceError> {
+    let text = input::yaml_text(Path::new(path))?;
+    let spec = Spec::with_own_device(path, &text).map_err(|defects| told(&defects))?;
+    let absent = |Absent(name): Absent| DeviceError::Defects(format!("{path} has no {name}"));
+    let file = spec.devices.first().ok_or_else(|| absent(Absent("device".to_owned())))?;
+    let texts = serde_json::to_value(&file.content).unwrap_or_default();
+    if let Some(text) = hidden(&texts) {
+        let message = format!("{path}: `{text}` is too long, or has characters that do not show");
+        return Err(DeviceError::Defects(message));
+    }
+    let table = table::of(&spec, &file.content).map_err(absent)?;
+    let file = Box::leak(Box::new(file.content.clone()));
+    Ok(Chosen { table: Box::leak(Box::new(table)), file: Some(file) })
+}
+
+/// The first text that can't be shown as it is.
+fn hidden(value: &Value) -> Option<String> {
+    match value {
+        Value::String(text) => Some(legible(text, LONGEST_TEXT)).filter(|clean| clean != text),
+        Value::Array(items) => items.iter().find_map(hidden),
+        Value::Object(fields) => fields.values().find_map(hidden),
+        _ => None,
+    }
+}
+
+/// The first defects, a line each with its place.
+fn told(defects: &[Diagnostic]) -> DeviceError {
+    let line = |defect: &Diagnostic| legible(&defect.to_string(), LONGEST_TEXT);
+    let mut lines: Vec<_> = defects.iter().take(TOLD).map(line).collect();
+    if defects.len() > TOLD {
+        lines.push(format!("and {} more", defects.len() - TOLD));
+    }
+    DeviceError::Defects(lines.join("\n"))
+}
