@@ -174,6 +174,45 @@ fn an_id_that_is_not_there_brings_near_ones() {
 }
 
 #[test]
+fn words_find_what_has_all_of_them_names_first() {
+    let found = |words: &[&str]| {
+        let (status, stdout, stderr) = spec(&[&["find"], words].concat());
+        assert_eq!((status, stderr.as_str()), (0, ""), "{words:?}");
+        stdout.lines().map(str::to_owned).collect::<Vec<_>>()
+    };
+    let goal = found(&["GOAL pos"]);
+    assert!(goal[1].starts_with("'ja40/Goal Position'  "), "{goal:?}");
+    assert_eq!(goal, found(&["goal", "pos"]));
+    // Neither word is in the name of this one.
+    assert!(found(&["goal", "reached"])[0].starts_with("ja-variant.moving-status.in-position  "));
+    for (words, id) in [
+        ("clear", "dynamixel2/Clear  "),
+        ("drag mode", "innfos/"),
+        ("stuffing.transmit", "dynamixel2.stuffing.transmit  "),
+        ("goal-position.limits", "ja40.goal-position.limits  "),
+    ] {
+        let lines = found(&[words]);
+        assert!(lines.iter().any(|line| line.starts_with(id)), "{words}: {lines:?}");
+    }
+    let many = found(&["position"]);
+    assert_eq!(many.len(), 42);
+    assert!(many[40].starts_with("and ") && many[40].ends_with(" more; add a word"), "{many:?}");
+}
+
+#[test]
+fn words_that_nothing_has_bring_the_nearest() {
+    for (words, says) in [
+        (&["goal", "positron"][..], "nothing in the spec has `positron`; did you mean `position`?"),
+        (&["xyzzy"], "nothing in the spec has `xyzzy`"),
+        (&["handshake", "velocity"], "nothing in the spec has all of these words; leave one out"),
+        (&["\u{1b}[31m"], "nothing in the spec has `\\u{1b}[31m`"),
+    ] {
+        let (status, stdout, stderr) = spec(&[&["find"], words].concat());
+        assert_eq!((status, stdout, stderr), (1, String::new(), format!("actucheck: {says}\n")));
+    }
+}
+
+#[test]
 fn the_documents_sentences_are_counted() {
     let (status, stdout, _) = spec(&["coverage", "--sentences"]);
     assert_eq!(status, 0);
@@ -200,7 +239,7 @@ fn an_export_goes_to_a_file_or_to_standard_output() {
 
 #[test]
 fn every_subcommand_has_an_example() {
-    for command in ["show", "diff", "errata", "coverage", "export"] {
+    for command in ["find", "show", "diff", "errata", "coverage", "export"] {
         let (_, stdout, _) = spec(&[command, "--help"]);
         assert!(stdout.contains(&format!("  actucheck spec {command} ")), "{stdout}");
     }

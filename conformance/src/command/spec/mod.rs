@@ -4,6 +4,7 @@ mod coverage;
 mod diff;
 mod errata;
 mod export;
+mod find;
 mod sentences;
 mod show;
 
@@ -17,6 +18,7 @@ use super::shared::{self, Failure};
 /// Shows, compares and exports what the documents say
 #[derive(Debug, Subcommand)]
 pub(crate) enum Spec {
+    Find(find::Find),
     Show(show::Show),
     Diff(diff::Diff),
     Errata(errata::Errata),
@@ -28,6 +30,7 @@ pub(crate) enum Spec {
 pub(crate) fn run(command: &Spec) -> Result<ExitCode, Failure> {
     let spec = shared::spec()?;
     match command {
+        Spec::Find(options) => shared::print(find::text(&spec, options)?),
         Spec::Show(options) => shared::print(show::text(&spec, options)?),
         Spec::Diff(options) => shared::print(diff::text(&spec, options)?),
         Spec::Errata(options) => shared::print(errata::text(&spec, options)?),
