@@ -10,7 +10,7 @@ use super::{Run, WELL_BEHAVED, check_with};
 /// process, `$bytes` are those of the request.
 const MOSTLY_RIGHT: &str = r#"
     n=$((n + 1))
-    bytes=$(printf '%s' "$line" | sed 's/.*"bytes":"\([0-9a-f]*\)".*/\1/')
+    bytes=${line#*'"bytes":"'} bytes=${bytes%%'"'*}
     if BAD; then
         WRONG
     else

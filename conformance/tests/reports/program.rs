@@ -80,7 +80,7 @@ fn adapter(reply: &str) -> String {
     let hello = r#"{"protocol":2,"implementation":{"name":"a","version":"1","language":"sh"},"roles":["host"],"wires":["dynamixel2"],"ops":["crc"]}"#;
     format!(
         r#"while read -r line; do
-            id=$(printf '%s' "$line" | sed 's/^{{"id":\([0-9]*\),.*/\1/')
+            id=${{line#'{{"id":'}} id=${{id%%,*}}
             case $line in
                 *'"op":"hello"'*) printf '{{"id":%s,"ok":%s}}\n' "$id" '{hello}' ;;
                 *) printf '{{"id":%s,%s}}\n' "$id" '{reply}' ;;
