@@ -1,6 +1,7 @@
 //! What registers hold, as far as a stream tells.
 
 use std::collections::HashMap;
+use std::ops::RangeInclusive;
 use std::ptr;
 
 use actucheck_codec::dynamixel2::instruction::{DeviceData, DeviceWrite};
@@ -19,8 +20,7 @@ pub(super) struct Held {
 impl Held {
     /// What the register at this address of a device holds.
     pub(super) fn value(&self, id: u8, address: u16) -> Option<i64> {
-        let value = |id| self.values.get(&(id, address)).copied();
-        value(id).or_else(|| value(BROADCAST_ID))
+        self.values.get(&(id, address)).copied()
     }
 
     /// The register that keeps a device's EEPROM area read-only, if it was seen on.
@@ -74,16 +74,11 @@ impl Held {
     ) {
         let Self { values, tables } = self;
         for row in rows(tables, table).iter().filter(|row| is_within(row, address, length)) {
-            if id == BROADCAST_ID {
-                values.retain(|(_, other), _| *other != row.address);
-            }
             let from = usize::from(row.address - address);
             let data = data();
             let bytes = data.get(from..from + usize::from(row.kind.size()));
-            match bytes.and_then(|bytes| row.decode(bytes)) {
-                Some(value) => values.insert((id, row.address), value),
-                None => values.remove(&(id, row.address)),
-            };
+            let Some(value) = bytes.and_then(|bytes| row.decode(bytes)) else { continue };
+            values.extend(ids(id).map(|id| ((id, row.address), value)));
         }
     }
 
@@ -97,16 +92,19 @@ impl Held {
     ) {
         let Self { values, tables } = self;
         for row in rows(tables, table).iter().filter(|row| is_within(row, address, length)) {
-            values.retain(|(other, at), _| {
-                *at != row.address || (*other != id && id != BROADCAST_ID)
-            });
+            values.retain(|(other, at), _| *at != row.address || !ids(id).contains(other));
         }
     }
 
     /// Forgets what a device held.
     pub(super) fn forget(&mut self, id: u8) {
-        self.values.retain(|(other, _), _| *other != id && id != BROADCAST_ID);
+        self.values.retain(|(other, _), _| !ids(id).contains(other));
     }
+}
+
+/// The devices that an ID means.
+fn ids(id: u8) -> RangeInclusive<u8> {
+    if id == BROADCAST_ID { 0..=BROADCAST_ID } else { id..=id }
 }
 
 /// Calls `each` with ID, address and data of every write in a request.
