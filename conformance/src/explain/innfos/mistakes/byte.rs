@@ -2,14 +2,22 @@
 
 use std::ops::RangeInclusive;
 
+use actucheck_codec::innfos::HEADER;
+use actucheck_spec::wire::innfos::reference::TAIL;
+
 use super::super::super::mistake::Trials;
 
 /// Sizes of the frames of the document that have a CRC. Without one, any value of most bytes is right.
 const WITH_CRC: RangeInclusive<usize> = 9..=32;
 
+/// Whether bytes begin and end like a frame. What is wrong with its ends needs no search.
+fn has_ends(bytes: &[u8]) -> bool {
+    bytes.first() == Some(&HEADER) && bytes.last() == Some(&TAIL)
+}
+
 pub(super) fn needless(bytes: &[u8], trials: &mut Trials<'_>) {
     let Some((_, but_last)) = bytes.split_last() else { return };
-    if !WITH_CRC.contains(&but_last.len()) {
+    if !WITH_CRC.contains(&but_last.len()) || !has_ends(bytes) {
         return;
     }
     for (at, byte) in but_last.iter().enumerate() {
@@ -30,7 +38,7 @@ pub(super) fn changed(bytes: &[u8], trials: &mut Trials<'_>) {
 }
 
 fn change(bytes: &[u8], trials: &mut Trials<'_>, wanted: impl Fn(u8) -> bool) {
-    if !WITH_CRC.contains(&bytes.len()) {
+    if !WITH_CRC.contains(&bytes.len()) || !has_ends(bytes) {
         return;
     }
     for at in 0..bytes.len() {
@@ -45,7 +53,7 @@ fn change(bytes: &[u8], trials: &mut Trials<'_>, wanted: impl Fn(u8) -> bool) {
 }
 
 pub(super) fn missing(bytes: &[u8], trials: &mut Trials<'_>) {
-    if !WITH_CRC.contains(&(bytes.len() + 1)) {
+    if !WITH_CRC.contains(&(bytes.len() + 1)) || !has_ends(bytes) {
         return;
     }
     for at in 0..bytes.len() {
