@@ -13,7 +13,7 @@ use super::merge::{Judged, Merge};
 use crate::adapter::{Output, Question, Wire};
 use crate::subject::Answer;
 use crate::suite::check::{Check, Demand};
-use crate::verdict::Outcome;
+use crate::verdict::{Because, Outcome, Verdict};
 
 /// A check that asks for bytes with stuffing, or without.
 fn check(id: &str, requirement: &str, is_stuffed: bool) -> Check {
@@ -151,4 +151,27 @@ fn a_worker_does_not_wait_until_another_ones_outcomes_are_handed_on() {
         merge.put(1, judged("fourth"), true);
     });
     assert_eq!(merge.finish(), 4);
+}
+
+#[test]
+fn a_failure_follows_from_a_fact_only() {
+    for (verdict, follows) in [(Verdict::Fail, true), (Verdict::Flaky, false)] {
+        let judged = |id: &str, verdict, because| {
+            let outcome = check(id, "", false).judge(Answer::Skipped(String::new()));
+            vec![Judged { outcome: Outcome { verdict, because, ..outcome }, doubt: None }]
+        };
+        let because = |id: &str| Because { check: id.to_owned(), requirement: String::new() };
+        let mut causes = Vec::new();
+        let mut sink = |outcome: Outcome| {
+            causes.push(outcome.because);
+            ControlFlow::Continue(())
+        };
+        let interrupted = AtomicBool::new(false);
+        let merge = Merge::new(&mut sink, None, &interrupted);
+        merge.put(0, judged("first", verdict, Some(because("earlier"))), false);
+        merge.put(0, judged("second", Verdict::Fail, Some(because("first"))), true);
+        assert_eq!(merge.finish(), 2);
+        let earlier = follows.then(|| because("earlier"));
+        assert_eq!(causes, [earlier.clone(), earlier]);
+    }
 }

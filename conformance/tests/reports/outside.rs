@@ -43,6 +43,14 @@ fn a_file_that_would_exhaust_its_reader_is_refused_in_a_sentence() {
             let (status, _, stderr) = actucheck(folder.path(), command);
             assert_eq!(status, 2, "{command:?}: {stderr}");
             assert_eq!(stderr.lines().count(), 1, "{command:?}: {stderr}");
+            // What is no file is an id for `replay`.
+            let sentence = match file.rsplit('/').next() {
+                Some("long") => "MiB; split it",
+                Some("no-text") => "is not a text in UTF-8",
+                Some("pipe" | "zero" | ".") if command[0] != "replay" => "not a file with an end",
+                _ => "",
+            };
+            assert!(stderr.contains(sentence), "{command:?}: {stderr}");
             assert!(!stderr.trim_end().contains(char::is_control), "{command:?}: {stderr:?}");
             assert!(started.elapsed() < Duration::from_secs(10), "{command:?}");
         }
