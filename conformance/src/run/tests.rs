@@ -6,12 +6,13 @@ use std::time::Duration;
 
 use actucheck_spec::model::{Citation, HexBytes, Level};
 
+use super::again::{Again, Doubt};
 use super::history::History;
 use super::ledger::{Ledger, Loss};
 use super::lock;
 use super::merge::{Judged, Merge};
-use crate::adapter::{Output, Question, Wire};
-use crate::subject::Answer;
+use crate::adapter::{Hello, Output, Question, Wire};
+use crate::subject::{Answer, Builtin, Subject};
 use crate::suite::check::{Check, Demand};
 use crate::verdict::{Because, Outcome, Verdict};
 
@@ -174,4 +175,76 @@ fn a_failure_follows_from_a_fact_only() {
         let earlier = follows.then(|| because("earlier"));
         assert_eq!(causes, [earlier.clone(), earlier]);
     }
+}
+
+/// It counts what it is asked, and notes whether it was asked for bytes with stuffing.
+struct Stateful {
+    hello: Hello,
+    count: usize,
+    was_stuffed: bool,
+    is_wrong: fn(&Self) -> bool,
+}
+
+impl Stateful {
+    fn again(is_wrong: fn(&Self) -> bool) -> Again {
+        let hello = Builtin::default().hello().clone();
+        Again::new(Box::new(Self { hello, count: 0, was_stuffed: false, is_wrong }))
+    }
+}
+
+impl Subject for Stateful {
+    fn hello(&self) -> &Hello {
+        &self.hello
+    }
+
+    fn ask(&mut self, question: &Question) -> Answer {
+        self.count += 1;
+        let is_wrong = (self.is_wrong)(self);
+        self.was_stuffed |= matches!(question, Question::Unstuff { .. });
+        Answer::Ok(Output::Bytes(HexBytes(vec![0; usize::from(is_wrong)])))
+    }
+
+    fn restart(&mut self) {
+        (self.count, self.was_stuffed) = (0, false);
+    }
+}
+
+/// Settles a failure of the last of so many checks. Every hundredth of them asks for stuffing.
+fn settle(again: &mut Again, count: usize) -> Outcome {
+    let mut history = History::default();
+    let checks = (0..count).map(|at| Arc::new(check(&at.to_string(), "", at % 100 == 50)));
+    let checks: Vec<_> = checks.collect();
+    checks.iter().enumerate().for_each(|(at, check)| history.add(at, Arc::clone(check)));
+    let mark = history.mark(count - 1).unwrap();
+    let asked = Some((Arc::new(Mutex::new(history)), mark));
+    let check = Arc::clone(checks.last().unwrap());
+    let wrong = Answer::Ok(Output::Bytes(HexBytes(vec![0])));
+    let outcome = Check::clone(&check).judge(wrong);
+    assert_eq!(outcome.verdict, Verdict::Fail);
+    again.settle(outcome, &Doubt { check, asked, lost: None }, &|| true)
+}
+
+#[test]
+fn the_fewest_earlier_requests_are_found() {
+    let after = |is_wrong, count| {
+        let outcome = settle(&mut Stateful::again(is_wrong), count);
+        assert_eq!(outcome.verdict, Verdict::Flaky);
+        outcome.after.map(|after| (after.count, after.checks))
+    };
+    assert_eq!(after(|own| own.was_stuffed, 100), Some((1, vec!["50".to_owned()])));
+    // Neither twice as many each time nor all that is remembered are as many as are needed.
+    let counted = after(|own| own.count.is_multiple_of(700), 2100).unwrap();
+    assert_eq!(counted.0, 699);
+    assert_eq!(after(|_| false, 100), None);
+}
+
+#[test]
+fn a_failure_is_no_fact_until_it_fails_alone() {
+    // Wrong from the second request on.
+    let mut again = Stateful::again(|own| own.count > 1);
+    for _ in 0..9 {
+        assert_eq!(settle(&mut again, 1).verdict, Verdict::Flaky);
+    }
+    let mut always = Stateful::again(|_| true);
+    assert!((0..9).all(|_| settle(&mut always, 1).verdict == Verdict::Fail));
 }

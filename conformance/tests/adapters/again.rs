@@ -84,7 +84,7 @@ fn a_counter_that_errs_now_and_then_accuses_no_check() {
     }
 }
 
-/// So many that doubling does not meet the number.
+/// Also if it is not twice as many each time.
 #[test]
 fn what_a_counter_needs_is_found_whatever_its_number() {
     let run = bad_if("[ $((n % 7)) -eq 0 ]", WRONG);

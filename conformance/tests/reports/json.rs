@@ -288,6 +288,29 @@ fn what_contradicts_itself_is_refused() {
     }
 }
 
+/// Without causes, so that nothing else is wrong.
+#[test]
+fn rows_that_are_there_twice_or_not_at_all_are_refused() {
+    let report = || Report { causes: Vec::new(), ..sample::every_verdict() };
+    assert_eq!(read(&written(&report())).unwrap(), report());
+    let is_refused = |report: &Report, what: &str| {
+        let error = read(&written(report)).unwrap_err().to_string();
+        assert!(error.contains(what), "{error}");
+    };
+    let mut twice = report();
+    let row = twice.requirements.iter().find(|row| row.totals.sum() == 1).unwrap().clone();
+    let (verdict, count) = row.totals.counts().next().unwrap();
+    twice.summary.totals.add(verdict, count);
+    twice.requirements.push(row);
+    is_refused(&twice, " twice");
+    let mut twice = report();
+    twice.not_passed.push(twice.not_passed[0].clone());
+    is_refused(&twice, " twice");
+    let mut none = report();
+    none.not_passed.remove(0);
+    is_refused(&none, "it lacks the checks of ");
+}
+
 #[test]
 fn more_checks_than_a_number_holds_are_refused() {
     let mut report = sample::every_verdict();
