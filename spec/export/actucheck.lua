@@ -1421,7 +1421,7 @@ local experts = add_experts(proto, {
 
 -- Reading packets ---------------------------------------------------------------------------------
 
--- The two bytes behind the data, if they are zeros or the CRC and the end byte follows.
+-- The two bytes after the data, if they are zeros or the CRC and the end byte follows.
 local function is_crc_and_end(raw, data, at)
   local low, high, tail = raw:byte(at, at + 2)
   if tail ~= TAIL then return false end
@@ -1436,7 +1436,7 @@ local function read(raw, at, kind, quick)
   if left < PREFIX then broken("truncated") return packet end
   local _, address, command, high, low = raw:byte(at, at + PREFIX - 1)
   packet.address, packet.command, packet.length = address, command, low_first(low, high)
-  packet.stop = at + PREFIX + packet.length -- behind the data
+  packet.stop = at + PREFIX + packet.length -- after the data
   if left < PREFIX + packet.length then broken("truncated") return packet end
 
   local data = raw:sub(at + PREFIX, packet.stop - 1)

@@ -21,7 +21,7 @@ from adapter_kit import Rejected, Skipped, serve, unhex
 from calls import CALLS, sync_read_params
 from memory_serial import MemorySerial
 
-# What stands before and behind the parameters of a status packet.
+# What stands before and after the parameters of a status packet.
 BEFORE_PARAMS, CRC = [0] * 9, [0] * 2
 
 

@@ -100,13 +100,13 @@ void skipped(const char *reason)
     printf("}}\n");
 }
 
-/* What stands behind white space. */
+/* What stands after white space. */
 static const char *skip_space(const char *at)
 {
     return at + strspn(at, " \t\r\n");
 }
 
-/* What stands behind a value. */
+/* What stands after a value. */
 static const char *skip_value(const char *at)
 {
     int depth = 0;

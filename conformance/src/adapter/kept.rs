@@ -25,7 +25,7 @@ impl Implementation {
 const LONGER: usize = 1024;
 
 impl Output {
-    /// What is kept of it, beside the expected output: bytes are cut behind the length that is
+    /// What is kept of it, beside the expected output: bytes are cut after the length that is
     /// expected, and anything else that is longer by far is dropped. Names are made legible. So an
     /// outcome is not much larger than its check. Also a sentence, if something is missing.
     #[must_use]

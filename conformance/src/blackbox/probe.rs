@@ -153,7 +153,7 @@ fn noise(probes: Probes) -> BoxedStrategy<Vec<u8>> {
     prop_oneof![4 => Just(Vec::new()), 2 => data(0..6), 2 => (probes.noise)()].boxed()
 }
 
-/// Several damages, one that the CRC does not show, or a byte behind the frame.
+/// Several damages, one that the CRC does not show, or a byte after the frame.
 fn damages() -> impl Strategy<Value = Vec<Damage>> {
     let hidden = damage().prop_map(|damage| vec![damage, Damage::Repair]);
     let front = (FROM_FRONT..FROM_FRONT + 8, select(&TELLING[..]))

@@ -59,7 +59,7 @@ pub(super) fn read(before: &str, payload: &str) -> (Option<Duration>, Vec<Marked
     let before =
         if payload.is_empty() { COMMENT.replace_all(before, "$before ") } else { before.into() };
     let (time, rest) = time(&before);
-    // Arduino's monitor puts -> behind the time of each line that it receives.
+    // Arduino's monitor puts -> after the time of each line that it receives.
     let arrow = ARROW.captures(rest);
     let told = arrow.as_ref().filter(|arrow| time.is_none() || arrow.name("in").is_some());
     let mut direction = told.map(|arrow| match arrow.name("out") {
@@ -95,7 +95,7 @@ fn direction_of(word: &Captures<'_>) -> Direction {
 
 /// The direction that a name such as `UART RX` tells.
 pub(super) fn direction(name: &str) -> Option<Direction> {
-    // The pattern takes a verb only with a mark behind it.
+    // The pattern takes a verb only with a mark after it.
     WORD.captures(&format!("{name}:")).map(|word| direction_of(&word))
 }
 

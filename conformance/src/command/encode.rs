@@ -36,7 +36,7 @@ pub(crate) struct Encode {
     /// `write`, or a command's code
     #[arg(value_name = "INSTRUCTION")]
     verb: String,
-    /// Registers and fields, with their values; behind `ID:` those of one device of several
+    /// Registers and fields, with their values; after `ID:` those of one device of several
     #[arg(value_name = "[ID:]NAME[=VALUE]")]
     words: Vec<Word>,
     /// The packet's wire

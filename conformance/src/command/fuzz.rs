@@ -106,7 +106,7 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
         ControlFlow::Continue(())
     });
     progress.finish_and_clear();
-    // What cannot be written is told behind the findings.
+    // What cannot be written is told after the findings.
     let (log, traced) = subjects.end();
     let kept = keep(out, &fuzzed.findings);
     let took = started.elapsed();

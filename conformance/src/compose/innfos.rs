@@ -178,7 +178,7 @@ fn value(
     Ok(Some(value))
 }
 
-/// A number in the command's unit, which may stand behind it.
+/// A number in the command's unit, which may stand after it.
 fn amount(row: &Command, text: &str) -> Result<Number, ComposeError> {
     let own = row.unit.as_deref().unwrap_or_default();
     let amount = number::quantity(text)

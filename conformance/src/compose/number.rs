@@ -1,6 +1,6 @@
 //! Numbers and quantities as people write them.
 
-/// A whole number: decimal, or hex behind `0x`.
+/// A whole number: decimal, or hex after `0x`.
 pub(super) fn whole(text: &str) -> Option<i64> {
     let (sign, digits) = match text.strip_prefix('-') {
         Some(digits) => (-1, digits),
@@ -16,7 +16,7 @@ pub(super) fn whole(text: &str) -> Option<i64> {
     Some(sign * number)
 }
 
-/// A number and the unit behind it: `-12.5 mA`.
+/// A number and the unit after it: `-12.5 mA`.
 pub(super) fn quantity(text: &str) -> Option<(f64, &str)> {
     let end = text.find(|letter: char| !(letter.is_ascii_digit() || "+-.".contains(letter)));
     let (number, unit) = text.split_at_checked(end.unwrap_or(text.len()))?;

@@ -13,7 +13,7 @@ use super::check::{Check, Demand};
 use super::plan::Family;
 use crate::adapter::{Called, Output, Question, Wire};
 
-/// What the ids of basic checks have behind the wire's id.
+/// What the ids of basic checks have after the wire's id.
 const WORD: &str = ".basic.";
 
 /// A check of one sentence.

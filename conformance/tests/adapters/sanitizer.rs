@@ -1,4 +1,4 @@
-//! A library in C that writes behind its buffer, built with `AddressSanitizer`.
+//! A library in C that writes past the end of its buffer, built with `AddressSanitizer`.
 
 use std::path::Path;
 use std::process::Command;

@@ -30,7 +30,7 @@ impl Dice {
 const OF_DYNAMIXEL2: &[Make] = &[
     ("CRC bytes swapped", |frame, _| Some(with_crc(frame, crc_of(frame).swap_bytes()))),
     ("CRC left at zero", |frame, _| Some(with_crc(frame, 0))),
-    // The length before or behind the CRC, or off by one or two; the CRC over the wrong length.
+    // The length before or after the CRC, or off by one or two; the CRC over the wrong length.
     ("wrong length", |frame, dice| {
         let mut bytes = frame.to_vec();
         bytes[5] = bytes[5].wrapping_add([1, 2, 254, 255][usize::from(dice.byte % 4)]);

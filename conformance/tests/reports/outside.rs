@@ -57,7 +57,7 @@ fn a_file_that_would_exhaust_its_reader_is_refused_in_a_sentence() {
     }
 }
 
-/// Puts this behind every text that nothing depends on.
+/// Puts this after every text that nothing depends on.
 fn spoil(content: &mut Value, with: &str) {
     const FREE: [&str; 9] = [
         "name", "version", "language", "detail", "text", "replay", "section", "document", "answer",

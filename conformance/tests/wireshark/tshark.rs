@@ -18,7 +18,7 @@ pub(crate) struct Shown {
 }
 
 impl Shown {
-    /// The texts of all fields with this name behind the wire's.
+    /// The texts of all fields with this name after the wire's.
     pub(crate) fn texts<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a str> {
         self.fields.iter().filter(move |field| field.0 == name).map(|field| field.1.as_str())
     }

@@ -12,7 +12,7 @@ use actucheck_spec::wire::dynamixel2::reference::{Event, encode};
 /// If its parameters are others when they are copied.
 pub(crate) fn packet(frame: &Frame<'_>) -> Packet {
     let mut params: Vec<u8> = frame.params().collect();
-    // Only with room for whole windows, and bytes behind the frame, are they moved window by window.
+    // Only with room for whole windows, and bytes after the frame, are they moved window by window.
     let mut buffer = vec![0; params.len() + 128];
     assert_eq!(frame.copy_params(&mut buffer), Ok(&params[..]));
     let (id, instruction) = (frame.id(), frame.instruction().code());

@@ -45,7 +45,7 @@ fn accounts(spec: &Spec, file: &File<SentencesFile>, defects: &mut Vec<Diagnosti
         for (place, sentence) in section.sentences.iter().enumerate() {
             let node = format!("sections[{index}].sentences[{place}]");
             if sentence.line < last || sentence.line < section.line {
-                let message = format!("line {} stands behind line {last}", sentence.line);
+                let message = format!("line {} stands after line {last}", sentence.line);
                 defects.push(file.diagnostic(&format!("{node}.line"), message));
             }
             last = sentence.line;

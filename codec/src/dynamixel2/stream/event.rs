@@ -47,7 +47,7 @@ impl fmt::Display for Reason {
             Self::Id => "a header with an ID that no device has",
             Self::Length => "a header with a length that is too small",
             Self::Oversize => "a header with a length beyond the limit",
-            Self::Stuffing => "a header, then FF FF FD without FD behind it",
+            Self::Stuffing => "a header, then FF FF FD without FD after it",
             Self::Crc => "a packet with a wrong CRC",
             Self::Truncated => "a packet that the bus did not complete",
         })

@@ -86,7 +86,7 @@ impl Row {
 
     /// The number of bytes of the last line, which no offset tells.
     fn size(&self, bytes: &[(u8, usize)]) -> Option<usize> {
-        // Characters may look like bytes. They are as many as the bytes, and behind a wider gap than
+        // Characters may look like bytes. They are as many as the bytes, and after a wider gap than
         // the one in the middle of some lines.
         let exact = |(index, (_, end)): (usize, &(u8, usize))| {
             let rest = self.rest.get(*end..)?;

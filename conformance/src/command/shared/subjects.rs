@@ -84,12 +84,12 @@ impl Subjects {
             // clap does not distinguish `--` with nothing after it from a missing `--`.
             if std::env::args_os().next_back().is_some_and(|last| last == "--") {
                 return Err(Failure::usage(
-                    "no command behind `--`; give the adapter's, such as python3 adapter.py",
+                    "no command after `--`; give the adapter's, such as python3 adapter.py",
                 ));
             }
             if adapter.exchange.trace.is_some() {
                 return Err(Failure::usage(
-                    "--trace is of an adapter, and none is given; put its command behind `--`",
+                    "--trace is of an adapter, and none is given; put its command after `--`",
                 ));
             }
             let mut subjects = Self::of(Builtin::default());

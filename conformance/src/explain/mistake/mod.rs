@@ -2,7 +2,7 @@
 //!
 //! A wire lists the mistakes that senders and lines make, the likeliest first. A mistake fits if the
 //! bytes would be a packet without it, which the reference model decides. None is certain: a CRC of 16
-//! bits fits by chance once in 65,536 trials, so a mistake that has many ways is listed behind those
+//! bits fits by chance once in 65,536 trials, so a mistake that has many ways is listed after those
 //! that have few, and its words say how often it fits by chance.
 
 mod answer;

@@ -50,7 +50,7 @@ fn first_error(blocks: &mut Vec<Block>) {
     }
 }
 
-/// The same bytes with the right CRC behind each block.
+/// The same bytes with the right CRC after each block.
 fn mended(frame: &[u8], fast: &Fast) -> Vec<u8> {
     let mut frame = frame.to_vec();
     let block = usize::from(fast.length) + 4;

@@ -88,7 +88,7 @@ pub(super) static MUTANTS: [Mutant; 14] = [
         found_by_documents: false,
     },
     Mutant {
-        name: "takes every FD behind FF FD for stuffing",
+        name: "takes every FD after FF FD for stuffing",
         blames: "dynamixel2.stuffing.receive",
         wrong: Wrong::Answers(|op| match op {
             Question::Unstuff { bytes: body, .. } => {

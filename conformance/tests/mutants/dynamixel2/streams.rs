@@ -197,7 +197,7 @@ pub(super) static MUTANTS: [Mutant; 19] = [
         )
     },
     mutant(
-        "takes a pattern for a header when the chunk ends behind it",
+        "takes a pattern for a header when the chunk ends after it",
         |op| {
             keep(op, |stream, found| {
                 let inside =
@@ -267,7 +267,7 @@ pub(super) static MUTANTS: [Mutant; 19] = [
     Mutant {
         blames: "dynamixel2.receive.resume",
         ..mutant(
-            "goes on behind what a bad length covers",
+            "goes on after what a bad length covers",
             |op| Some(Output::packets(reference::packets_behind_lengths(&Stream::of(op)?.bytes))),
             "dynamixel2.stream.resume.status.cut-at-11/whole",
         )

@@ -16,7 +16,7 @@ pub(super) static LISTS: [&[Mutant]; 4] =
 
 static CRC: [Mutant; 2] = [
     Mutant {
-        name: "computes the CRC with a zero behind the data",
+        name: "computes the CRC with a zero after the data",
         blames: "innfos.crc.value",
         wrong: Wrong::Answers(|op| match op {
             Question::Crc { bytes, .. } => {

@@ -53,7 +53,7 @@ pub(super) fn noise() -> BoxedStrategy<Vec<u8>> {
     let claim = || (id(), prop_oneof![3..40_u16, any::<u16>()], data(0..24));
     prop_oneof![
         (1..=HEADER.len()).prop_map(|size| HEADER.iter().copied().take(size).collect()),
-        // A header that byte stuffing has made harmless, with a length behind it.
+        // A header that byte stuffing has made harmless, with a length after it.
         claim().prop_map(|claim| claiming(&[&PATTERN[..], &[0xFD]].concat(), claim)),
         claim().prop_map(|claim| claiming(&HEADER, claim)),
         // A packet of the other direction, such as a host's own Write.

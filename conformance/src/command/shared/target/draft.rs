@@ -32,7 +32,7 @@ impl Draft {
         Ok(Self(Open::Beside { file, path }))
     }
 
-    /// Goes behind the content of the file at `path`.
+    /// Goes after the content of the file at `path`.
     pub(super) const fn addition(path: PathBuf) -> Self {
         Self(Open::Addition { text: Vec::new(), path })
     }
@@ -95,7 +95,7 @@ fn beside(path: &Path) -> io::Result<NamedTempFile> {
     Ok(file)
 }
 
-/// Adds a text to a file, all of it or nothing, behind an empty line.
+/// Adds a text to a file, all of it or nothing, after an empty line.
 fn add(text: &[u8], path: &Path) -> io::Result<()> {
     let mut file = OpenOptions::new().create(true).append(true).open(path)?;
     let before = file.metadata()?.len();

@@ -1,4 +1,4 @@
-//! The CRC behind bodies that end in the pattern of byte stuffing or in a part of it. It is never
+//! The CRC after bodies that end in the pattern of byte stuffing or in a part of it. It is never
 //! stuffed itself.
 
 use actucheck_spec::wire::dynamixel2::Packet;

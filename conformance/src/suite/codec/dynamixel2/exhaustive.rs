@@ -52,7 +52,7 @@ fn words(longest: u32) -> impl Iterator<Item = Vec<u8>> + Send {
 }
 
 /// Bodies without a packet around them: every short one, and longer ones that have the pattern. A
-/// published library fails at what looks like a second one behind it.
+/// published library fails at what looks like a second one after it.
 fn alone(author: Author<'_>, longest: u32) -> Family<'_> {
     const PREFIX: &str = "dynamixel2.stuffing.body.";
     let group = move |body: Vec<u8>| {

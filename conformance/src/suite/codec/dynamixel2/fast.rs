@@ -1,5 +1,5 @@
 //! Fast status packets: the one answer to a Fast Sync Read or a Fast Sync Write, with a block for
-//! each device and a CRC behind each block.
+//! each device and a CRC after each block.
 
 use actucheck_spec::wire::dynamixel2::reference::{self, HEADER, PATTERN};
 use actucheck_spec::wire::dynamixel2::{Block, Packet};

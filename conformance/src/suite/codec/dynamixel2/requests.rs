@@ -68,7 +68,7 @@ impl Request {
         matches!(self.shape, Shape::Write | Shape::SyncWrite | Shape::BulkWrite)
     }
 
-    /// Whether the number of bytes stands behind the address.
+    /// Whether the number of bytes stands after the address.
     pub(super) fn has_length(self) -> bool {
         self.shape != Shape::Write
     }

@@ -70,7 +70,7 @@ fn read_or_not(question: &str, packet: Packet) -> Demand {
     Demand::record(question, [("reads it", Output::Packet(packet.into()))])
 }
 
-/// A packet with data, to be damaged or to stand behind damage.
+/// A packet with data, to be damaged or to stand after damage.
 pub(super) fn example(direction: Direction) -> Packet {
     let data = vec![0x01, 0x02, 0x03, 0x04].into();
     let command = match direction {

@@ -38,7 +38,7 @@ fn of_vector(author: &Author<'_>, vector: &Vector, all: &[(&Citation, &Vector)])
         let read = demand(author.spec, vector, Output::Packet(packet.clone()), Vec::new());
         add("decode", own, decode(author, packet.direction(), vector.frame()), read);
     } else if let (Some(kind), Some(fault)) = (vector.direction, vector.fault) {
-        // The document does not say what bytes behind a frame are.
+        // The document does not say what bytes after a frame are.
         let demand = match fault {
             Fault::Trailing => unspecified::reading(author, kind, vector.frame()).1,
             fault => Demand::Reject(fault),

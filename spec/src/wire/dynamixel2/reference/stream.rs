@@ -174,7 +174,7 @@ pub fn is_certain(stream: &[u8]) -> bool {
     true
 }
 
-/// Whether the length behind a false header covers more bytes than follow it, so that a receiver that
+/// Whether the length after a false header covers more bytes than follow it, so that a receiver that
 /// trusts every length waits at the end of the stream.
 #[must_use]
 pub fn lacks_bytes(stream: &[u8]) -> bool {

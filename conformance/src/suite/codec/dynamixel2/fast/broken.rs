@@ -40,8 +40,8 @@ fn right(blocks: &[Block]) -> Vec<u8> {
     frame(blocks, |_, before| reference::crc(before))
 }
 
-/// A wrong CRC behind each block alone, behind every block, and computed over other bytes. The CRCs
-/// behind a wrong one are those of the bytes as they are.
+/// A wrong CRC after each block alone, after every block, and computed over other bytes. The CRCs
+/// after a wrong one are those of the bytes as they are.
 fn crcs(author: &Author<'_>) -> Vec<Check> {
     let mut checks = Vec::new();
     for kind in Kind::ALL {
@@ -75,7 +75,7 @@ fn crcs(author: &Author<'_>) -> Vec<Check> {
     checks
 }
 
-/// One bit of the CRC behind one block is wrong.
+/// One bit of the CRC after one block is wrong.
 fn flipped(blocks: &[Block], wrong: usize, bit: u32) -> Vec<u8> {
     frame(blocks, |number, before| {
         reference::crc(before) ^ if number == wrong { 1 << bit } else { 0 }
@@ -122,7 +122,7 @@ fn lengths(author: &Author<'_>) -> Vec<Check> {
     checks
 }
 
-/// A good packet with bytes behind it. It is complete, and no sentence says that it is refused for them.
+/// A good packet with bytes after it. It is complete, and no sentence says that it is refused for them.
 fn followed(author: &Author<'_>, id: String, blocks: &[Block], bytes: Vec<u8>) -> Check {
     let packet = Packet::FastStatus { blocks: blocks.to_vec() };
     let demand = Demand::record(
@@ -134,7 +134,7 @@ fn followed(author: &Author<'_>, id: String, blocks: &[Block], bytes: Vec<u8>) -
     author.check(id, LENGTH, question, demand)
 }
 
-/// Packets with a wrong byte whose CRCs behind it are right, or with a wrong byte that only the last
+/// Packets with a wrong byte whose CRCs after it are right, or with a wrong byte that only the last
 /// CRC takes into account.
 fn fields(author: &Author<'_>) -> Vec<Check> {
     let mut checks = Vec::new();
@@ -168,7 +168,7 @@ fn fields(author: &Author<'_>) -> Vec<Check> {
     checks
 }
 
-/// The same bytes with the right CRC behind each block.
+/// The same bytes with the right CRC after each block.
 fn mended(bytes: &[u8], kind: Kind) -> Vec<u8> {
     let mut frame = bytes.get(..=PREFIX).unwrap_or_default().to_vec();
     let blocks = bytes.get(PREFIX + 1..).unwrap_or_default().chunks(kind.size() + 4);

@@ -26,7 +26,7 @@ pub(super) fn family(author: Author<'_>) -> Family<'_> {
     })
 }
 
-/// The answer is found behind the echo. The echo may be found too, but it is no status packet.
+/// The answer is found after the echo. The echo may be found too, but it is no status packet.
 fn checks(
     author: &Author<'_>,
     (name, id, instruction, params): &(&str, u8, u8, &[u8]),

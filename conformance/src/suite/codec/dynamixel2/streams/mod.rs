@@ -1,4 +1,4 @@
-//! Streams: packets one behind the other, with and without other bytes between them, cut into chunks
+//! Streams: packets one after the other, with and without other bytes between them, cut into chunks
 //! in several ways.
 //!
 //! - known: the first scenarios, each cut at every place;

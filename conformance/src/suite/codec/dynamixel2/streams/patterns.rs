@@ -1,5 +1,5 @@
 //! Packets with byte stuffing, and what is left of one whose front is lost: FF FF FD FD, which is no
-//! header, with bytes behind it that would be an ID and a length.
+//! header, with bytes after it that would be an ID and a length.
 
 use super::{Cut, FOUND, KINDS, Kind, Part, Scenario, frame};
 
@@ -29,7 +29,7 @@ pub(super) fn whole() -> Vec<Scenario> {
 }
 
 /// A stuffed header with an ID and a length before good packets. The length ends inside the first
-/// packet, behind it, or behind everything.
+/// packet, after it, or after everything.
 pub(super) fn stuffed_headers() -> Vec<Scenario> {
     const LENGTHS: [u16; 12] = [0, 3, 4, 7, 11, 15, 16, 17, 30, 100, 255, 0xFFFF];
     let of = |kind: Kind, length: u16| {

@@ -73,7 +73,7 @@ pub(in super::super) fn resumed(
 /// Something that claims a length before and between good packets, which follow until the length is
 /// full.
 pub(super) fn claims() -> Vec<Scenario> {
-    /// Where the claim ends: in the first packet behind it, at its end, or in later ones.
+    /// Where the claim ends: in the first packet after it, at its end, or in later ones.
     const CLAIMS: [(&str, u16); 8] = [
         ("in-the-first", 9),
         ("at-the-end-of-the-first", 0),
@@ -110,7 +110,7 @@ pub(super) fn claims() -> Vec<Scenario> {
     KINDS.into_iter().flat_map(all).collect()
 }
 
-/// A good packet, the claim, and as many good packets behind it.
+/// A good packet, the claim, and as many good packets after it.
 fn scenario(
     kind: Kind,
     name: &str,
