@@ -93,8 +93,8 @@ def fast_status(bus, fast):
         raise Rejected("unspecified", "not valid")
     if response.error:
         raise Skipped("an error number comes alone, without ID and data")
-    # The devices' error numbers and IDs are thrown away: its caller is left to believe that there
-    # was no error and that they answered in the order asked for.
+    # The library drops the devices' error numbers and IDs. Its caller has to assume that there was
+    # no error, and that the devices answered in the order of the request.
     return {
         "kind": "fast_status",
         "blocks": [

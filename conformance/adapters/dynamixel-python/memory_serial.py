@@ -14,11 +14,11 @@ class MemorySerial:
 
     @property
     def timeout(self):
-        # No time passes while bytes are still to come; after the last one it is up at once.
+        # No time passes while bytes are left; after the last one the time limit is reached at once.
         return 0 if self.exhausted else None
 
     def read(self, size):
-        # As pyserial: waits for as many bytes as are asked for, so fewer come at the end only.
+        # Like pyserial: waits for as many bytes as are asked for, so only the last read has fewer.
         data, self._received = self._received[:size], self._received[size:]
         return data
 

@@ -34,7 +34,7 @@ from common import SDK, rejected
 from memory_port import MemoryPort
 
 # The list that the SDK's methods pass around: seven bytes of header with the length field, the body,
-# two bytes for the CRC. Header and CRC are txPacket's to fill in.
+# two bytes for the CRC. txPacket fills in header and CRC.
 
 
 def packet_list(dxl_id, body):
@@ -113,8 +113,8 @@ def fast_status(port, fast):
     result = group.fastSyncReadRxPacket()
     if result != COMM_SUCCESS:
         raise rejected(result)
-    # Byte by byte, because getData knows the lengths 1, 2 and 4 only. The group throws the devices'
-    # error bytes away and reports success: to its caller that is "no error".
+    # Byte by byte, because getData reads the lengths 1, 2 and 4 only. The group drops the devices'
+    # error bytes and reports success: to its caller that is "no error".
     return {
         "kind": "fast_status",
         "blocks": [
@@ -127,7 +127,7 @@ def fast_status(port, fast):
 def stream(request):
     port = MemoryPort([unhex(chunk) for chunk in request["chunks"]])
     packets = []
-    # Ends: rxPacket does not return before it has read some bytes, or all that there are.
+    # The loop ends: each rxPacket reads some bytes, or reports that none are left.
     while not port.isPacketTimeout():
         received, result = SDK.rxPacket(port, False)
         if result == COMM_SUCCESS:

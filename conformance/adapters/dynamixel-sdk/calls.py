@@ -8,7 +8,7 @@ from dynamixel_sdk import BROADCAST_ID, GroupBulkRead, GroupBulkWrite, GroupSync
 from adapter_kit import Rejected, Skipped, unhex
 from common import SDK
 
-# The one thing that clearMultiTurn can send.
+# The parameters that clearMultiTurn always sends.
 CLEAR_PARAMS = "0144584c22"
 
 

@@ -15,14 +15,14 @@ from adapter_kit import Rejected
 SDK = PacketHandler(2.0)
 
 # The SDK's result codes as error classes. It has one code, RX_CORRUPT, for a wrong CRC, a packet cut
-# short and bytes that are no packet at all; its callers cannot tell these apart, so neither do we.
+# short and bytes that are no packet at all. Its callers can't tell them apart, nor can this adapter.
 ERROR_CLASSES = {
     COMM_RX_CORRUPT: "unspecified",
     COMM_RX_TIMEOUT: "truncated",  # not one byte received
     COMM_TX_ERROR: "oversize",
     COMM_TX_FAIL: "length",  # fewer or more bytes written than the length field says
     COMM_NOT_AVAILABLE: "parameter",  # read or ping above ID 253, a group without devices
-    COMM_PORT_BUSY: "internal",  # each request has a port of its own: cannot be
+    COMM_PORT_BUSY: "internal",  # cannot occur: each request has its own port
 }
 
 

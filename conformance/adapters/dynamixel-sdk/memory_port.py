@@ -40,5 +40,5 @@ class MemoryPort(PortHandler):
         return len(data)
 
     def isPacketTimeout(self):
-        # No time passes while bytes are still to come; after the last one it is up at once.
+        # No time passes while bytes are left; after the last one the time limit is reached at once.
         return not self._chunks

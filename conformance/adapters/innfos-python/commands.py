@@ -1,4 +1,4 @@
-"""What the data of a frame means, after the tables of the INNFOS document (A.1, A.2, B, C and D).
+"""What the data of a frame means, by the tables of the INNFOS document (A.1, A.2, B, C and D).
 
 A value is what the adapter protocol has for it: a number in the document's unit, a name, or flags.
 Rows that the document gives no unit are taken for plain IQ24 numbers, and speeds for fractions of
@@ -81,7 +81,7 @@ class Flag:
 
 
 class Alarms:
-    """Two bytes, a bit an alarm."""
+    """Two bytes in which each bit is an alarm."""
 
     size = 2
 
@@ -99,7 +99,7 @@ class Alarms:
 
 @dataclass
 class Scaled:
-    """A signed number, `factor` for 1, or for the full scale in this column of MODELS."""
+    """A signed number. `factor` means 1, or the full scale that this column of MODELS has."""
 
     size: int
     factor: float

@@ -7,7 +7,7 @@ the high one.
 
 HEADER, TAIL = 0xEE, 0xED
 PREFIX = 5  # header, address, command, two bytes of length
-# Whether the replies to these have a CRC, the document and the devices answer differently.
+# The document and the devices differ on whether the replies to these commands have a CRC.
 OPEN_COMMANDS = (0x02, 0x44)
 
 
@@ -29,7 +29,7 @@ _TABLE = [_table_entry(index) for index in range(256)]
 
 
 def crc(data):
-    """The two CRC bytes as one number, the byte that is sent first as the high one."""
+    """The two CRC bytes as one number; the first byte is the high one."""
     first, second = 0xFF, 0xFF
     for byte in data:
         entry = _TABLE[first ^ byte]
@@ -80,7 +80,7 @@ def decode_first(kind, datagram):
 
 
 def decode(kind, frame):
-    """The one frame that the bytes are."""
+    """The frame, if the bytes are exactly one."""
     packet, size = decode_first(kind, frame)
     if size < len(frame):
         raise Rejected("trailing", f"{len(frame) - size} bytes follow the frame")

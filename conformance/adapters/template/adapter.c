@@ -19,7 +19,7 @@ void skipped(const char *reason);
 const char *field(const char *object, const char *name); /* NULL if it is not there */
 const char *element(const char *array, size_t index);    /* NULL if there are no more */
 int is(const char *value, const char *text);             /* whether a value is this text */
-long number(const char *value);                          /* -1 if it is none */
+long number(const char *value);                          /* -1 if it is no number */
 unsigned char *bytes(const char *value, size_t *count);  /* NULL if it is no hex; to be freed */
 
 /* Bytes as hex digits; to be freed. */
@@ -69,7 +69,7 @@ void ok(const char *format, ...)
     va_end(values);
 }
 
-/* Prints a text as JSON has it. */
+/* Prints a text as a JSON string. */
 static void print_text(const char *text)
 {
     putchar('"');
@@ -100,13 +100,13 @@ void skipped(const char *reason)
     printf("}}\n");
 }
 
-/* What stands after white space. */
+/* The text from the first character that is no white space. */
 static const char *skip_space(const char *at)
 {
     return at + strspn(at, " \t\r\n");
 }
 
-/* What stands after a value. */
+/* The text after a value. */
 static const char *skip_value(const char *at)
 {
     int depth = 0;
@@ -179,7 +179,7 @@ long number(const char *value)
     return value == NULL || end == value ? -1 : result;
 }
 
-/* Memory, or the end. */
+/* Memory; without it the program ends. */
 static void *allocated(void *old, size_t size)
 {
     void *memory = realloc(old, size);

@@ -37,7 +37,7 @@ public:
     static Json read(const std::string &text);
 
     bool has(const std::string &name) const { return find(name) != nullptr; }
-    // A field of an object. These throw if the value is another one.
+    // A field of an object. Each of these throws if the value is of another kind.
     const Json &operator[](const std::string &name) const;
     const std::string &text() const;
     long number() const;
@@ -60,7 +60,7 @@ private:
 
 // Bytes as hex digits.
 std::string hex(const Bytes &bytes);
-// A text as JSON has it.
+// A text as a JSON string.
 std::string quoted(const std::string &text);
 
 // An op takes the request and returns the object that `ok` holds, for example:

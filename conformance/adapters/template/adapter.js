@@ -68,7 +68,7 @@ async function answer(request) {
         if (error instanceof Rejected) {
             return { err: { class: error.fault, detail: error.message } };
         }
-        // What the library lets through is a finding.
+        // Any other error of the library is a finding.
         return { err: { class: "internal", detail: String(error) } };
     }
 }

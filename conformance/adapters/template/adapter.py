@@ -62,7 +62,7 @@ def answer(request):
         return {"skip": {"reason": str(skipped)}}
     except Rejected as rejected:
         return {"err": {"class": rejected.fault, "detail": str(rejected)}}
-    except Exception as error:  # what the library lets through is a finding
+    except Exception as error:  # any other error of the library is a finding
         return {"err": {"class": "internal", "detail": repr(error)}}
 
 

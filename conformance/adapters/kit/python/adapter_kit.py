@@ -104,5 +104,5 @@ def _answer(request, hello, wire, ops):
         return {"err": {"class": error.error_class, "detail": str(error)}}
     except BadRequest as error:
         return {"err": {"class": "parameter", "detail": f"bad request: {error}"}}
-    except Exception as error:  # whatever the library lets through is a finding
+    except Exception as error:  # any other error of the library is a finding
         return {"err": {"class": "internal", "detail": f"{type(error).__name__}: {error}"}}
