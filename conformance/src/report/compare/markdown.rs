@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use super::model::{Comparison, Standing};
 use super::words::{ASKED_DIFFERENTLY, cell};
 use crate::report::markdown::{code, prose};
+use crate::report::model::Statement;
 use crate::report::words::{self, count, mark};
 
 /// Writes the comparison.
@@ -33,8 +34,9 @@ fn matrix(
     writeln!(out, "\n### {title}\n")?;
     head("requirement", comparison, out)?;
     for row in comparison.rows(standing) {
-        let place = row.statement.as_ref().map(|statement| prose(&statement.place()));
-        write!(out, "| {}<br>{} |", code(&row.id), place.unwrap_or_default())?;
+        let place = |statement: &Statement| format!("<br>{}", prose(&statement.place()));
+        let place = row.statement.as_ref().map(place).unwrap_or_default();
+        write!(out, "| {}{place} |", code(&row.id))?;
         for own in &row.cells {
             let mark = own.as_ref().map(|own| mark(own.verdict)).unwrap_or_default();
             write!(out, " {mark} {} |", cell(own.as_ref()))?;
