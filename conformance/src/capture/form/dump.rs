@@ -29,7 +29,7 @@ struct Row {
 impl Row {
     fn of(line: &str) -> Option<Self> {
         let found = ROW.captures(line)?;
-        let part = |name| found.name(name).map_or("", |part| part.as_str()).trim_end().to_owned();
+        let part = |name| found.name(name).map_or("", |part| part.as_str()).to_owned();
         let colon = found.name("colon").is_some();
         Some(Self { offset: part("offset"), colon, rest: part("rest") })
     }
@@ -38,12 +38,16 @@ impl Row {
         u64::from_str_radix(&self.offset, radix).ok()
     }
 
-    /// The bytes of the groups at the beginning, and where each byte ends in the text.
+    /// The bytes of the groups at the beginning, and where each byte ends in the text. What follows a
+    /// gap that is wider than the one in the middle of some lines are characters.
     fn groups(&self) -> Vec<(u8, usize)> {
         let mut bytes = Vec::new();
         let mut at = 0;
         for word in self.rest.split_inclusive(char::is_whitespace) {
             let digits = word.trim_end();
+            if self.rest.get(..at).is_some_and(|before| before.ends_with("   ")) {
+                break;
+            }
             let hex = digits.bytes().all(|digit| digit.is_ascii_hexdigit());
             if !hex || !digits.len().is_multiple_of(2) {
                 break;
@@ -73,7 +77,7 @@ impl Row {
     fn sizes(&self, bytes: &[(u8, usize)]) -> Vec<usize> {
         let fits = |(index, (_, end)): (usize, &(u8, usize))| {
             let rest = self.rest.get(*end..)?;
-            let column = rest.trim_start().trim_matches(['|', '>', '<']).chars().count();
+            let column = rest.trim().trim_matches(['|', '>', '<']).chars().count();
             let size = index + 1;
             // Spaces at the end may be lost, and Wireshark has one in the middle.
             let column_fits = rest.starts_with("  ") || rest.trim_start().starts_with(['|', '>']);
@@ -119,21 +123,22 @@ pub(in crate::capture) fn is_dump(text: &str) -> bool {
     let Some(first) = lines.next().and_then(Row::of) else { return false };
     let begins = first.offset.bytes().all(|digit| digit == b'0') && !first.rest.is_empty();
     let next = lines.next().and_then(Row::of);
-    let count = first.groups().len() as u64;
+    let groups = first.groups();
+    let sizes = first.sizes(&groups);
     let follows = |next: &Row, radix: u32| {
         let (Some(from), Some(to)) = (first.offset(radix), next.offset(radix)) else {
             return false;
         };
-        to > from && to - from <= count && to - from + 1 >= count
+        // Behind the bytes there may be characters that look like bytes.
+        let fits = |size: usize| to - from <= size as u64 && to - from + 1 >= size as u64;
+        to > from && (fits(groups.len()) || sizes.iter().copied().any(fits))
     };
     if let Some(next) = next {
         return [16, 8].into_iter().any(|radix| follows(&next, radix));
     }
-    let groups = first.groups();
-    let sizes = first.sizes(&groups);
     let mut ends = sizes.iter().filter_map(|size| groups.get(size - 1));
-    let column = ends.any(|(_, end)| *end < first.rest.len());
-    begins && (first.colon || column) && count > 0
+    let column = ends.any(|(_, end)| *end < first.rest.trim_end().len());
+    begins && (first.colon || column) && !groups.is_empty()
 }
 
 /// The bytes of a line that is a dump by itself.
