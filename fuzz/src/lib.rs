@@ -44,12 +44,14 @@ pub enum Seeds {
     Yaml,
     /// Texts that the suite reads.
     Texts,
+    /// Bytes as people paste them.
+    Forms,
 }
 
 impl Seeds {
     /// Every family.
     pub fn all() -> impl Iterator<Item = Self> {
-        Wire::ALL.into_iter().map(Self::Wire).chain([Self::Yaml, Self::Texts])
+        Wire::ALL.into_iter().map(Self::Wire).chain([Self::Yaml, Self::Texts, Self::Forms])
     }
 
     /// Its folder's name.
@@ -59,6 +61,7 @@ impl Seeds {
             Self::Wire(wire) => wire.id(),
             Self::Yaml => "yaml",
             Self::Texts => "texts",
+            Self::Forms => "forms",
         }
     }
 }
@@ -67,6 +70,7 @@ const DYNAMIXEL2: Seeds = Seeds::Wire(wire::dynamixel2::WIRE);
 const INNFOS: Seeds = Seeds::Wire(wire::innfos::WIRE);
 const YAML: Seeds = Seeds::Yaml;
 const TEXTS: Seeds = Seeds::Texts;
+const FORMS: Seeds = Seeds::Forms;
 
 macro_rules! table {
     ($($name:ident $(, $repair:ident)?: $seeds:ident, $max_len:literal;)*) => {
@@ -96,6 +100,7 @@ table! {
     innfos_stream, repair: INNFOS, 500;
     spec_yaml: YAML, 2000;
     readers: TEXTS, 12000;
+    forms: FORMS, 300;
 }
 
 /// The `main` of a target's binary: libFuzzer's under cargo-fuzz, else a replay of the files that

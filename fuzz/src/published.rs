@@ -7,7 +7,7 @@ use std::fs;
 use actucheck_spec::{Spec, load};
 
 use crate::dictionary::{self, Tokens};
-use crate::targets::{readers, spec_yaml};
+use crate::targets::{forms, readers, spec_yaml};
 use crate::{Seeds, TARGETS, Target};
 
 /// Inputs up to this many bytes are short.
@@ -45,6 +45,7 @@ fn seeds(spec: &Spec, seeds: Seeds) -> Vec<(String, Vec<u8>)> {
     let wire = match seeds {
         Seeds::Wire(wire) => wire,
         Seeds::Texts => return readers::seeds(),
+        Seeds::Forms => return forms::seeds(spec),
         Seeds::Yaml => return files().collect(),
     };
     let vectors = spec.vectors().filter(|(file, _)| file.wire == wire);
@@ -91,6 +92,7 @@ fn dictionary(spec: &Spec, seeds: Seeds) -> String {
             let seeds = readers::seeds();
             keys(seeds.iter().filter_map(|(_, text)| std::str::from_utf8(text).ok()))
         }
+        Seeds::Forms => forms::TOKENS.map(|token| token.as_bytes().to_vec()).into(),
     };
     let mut text = "# Generated; see `src/published.rs`.\n".to_owned();
     for token in tokens.iter().filter(|token| !token.is_empty()) {

@@ -66,10 +66,10 @@ proptest! {
     #[test]
     fn any_input_passes(
         target in prop::sample::select(TARGETS),
-        mut input in vec(prop_oneof![any::<u8>(), prop::sample::select(&b"\xFF\xFD\xFE\x00\x55\xEE\xED"[..])], 0..200),
+        mut input in vec(prop_oneof![any::<u8>(), b' '..=b'~', prop::sample::select(&b"\xFF\xFD\xFE\x00\x55\xEE\xED"[..])], 0..200),
         repaired in any::<bool>(),
     ) {
-        prop_assume!(matches!(target.seeds, Seeds::Wire(_)));
+        prop_assume!(matches!(target.seeds, Seeds::Wire(_) | Seeds::Forms));
         if let Some(repair) = target.repair.filter(|_| repaired) {
             repair(&mut input);
         }

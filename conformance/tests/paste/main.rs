@@ -2,12 +2,12 @@
 //! and what the program says. `ACCEPT=1` writes the latter anew; then every line of it is compared with
 //! the documents by eye.
 //!
-//! `forms` writes bytes in every form and reads them again, and `mistakes` makes packets wrong on purpose.
+//! `mistakes` makes packets wrong on purpose. The fuzz target `forms` writes bytes in every form and reads
+//! them again.
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
 mod bad;
-mod forms;
 mod mistakes;
 mod vectors;
 

@@ -2,6 +2,7 @@
 
 pub mod crc;
 pub mod fast_status;
+pub mod forms;
 pub mod innfos_frame;
 pub mod innfos_stream;
 mod model;
