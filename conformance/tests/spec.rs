@@ -187,13 +187,14 @@ fn words_find_what_has_all_of_them_names_first() {
     assert!(found(&["goal", "reached"])[0].starts_with("ja-variant.moving-status.in-position  "));
     for (words, id) in [
         ("clear", "dynamixel2/Clear  "),
-        ("drag mode", "innfos/"),
+        ("clear alarms", "innfos/0xFE  "),
         ("stuffing.transmit", "dynamixel2.stuffing.transmit  "),
         ("goal-position.limits", "ja40.goal-position.limits  "),
     ] {
         let lines = found(&[words]);
         assert!(lines.iter().any(|line| line.starts_with(id)), "{words}: {lines:?}");
     }
+    assert!(found(&["velocity"])[0].contains("/Velocity "), "a name that begins so is the first");
     let many = found(&["position"]);
     assert_eq!(many.len(), 42);
     assert!(many[40].starts_with("and ") && many[40].ends_with(" more; add a word"), "{many:?}");
