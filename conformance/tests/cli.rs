@@ -211,8 +211,8 @@ fn what_is_no_packet_is_told_with_reason_offset_and_expectation() {
         4  01           ID           1
         5  09 00        length       9 bytes follow
         7  03           instruction  Write
-        8  34 02        address      564 (Goal Position, JA40)
-       10  d0 07 00 00  data         Goal Position = 2000 (2000 count)
+        8  34 02        address      564 (if ja40 or ja-variant: Goal Position)
+       10  d0 07 00 00  data         2000
        14  1e c8        CRC          1E C9 is expected
            fits if byte 15 is C9
     ");
