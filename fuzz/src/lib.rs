@@ -7,8 +7,10 @@
 
 use actucheck_spec::wire::{self, Wire};
 
+#[cfg(feature = "suite")]
 mod dictionary;
 mod draw;
+#[cfg(feature = "suite")]
 pub mod published;
 pub mod targets;
 mod yaml;
@@ -69,13 +71,15 @@ impl Seeds {
 const DYNAMIXEL2: Seeds = Seeds::Wire(wire::dynamixel2::WIRE);
 const INNFOS: Seeds = Seeds::Wire(wire::innfos::WIRE);
 const YAML: Seeds = Seeds::Yaml;
+#[cfg(feature = "suite")]
 const TEXTS: Seeds = Seeds::Texts;
+#[cfg(feature = "suite")]
 const FORMS: Seeds = Seeds::Forms;
 
 macro_rules! table {
-    ($($name:ident $(, $repair:ident)?: $seeds:ident, $max_len:literal;)*) => {
+    ($($(#[$when:meta])* $name:ident $(, $repair:ident)?: $seeds:ident, $max_len:literal;)*) => {
         /// Every target.
-        pub const TARGETS: &[Target] = &[$(Target {
+        pub const TARGETS: &[Target] = &[$($(#[$when])* Target {
             name: stringify!($name),
             check: targets::$name::check,
             repair: table!(@ $($repair targets::$name::repair)?),
@@ -99,7 +103,9 @@ table! {
     innfos_frame, repair: INNFOS, 300;
     innfos_stream, repair: INNFOS, 500;
     spec_yaml: YAML, 2000;
+    #[cfg(feature = "suite")]
     readers: TEXTS, 12000;
+    #[cfg(feature = "suite")]
     forms: FORMS, 300;
 }
 

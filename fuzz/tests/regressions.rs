@@ -37,6 +37,7 @@ regressions! {
     /// The codec named the ID, though the packet ends within its prefix.
     packet: prefix_that_ends_at_a_wrong_id;
     /// A number of an answer was read as its neighbour.
+    #[cfg(feature = "suite")]
     readers: number_to_its_last_bit;
     /// The codec compared the lowest byte of a value that a register of one byte can't hold.
     register: condition_on_a_value_beyond_its_register;

@@ -2,11 +2,13 @@
 
 pub mod crc;
 pub mod fast_status;
+#[cfg(feature = "suite")]
 pub mod forms;
 pub mod innfos_frame;
 pub mod innfos_stream;
 mod model;
 pub mod packet;
+#[cfg(feature = "suite")]
 pub mod readers;
 pub mod register;
 pub mod spec_yaml;
