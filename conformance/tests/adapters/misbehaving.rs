@@ -168,7 +168,9 @@ fn its_children_in_a_session_of_their_own_end_with_it_too() {
 fn end_with_it(answer: &str) {
     let folder = tempfile::tempdir().unwrap();
     let pid_file = folder.path().join("pid");
-    let run = answering(&answer.replace("PID", pid_file.to_str().unwrap()));
+    let script = WELL_BEHAVED.replace("ANSWER", &answer.replace("PID", pid_file.to_str().unwrap()));
+    // Two are enough, as each takes a second.
+    let run = check_with(&["--max-fail", "2"], &script);
     assert_eq!(run.exit(), 1);
     let pid = std::fs::read_to_string(pid_file).unwrap();
     // A killed process that nobody waits for stays as a zombie, which counts as ended.
