@@ -91,9 +91,10 @@ fn written(bytes: &[u8]) -> Vec<Written> {
         ),
         Written::new(Form::Hex, Mark::Sure, log(bytes)),
         Written::new(Form::Escaped, Mark::Sure, Notation::Python.text(bytes)),
-        Written::new(Form::Escaped, Mark::Sure, python(bytes)),
-        Written::new(Form::Dump, Mark::Sure, hexdump),
-        Written::new(Form::Dump, Mark::Sure, xxd),
+        // Their characters may look like any other form.
+        Written::new(Form::Escaped, Mark::None, python(bytes)),
+        Written::new(Form::Dump, Mark::None, hexdump),
+        Written::new(Form::Dump, Mark::None, xxd),
         Written::new(Form::Csv, Mark::Sure, format!("Time [s],Value,Framing Error\n{rows}\n")),
         Written::new(Form::Pcap, Mark::Sure, pcap(bytes)),
         Written::new(Form::Raw, Mark::None, bytes),
