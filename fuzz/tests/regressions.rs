@@ -36,6 +36,9 @@ regressions! {
     innfos_frame: wrong_crc_and_trailing_bytes;
     /// The codec named the ID, though the packet ends within its prefix.
     packet: prefix_that_ends_at_a_wrong_id;
+    /// What follows another line end than the usual one was taken for the comment before it, and written twice.
+    #[cfg(feature = "suite")]
+    readers: comment_that_ends_early;
     /// A number of an answer was read as its neighbour.
     #[cfg(feature = "suite")]
     readers: number_to_its_last_bit;

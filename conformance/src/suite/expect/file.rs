@@ -68,12 +68,16 @@ struct Content {
 /// The comment of a file that had none.
 const COMMENT: &str = "# Failures that are expected; `actucheck codec --expect` reads this file.\n";
 
+/// Whether a line is all comment. YAML has more line ends than text files have.
+fn is_comment(line: &str) -> bool {
+    line.starts_with('#') && !line.trim_end().contains(['\r', '\u{85}', '\u{2028}', '\u{2029}'])
+}
+
 impl File {
     /// Reads the text of the file `name`. An empty file has no rows.
     pub(super) fn parse(name: &str, text: &str) -> Result<Self, ExpectError> {
         let path = || name.to_owned();
-        let lines = text.split_inclusive('\n');
-        let comment: String = lines.take_while(|line| line.starts_with('#')).collect();
+        let comment: String = text.split_inclusive('\n').take_while(|it| is_comment(it)).collect();
         if text.trim().is_empty() {
             return Ok(Self { is_blank: true, ..Self::default() });
         }
