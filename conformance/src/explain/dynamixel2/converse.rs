@@ -4,23 +4,19 @@ use std::iter::repeat;
 use std::mem::take;
 use std::time::Duration;
 
-use actucheck_codec::crc;
+use actucheck_codec::dynamixel2::fast_status::Block;
 use actucheck_codec::dynamixel2::{
-    BROADCAST_ID, FastStatus, Frame, FrameError, Instruction, Request, StatusError,
+    BROADCAST_ID, FastStatus, Frame, FrameError, Instruction, Request,
 };
 use actucheck_spec::wire::{Direction, Fast};
 
-use super::super::diff::spaced;
 use super::super::stream::{Converse, Heard, Role, Silent, Turn};
 use super::extension::{self, FAST_BULK_READ};
+use super::fast::{block_words, data_of_write, whole_blocks};
 use super::held::Held;
 use super::warnings::Question;
-use super::words::{error_words, whom};
 use super::{PREFIX, warnings};
 use crate::device::{Tables, of_model};
-
-/// Bytes of a block of a fast status packet beside its data: error, ID and CRC.
-const BLOCK: usize = 4;
 
 /// Follows the conversation of a host with its devices.
 pub(super) struct Talk {
@@ -237,8 +233,8 @@ impl Talk {
         let Some(fast) = ask.fast.clone() else {
             let lengths = ask.devices.iter().filter_map(|asked| asked.length);
             let blocks = whole_blocks(heard.bytes, lengths);
-            turn.notes.extend(blocks.iter().filter_map(|block| block_words(block)));
-            ask.mark(&ids(&blocks));
+            turn.notes.extend(blocks.iter().map(block_words));
+            ask.mark(&blocks);
             return turn;
         };
         let first = ask.devices.first().and_then(|asked| asked.address);
@@ -250,15 +246,16 @@ impl Talk {
         };
         match FastStatus::parse(heard.bytes, length, &fast.ids) {
             Ok(packet) => {
-                let errors = packet
-                    .blocks()
+                let blocks: Vec<_> = packet.blocks().collect();
+                let errors = blocks
+                    .iter()
                     .flat_map(|block| warnings::error(block.error, turn.tables.of(block.id)));
                 turn.warnings.extend(errors);
-                ask.mark(&fast.ids);
+                ask.mark(&blocks);
                 turn.context.fast = Some(Fast { length, ids: fast.ids });
             }
             Err(error) => {
-                ask.mark(&ids(&whole_blocks(heard.bytes, repeat(length))));
+                ask.mark(&whole_blocks(heard.bytes, repeat(length)));
                 turn.notes.push(error.to_string());
                 if matches!(error, FrameError::BlockId { .. }) {
                     let table = fast.ids.first().and_then(|id| turn.tables.of(*id));
@@ -271,9 +268,9 @@ impl Talk {
 }
 
 impl Ask {
-    fn mark(&mut self, ids: &[u8]) {
+    fn mark(&mut self, blocks: &[Block<'_>]) {
         for asked in &mut self.devices {
-            asked.answered |= ids.contains(&asked.id);
+            asked.answered |= blocks.iter().any(|block| block.id == asked.id);
         }
     }
 }
@@ -309,9 +306,9 @@ impl Converse for Talk {
                     && id == BROADCAST_ID
                     && code == Instruction::Status.code()
                 {
-                    let found = ids(&whole_blocks(packet, repeat(fast.length)));
+                    let found = whole_blocks(packet, repeat(fast.length));
                     if !found.is_empty() {
-                        let ids: Vec<_> = found.iter().map(u8::to_string).collect();
+                        let ids: Vec<_> = found.iter().map(|block| block.id.to_string()).collect();
                         notes.push(format!("whole blocks of devices {}", ids.join(", ")));
                         self.answered = true;
                     }
@@ -348,45 +345,6 @@ fn ping(frame: &Frame<'_>) -> Option<(u16, u8)> {
 fn ping_words(model: u16, firmware: u8) -> String {
     let name = of_model(model).map(|device| format!(" ({})", device.name)).unwrap_or_default();
     format!("model {model}{name}, firmware {firmware}")
-}
-
-/// Bytes of data in each block of an answer to a write.
-fn data_of_write(bytes: &[u8], devices: usize) -> u16 {
-    let blocks = bytes.len().saturating_sub(PREFIX + 1);
-    let block = blocks.checked_div(devices).unwrap_or_default();
-    u16::try_from(block.saturating_sub(BLOCK)).unwrap_or_default()
-}
-
-/// The blocks that are whole, without their CRCs: each CRC covers all before it.
-fn whole_blocks(bytes: &[u8], lengths: impl Iterator<Item = u16>) -> Vec<&[u8]> {
-    let mut found = Vec::new();
-    let (head, mut rest) = bytes.split_at_checked(PREFIX + 1).unwrap_or_default();
-    let mut crc = crc::umts(head);
-    for length in lengths {
-        let Some((block, after)) = rest.split_at_checked(BLOCK + usize::from(length)) else {
-            break;
-        };
-        let Some((before, sum)) = block.split_last_chunk() else { break };
-        crc = crc::umts_update(crc, before);
-        if crc == u16::from_le_bytes(*sum) {
-            found.push(before);
-        }
-        crc = crc::umts_update(crc, sum);
-        rest = after;
-    }
-    found
-}
-
-/// The devices of blocks.
-fn ids(blocks: &[&[u8]]) -> Vec<u8> {
-    blocks.iter().filter_map(|block| block.get(1).copied()).collect()
-}
-
-/// A block in words.
-fn block_words(block: &[u8]) -> Option<String> {
-    let [error, id, data @ ..] = block else { return None };
-    let error = error_words(StatusError(*error));
-    Some(format!("{}: {error}, data {}", whom(*id), spaced(data)))
 }
 
 /// What a fast status packet has if each device is asked for as many bytes.

@@ -4,6 +4,7 @@ mod address;
 mod body;
 mod converse;
 mod extension;
+mod fast;
 mod held;
 mod mistakes;
 mod split;
