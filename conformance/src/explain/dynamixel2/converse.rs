@@ -1,7 +1,7 @@
 //! Who asks and who answers: a status packet does not say what it answers.
 
+use std::collections::BTreeSet;
 use std::iter::repeat;
-use std::mem::take;
 use std::time::Duration;
 
 use actucheck_codec::dynamixel2::fast_status::Block;
@@ -77,20 +77,16 @@ impl Talk {
         }
         let silent = self.silent();
         // The lists of the last request are used again: there are millions of requests.
+        let Self { tables, ask, held, scratch, .. } = self;
         let (mut bytes, mut devices) =
-            self.ask.take().map(|ask| (ask.bytes, ask.devices)).unwrap_or_default();
+            ask.take().map(|ask| (ask.bytes, ask.devices)).unwrap_or_default();
         bytes.clear();
         bytes.extend_from_slice(heard.bytes);
         devices.clear();
-        let (mut scratch, mut held) = (take(&mut self.scratch), take(&mut self.held));
-        if scratch.len() < frame.params_len() {
-            scratch.resize(frame.params_len(), 0);
-        }
-        let request = Request::parse(frame, &mut scratch);
-        let table = |id| self.tables.of(id);
-        let warnings = warnings::request(frame, &request, &table, &held);
+        let request = Request::parse(frame, room(scratch, frame));
+        let warnings = warnings::request(frame, &request, tables, held);
         if let Ok(request) = &request {
-            held.request(frame.id(), request, table);
+            held.request(frame.id(), request, tables);
         }
         let request = match request {
             Ok(Request::Unknown { params, .. }) if instruction == FAST_BULK_READ => {
@@ -122,11 +118,10 @@ impl Talk {
             }
             _ => devices.push(Asked::of(frame.id(), None)),
         }
-        (self.scratch, self.held) = (scratch, held);
         if instruction == FAST_BULK_READ {
             fast = of_one_length(&devices);
         }
-        self.ask = Some(Ask {
+        *ask = Some(Ask {
             at: heard.place.at,
             end: heard.end,
             bytes,
@@ -166,12 +161,13 @@ impl Talk {
         let (kind, id) = (Instruction::Status.name(), frame.id());
         // The first parameter is the error.
         let size = frame.params_len().saturating_sub(1);
-        let table = self.tables.of(id);
-        let tables = self.tables.clone();
+        let Self { tables, ask, held, scratch, .. } = self;
+        let table = tables.of(id);
         let error = frame.error().unwrap_or_default();
         let warnings = warnings::error(error, table);
-        let mut turn = Turn { kind, device: Some(id), tables, warnings, ..Turn::default() };
-        let Some(ask) = &mut self.ask else { return unasked(turn, frame) };
+        let mut turn =
+            Turn { kind, device: Some(id), tables: tables.clone(), warnings, ..Turn::default() };
+        let Some(ask) = ask else { return unasked(turn, frame) };
         let everyone = ask.devices.is_empty();
         let place = ask.devices.iter().position(|asked| asked.id == id && !asked.answered);
         if place.is_none() && !everyone {
@@ -192,22 +188,19 @@ impl Talk {
             asked.answered = true;
             turn.address = asked.address;
         }
-        match (table, turn.address) {
-            (Some(table), _) if error.number().code() != 0 => {
-                self.held.refused(id, table, &ask.bytes);
-            }
-            (Some(table), Some(address)) => {
-                let data = || frame.params().skip(1).collect();
-                self.held.take(id, table, address, size, data);
-            }
-            _ => {}
+        if error.number().code() != 0 {
+            held.refused(&BTreeSet::from([id]), &ask.bytes, tables);
+        } else if let Some((table, address)) = table.zip(turn.address)
+            && let Ok([_, data @ ..]) = frame.copy_params(room(scratch, frame))
+        {
+            held.take(id, table, address, data);
         }
         if ask.instruction == Instruction::Ping
             && let Some((model, firmware)) = ping(frame)
         {
-            self.tables.learn(id, model);
+            tables.learn(id, model);
             turn.model = Some(model);
-            turn.tables = self.tables.clone();
+            turn.tables = tables.clone();
             turn.notes.push(ping_words(model, firmware));
         }
         turn
@@ -217,9 +210,10 @@ impl Talk {
     fn fast_status(&mut self, heard: &Heard<'_>) -> Turn {
         self.answered = true;
         let kind = "Fast Status";
-        let mut turn = Turn { kind, tables: self.tables.clone(), ..Turn::default() };
+        let Self { tables, ask, held, .. } = self;
+        let mut turn = Turn { kind, tables: tables.clone(), ..Turn::default() };
         let is_asked = |ask: &&mut Ask| ask.fast.is_some() || ask.instruction == FAST_BULK_READ;
-        let Some(ask) = self.ask.as_mut().filter(is_asked) else {
+        let Some(ask) = ask.as_mut().filter(is_asked) else {
             turn.role = Role::Unasked;
             turn.notes.push(
                 "its request is not here, so its blocks are not known; tell them with --fast"
@@ -234,7 +228,7 @@ impl Talk {
             let lengths = ask.devices.iter().filter_map(|asked| asked.length);
             let blocks = whole_blocks(heard.bytes, lengths);
             turn.notes.extend(blocks.iter().map(block_words));
-            ask.mark(&blocks);
+            ask.hear(&blocks, tables, held);
             return turn;
         };
         let first = ask.devices.first().and_then(|asked| asked.address);
@@ -249,16 +243,16 @@ impl Talk {
                 let blocks: Vec<_> = packet.blocks().collect();
                 let errors = blocks
                     .iter()
-                    .flat_map(|block| warnings::error(block.error, turn.tables.of(block.id)));
+                    .flat_map(|block| warnings::error(block.error, tables.of(block.id)));
                 turn.warnings.extend(errors);
-                ask.mark(&blocks);
+                ask.hear(&blocks, tables, held);
                 turn.context.fast = Some(Fast { length, ids: fast.ids });
             }
             Err(error) => {
-                ask.mark(&whole_blocks(heard.bytes, repeat(length)));
+                ask.hear(&whole_blocks(heard.bytes, repeat(length)), tables, held);
                 turn.notes.push(error.to_string());
                 if matches!(error, FrameError::BlockId { .. }) {
-                    let table = fast.ids.first().and_then(|id| turn.tables.of(*id));
+                    let table = fast.ids.first().and_then(|id| tables.of(*id));
                     turn.warnings.extend(warnings::order(ask.instruction, table));
                 }
             }
@@ -268,7 +262,21 @@ impl Talk {
 }
 
 impl Ask {
-    fn mark(&mut self, blocks: &[Block<'_>]) {
+    /// Takes the answers that one packet has.
+    fn hear(&mut self, blocks: &[Block<'_>], tables: &Tables, held: &mut Held) {
+        let is_refused = |block: &&Block<'_>| block.error.number().code() != 0;
+        let refused: BTreeSet<_> = blocks.iter().filter(is_refused).map(|block| block.id).collect();
+        if !refused.is_empty() {
+            held.refused(&refused, &self.bytes, tables);
+        }
+        for (block, asked) in blocks.iter().zip(&self.devices) {
+            if block.id == asked.id
+                && !is_refused(&block)
+                && let Some((table, address)) = tables.of(block.id).zip(asked.address)
+            {
+                held.take(block.id, table, address, block.data);
+            }
+        }
         for asked in &mut self.devices {
             asked.answered |= blocks.iter().any(|block| block.id == asked.id);
         }
@@ -299,21 +307,20 @@ impl Converse for Talk {
             && bytes.starts_with(&actucheck_codec::dynamixel2::HEADER)
         {
             notes.push(warnings::cited(error));
-            if let Some(ask) = &mut self.ask {
-                ask.followed = true;
-                // A fast status packet has whole blocks, even if it ends early.
-                if let Some(fast) = &ask.fast
-                    && id == BROADCAST_ID
-                    && code == Instruction::Status.code()
-                {
-                    let found = whole_blocks(packet, repeat(fast.length));
-                    if !found.is_empty() {
-                        let ids: Vec<_> = found.iter().map(|block| block.id.to_string()).collect();
-                        notes.push(format!("whole blocks of devices {}", ids.join(", ")));
-                        self.answered = true;
-                    }
-                    ask.mark(&found);
+            let Self { tables, ask: Some(ask), answered, held, .. } = self else { return notes };
+            ask.followed = true;
+            // A fast status packet has whole blocks, even if it ends early.
+            if let Some(fast) = &ask.fast
+                && id == BROADCAST_ID
+                && code == Instruction::Status.code()
+            {
+                let found = whole_blocks(packet, repeat(fast.length));
+                if !found.is_empty() {
+                    let ids: Vec<_> = found.iter().map(|block| block.id.to_string()).collect();
+                    notes.push(format!("whole blocks of devices {}", ids.join(", ")));
+                    *answered = true;
                 }
+                ask.hear(&found, tables, held);
             }
         }
         notes
@@ -324,6 +331,14 @@ impl Converse for Talk {
         self.ask = None;
         silent
     }
+}
+
+/// Room for a packet's parameters.
+fn room<'a>(scratch: &'a mut Vec<u8>, frame: &Frame<'_>) -> &'a mut [u8] {
+    if scratch.len() < frame.params_len() {
+        scratch.resize(frame.params_len(), 0);
+    }
+    scratch
 }
 
 fn unasked(mut turn: Turn, frame: &Frame<'_>) -> Turn {

@@ -1,6 +1,6 @@
 //! What registers hold, as far as a stream tells.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::RangeInclusive;
 use std::ptr;
 
@@ -8,19 +8,23 @@ use actucheck_codec::dynamixel2::instruction::{DeviceData, DeviceWrite};
 use actucheck_codec::dynamixel2::{BROADCAST_ID, Frame, Request};
 use actucheck_codec::register::{Bound, Device, Range, Row};
 
+use crate::device::Tables;
+
 /// The values of registers on which rules about other registers depend, such as Torque Enable and the
 /// limits.
 #[derive(Default)]
 pub(super) struct Held {
-    values: HashMap<(u8, u16), i64>,
+    values: BTreeMap<(u8, u16), i64>,
     /// Those registers, of each table in use.
     tables: Vec<(&'static Device, Vec<&'static Row>)>,
 }
 
 impl Held {
-    /// What the register at this address of a device holds.
+    /// What the register at this address of a device holds; of all devices, if each holds the same.
     pub(super) fn value(&self, id: u8, address: u16) -> Option<i64> {
-        self.values.get(&(id, address)).copied()
+        let mut values = ids(id).map(|id| self.values.get(&(id, address)).copied());
+        let first = values.next()??;
+        values.all(|value| value == Some(first)).then_some(first)
     }
 
     /// The register that keeps a device's EEPROM area read-only, if it was seen on.
@@ -31,80 +35,56 @@ impl Held {
     }
 
     /// Takes what a request changes.
-    pub(super) fn request(
-        &mut self,
-        id: u8,
-        request: &Request<'_>,
-        table: impl Fn(u8) -> Option<&'static Device>,
-    ) {
+    pub(super) fn request(&mut self, id: u8, request: &Request<'_>, tables: &Tables) {
         match request {
-            // What it writes is held from the next Action on, or never.
-            Request::RegWrite(write) => {
-                if let Some(table) = table(id) {
-                    self.forget_in(id, table, write.address, write.data.len());
-                }
-            }
-            Request::Reboot(_) | Request::FactoryReset(_) | Request::ControlTableBackup(_) => {
-                self.forget(id);
+            // It changes nothing until an Action.
+            Request::RegWrite(_) => {}
+            Request::Action(_)
+            | Request::Reboot(_)
+            | Request::FactoryReset(_)
+            | Request::ControlTableBackup(_) => {
+                self.values.retain(|(other, _), _| !ids(id).contains(other));
             }
             request => writes(id, request, |id, address, data| {
-                if let Some(table) = table(id) {
-                    self.take(id, table, address, data.len(), || data.to_vec());
+                for id in ids(id) {
+                    if let Some(table) = tables.of(id) {
+                        self.take(id, table, address, data);
+                    }
                 }
             }),
         }
     }
 
-    /// Forgets what a device refused to write.
-    pub(super) fn refused(&mut self, id: u8, table: &'static Device, request: &[u8]) {
+    /// Forgets what devices refused to write.
+    pub(super) fn refused(&mut self, devices: &BTreeSet<u8>, request: &[u8], tables: &Tables) {
         let Ok(frame) = Frame::parse(request) else { return };
         let params: Vec<u8> = frame.params().collect();
         let Ok(request) = Request::of(frame.instruction(), &params) else { return };
-        writes(id, &request, |_, address, data| self.forget_in(id, table, address, data.len()));
+        writes(frame.id(), &request, |id, address, data| {
+            for id in ids(id).filter(|id| devices.contains(id)) {
+                let Some(table) = tables.of(id) else { continue };
+                for row in rows(&mut self.tables, table, address, data.len()) {
+                    self.values.remove(&(id, row.address));
+                }
+            }
+        });
     }
 
-    /// Takes `length` bytes that were written or read from `address` on.
-    pub(super) fn take(
-        &mut self,
-        id: u8,
-        table: &'static Device,
-        address: u16,
-        length: usize,
-        data: impl Fn() -> Vec<u8>,
-    ) {
-        let Self { values, tables } = self;
-        for row in rows(tables, table).iter().filter(|row| is_within(row, address, length)) {
+    /// Takes bytes that were written or read from `address` on.
+    pub(super) fn take(&mut self, id: u8, table: &'static Device, address: u16, data: &[u8]) {
+        for row in rows(&mut self.tables, table, address, data.len()) {
             let from = usize::from(row.address - address);
-            let data = data();
             let bytes = data.get(from..from + usize::from(row.kind.size()));
-            let Some(value) = bytes.and_then(|bytes| row.decode(bytes)) else { continue };
-            values.extend(ids(id).map(|id| ((id, row.address), value)));
+            if let Some(value) = bytes.and_then(|bytes| row.decode(bytes)) {
+                self.values.insert((id, row.address), value);
+            }
         }
-    }
-
-    /// Forgets what some bytes of a device's table held.
-    pub(super) fn forget_in(
-        &mut self,
-        id: u8,
-        table: &'static Device,
-        address: u16,
-        length: usize,
-    ) {
-        let Self { values, tables } = self;
-        for row in rows(tables, table).iter().filter(|row| is_within(row, address, length)) {
-            values.retain(|(other, at), _| *at != row.address || !ids(id).contains(other));
-        }
-    }
-
-    /// Forgets what a device held.
-    pub(super) fn forget(&mut self, id: u8) {
-        self.values.retain(|(other, _), _| !ids(id).contains(other));
     }
 }
 
 /// The devices that an ID means.
 fn ids(id: u8) -> RangeInclusive<u8> {
-    if id == BROADCAST_ID { 0..=BROADCAST_ID } else { id..=id }
+    if id == BROADCAST_ID { 0..=BROADCAST_ID - 1 } else { id..=id }
 }
 
 /// Calls `each` with ID, address and data of every write in a request.
@@ -126,17 +106,24 @@ pub(super) fn writes(id: u8, request: &Request<'_>, mut each: impl FnMut(u8, u16
     }
 }
 
-/// The registers of a table to which it refers itself.
-fn rows<'a>(
-    tables: &'a mut Vec<(&'static Device, Vec<&'static Row>)>,
+/// The registers to which their table refers itself, of those that lie wholly within some bytes.
+fn rows(
+    tables: &mut Vec<(&'static Device, Vec<&'static Row>)>,
     table: &'static Device,
-) -> &'a [&'static Row] {
+    address: u16,
+    length: usize,
+) -> impl Iterator<Item = &'static Row> {
     let known = tables.iter().position(|(known, _)| ptr::eq(*known, table));
     let index = known.unwrap_or_else(|| {
         tables.push((table, referred(table)));
         tables.len() - 1
     });
-    tables.get(index).map_or(&[], |(_, rows)| rows)
+    let rows = tables.get(index).map_or(&[][..], |(_, rows)| rows);
+    let first = rows.partition_point(|row| row.address < address);
+    let end = usize::from(address) + length;
+    let is_within =
+        move |row: &&Row| usize::from(row.address) + usize::from(row.kind.size()) <= end;
+    rows.get(first..).unwrap_or_default().iter().copied().take_while(is_within)
 }
 
 fn referred(table: &Device) -> Vec<&'static Row> {
@@ -156,9 +143,4 @@ fn referred(table: &Device) -> Vec<&'static Row> {
     }
     let referred = |row: &&'static Row| addresses.contains(&row.address);
     table.registers.iter().copied().filter(referred).collect()
-}
-
-fn is_within(row: &Row, address: u16, length: usize) -> bool {
-    let offset = row.address.checked_sub(address).map(usize::from);
-    offset.is_some_and(|offset| offset + usize::from(row.kind.size()) <= length)
 }

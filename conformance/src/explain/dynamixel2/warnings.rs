@@ -13,28 +13,26 @@ use super::super::warning::Warning;
 use super::extension::FAST_BULK_READ;
 use super::held::{Held, writes};
 use super::writes::Write;
-
-/// Finds the control table of a device.
-pub(super) type TableOf<'a> = &'a dyn Fn(u8) -> Option<&'static Device>;
+use crate::device::Tables;
 
 /// What is wrong with an instruction packet, which was read as `request`.
 pub(super) fn request(
     frame: &Frame<'_>,
     request: &Result<Request<'_>, RequestError>,
-    table: TableOf<'_>,
+    tables: &Tables,
     held: &Held,
 ) -> Vec<Warning> {
     let (id, instruction) = (frame.id(), frame.instruction());
-    let mut warnings = Warnings { table: table(id), list: Vec::new() };
+    let mut warnings = Warnings { table: tables.of(id), list: Vec::new() };
     match request {
-        Ok(request) => warnings.request(id, request, table, held),
+        Ok(request) => warnings.request(id, request, tables, held),
         Err(RequestError::NotBroadcast { found }) => {
             let name = instruction.name();
             let text = format!("{name} names its devices, so it goes to 254, not to {found}");
             warnings.add(&[&own(instruction, "broadcast-id")], text);
             let params: Vec<u8> = frame.params().collect();
             match Request::of(instruction, &params) {
-                Ok(request) => warnings.request(id, &request, table, held),
+                Ok(request) => warnings.request(id, &request, tables, held),
                 Err(error) => warnings.unfit(instruction, &error),
             }
         }
@@ -150,7 +148,7 @@ impl Warnings {
         }
     }
 
-    fn request(&mut self, id: u8, request: &Request<'_>, table: TableOf<'_>, held: &Held) {
+    fn request(&mut self, id: u8, request: &Request<'_>, tables: &Tables, held: &Held) {
         let instruction = request.instruction();
         match request {
             Request::Unknown { code, .. } if instruction != FAST_BULK_READ => {
@@ -174,7 +172,7 @@ impl Warnings {
             _ => {}
         }
         writes(id, request, |id, address, data| {
-            if let Some(table) = table(id) {
+            if let Some(table) = tables.of(id) {
                 self.write(Write { id, table, address, data }, held);
             }
         });
