@@ -18,6 +18,9 @@ impl Warnings {
     /// What is wrong with a write.
     pub(super) fn write(&mut self, write: Write<'_>, held: &Held) {
         let Write { id, table, address, data } = write;
+        if data.is_empty() {
+            return;
+        }
         self.table = Some(table);
         let mut lock = held.lock(id, table);
         for row in touched(table, address, data.len()) {
