@@ -163,13 +163,15 @@ pub struct Skipped<'a> {
     pub reason: String,
     /// What else is known about them, as sentences.
     pub notes: Vec<String>,
+    /// The control tables that are known without the stream.
+    pub tables: &'a Tables,
 }
 
 impl Skipped<'_> {
     /// Their fields as far as they can be read, if they begin like a packet.
     #[must_use]
     pub fn fields(&self, wire: Wire) -> Vec<Row> {
-        let (context, tables) = (self.context(), &Tables::default());
+        let (context, tables) = (self.context(), self.tables);
         damaged(wire, &Asked { bytes: self.bytes, context, tables, address: None })
     }
 
@@ -194,6 +196,8 @@ pub struct Follower {
 
 struct Parts {
     converse: Box<dyn Converse>,
+    /// The control tables that were known before.
+    tables: Tables,
     /// Bytes before the next event.
     at: u64,
     fed: u64,
@@ -206,8 +210,8 @@ impl Follower {
     /// are not followed.
     #[must_use]
     pub fn new(wire: Wire, tables: Tables) -> Option<Self> {
-        let (split, converse) = (Own::of(wire)?.listen)(tables);
-        let parts = Parts { converse, at: 0, fed: 0, pieces: VecDeque::new() };
+        let (split, converse) = (Own::of(wire)?.listen)(tables.clone());
+        let parts = Parts { converse, tables, at: 0, fed: 0, pieces: VecDeque::new() };
         Some(Self { parts, split, direction: None })
     }
 
@@ -285,7 +289,9 @@ impl Parts {
             Cut::Skipped(count, bytes, reason) => {
                 self.at += count;
                 let notes = self.converse.skipped(bytes);
-                take(Event::Skipped(Skipped { place, direction, count, bytes, reason, notes }));
+                let tables = &self.tables;
+                let skipped = Skipped { place, direction, count, bytes, reason, notes, tables };
+                take(Event::Skipped(skipped));
             }
         }
     }
