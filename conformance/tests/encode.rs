@@ -2,6 +2,9 @@
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
+use std::fs;
+use std::path::Path;
+
 use actucheck::compose::{ComposeError, Composed, Phrase, Word, compose};
 use actucheck::device::Tables;
 use actucheck_spec::Spec;
@@ -288,6 +291,23 @@ fn what_makes_no_packet_says_why() {
         let sentence = composed(&spec, words).unwrap_err().to_string();
         assert!(sentence.contains(reason) && !sentence.contains('\n'), "{words}: {sentence}");
     }
+}
+
+/// Two files are two tables, though they give the same id.
+#[test]
+fn tables_are_told_apart_by_their_files() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../codec/examples/own-device");
+    let first = folder.join("gripper.yaml");
+    let second = Path::new(env!("CARGO_TARGET_TMPDIR")).join("other-gripper.yaml");
+    let text = fs::read_to_string(&first).unwrap();
+    fs::write(&second, text.replace("address: 68", "address: 66")).unwrap();
+    let words = format!(
+        "sync-read --device 1={},2={} --id 1,2 goal-force",
+        first.display(),
+        second.display()
+    );
+    let error = composed(&Spec::embedded().unwrap(), &words).unwrap_err().to_string();
+    assert!(error.contains("of different kinds"), "{error}");
 }
 
 #[test]

@@ -11,6 +11,7 @@ mod number;
 mod word;
 
 use std::collections::BTreeSet;
+use std::ptr;
 
 use actucheck_spec::Spec;
 use actucheck_spec::model::{Device, HexBytes};
@@ -122,7 +123,7 @@ impl Phrase<'_> {
         }
         let mut devices: Vec<_> = ids.iter().map(|id| self.tables.written(*id, spec)).collect();
         let mut seen = BTreeSet::new();
-        devices.retain(|device| seen.insert(device.map(|device| &device.device)));
+        devices.retain(|device| seen.insert(device.map(ptr::from_ref)));
         devices
     }
 }
