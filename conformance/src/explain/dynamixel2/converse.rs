@@ -179,7 +179,7 @@ impl Talk {
         };
         ask.followed = true;
         let after = heard.place.time.zip(ask.end).and_then(|(begin, end)| begin.checked_sub(end));
-        turn.role = Role::Answer { to: ask.at, name: ask.instruction.name(), after };
+        turn.role = Role::Answer { to: ask.at, name: extension::name(ask.instruction), after };
         let instruction = ask.instruction;
         let length = asked.as_ref().and_then(|asked| asked.length);
         let question = Question { instruction, everyone, later, length };
