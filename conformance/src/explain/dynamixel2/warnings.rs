@@ -14,6 +14,7 @@ use super::extension::FAST_BULK_READ;
 use super::held::{Held, writes};
 use super::writes::Write;
 use crate::device::Tables;
+use crate::names::as_word;
 
 /// What is wrong with an instruction packet, which was read as `request`.
 pub(super) fn request(
@@ -211,14 +212,9 @@ fn sum(layout: &[Field]) -> Option<usize> {
 fn own(instruction: Instruction, what: &str) -> String {
     let name = match instruction {
         Instruction::ControlTableBackup => "backup".to_owned(),
-        other => kebab(other.name()),
+        other => as_word(other.name()),
     };
     format!("{name}.{what}")
-}
-
-/// A name as it is in the ids of requirements: `goal-position`.
-pub(super) fn kebab(name: &str) -> String {
-    name.to_lowercase().replace(' ', "-")
 }
 
 #[cfg(test)]

@@ -3,7 +3,8 @@
 use actucheck_codec::register::{Access, Area, Device, RegisterError, Row};
 
 use super::held::Held;
-use super::warnings::{Warnings, kebab};
+use super::warnings::Warnings;
+use crate::names::as_word;
 
 /// Bytes that are written to a device's control table.
 #[derive(Clone, Copy)]
@@ -54,7 +55,7 @@ impl Warnings {
             return;
         }
         let Err(error) = row.check(value, held) else { return };
-        // Of ranges on which the documents do not agree, each has the values that have a name.
+        // Where the documents disagree on a range, only a value without a name is warned of.
         if !row.settled && (row.values.is_empty() || row.value_name(value).is_some()) {
             return;
         }
@@ -65,11 +66,11 @@ impl Warnings {
             _ => None,
         };
         if let Some(limit) = limit {
-            let rule = format!("{}.error", kebab(limit.name));
+            let rule = format!("{}.error", as_word(limit.name));
             let text = format!("{error}, by {}", limit.name);
             self.add(&[&rule, "status-packet.error.data-limit"], text);
         } else {
-            let rules = ["range", "values"].map(|rule| format!("{}.{rule}", kebab(row.name)));
+            let rules = ["range", "values"].map(|rule| format!("{}.{rule}", as_word(row.name)));
             let [range, values] = &rules;
             self.add(&[range, values, "status-packet.error.data-range"], error.to_string());
         }
