@@ -1,4 +1,4 @@
-use super::{RegisterError, Row};
+use super::{Kind, RegisterError, Row};
 
 /// The values that a register may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,6 +14,34 @@ pub enum Range {
     },
     /// These.
     OneOf(&'static [i64]),
+}
+
+impl Range {
+    /// Its smallest and its largest value, limited to the size of a register.
+    fn bounds(self, kind: Kind, limits: impl Fn(u16) -> Option<i64>) -> (i64, i64) {
+        let (smallest, largest) = kind.limits();
+        let (min, max) = match self {
+            Self::Any => (None, None),
+            Self::Between { min, max } => (min.value(&limits), max.value(&limits)),
+            Self::OneOf(values) => (values.iter().min().copied(), values.iter().max().copied()),
+        };
+        let min = min.map_or(smallest, |min| min.max(smallest));
+        let max = max.map_or(largest, |max| max.min(largest));
+        (min, max)
+    }
+
+    /// The register that holds the end which `value` is beyond, if one does.
+    fn limit_beyond(self, value: i64, limits: impl Fn(u16) -> Option<i64>) -> Option<u16> {
+        let Self::Between { min, max } = self else { return None };
+        let broken = [
+            min.value(&limits).is_some_and(|least| value < least).then_some(min),
+            max.value(&limits).is_some_and(|most| value > most).then_some(max),
+        ];
+        broken.into_iter().flatten().find_map(|end| match end {
+            Bound::Register { address, .. } => Some(address),
+            Bound::Value(_) => None,
+        })
+    }
 }
 
 /// A bound of a range.
@@ -53,30 +81,7 @@ impl Row {
     /// ```
     #[must_use]
     pub fn bounds(&self, limits: impl Fn(u16) -> Option<i64>) -> (i64, i64) {
-        let (smallest, largest) = self.kind.limits();
-        let (min, max) = match self.range_while(&limits) {
-            Range::Any => (None, None),
-            Range::Between { min, max } => (min.value(&limits), max.value(&limits)),
-            Range::OneOf(values) => (values.iter().min().copied(), values.iter().max().copied()),
-        };
-        let min = min.map_or(smallest, |min| min.max(smallest));
-        let max = max.map_or(largest, |max| max.min(largest));
-        (min, max)
-    }
-
-    /// The register that holds the end which `value` is beyond, if one does.
-    fn limit_beyond(&self, value: i64, limits: impl Fn(u16) -> Option<i64>) -> Option<u16> {
-        let Range::Between { min, max } = self.range_while(&limits) else {
-            return None;
-        };
-        let broken = [
-            min.value(&limits).is_some_and(|least| value < least).then_some(min),
-            max.value(&limits).is_some_and(|most| value > most).then_some(max),
-        ];
-        broken.into_iter().flatten().find_map(|end| match end {
-            Bound::Register { address, .. } => Some(address),
-            Bound::Value(_) => None,
-        })
+        self.range_while(&limits).bounds(self.kind, limits)
     }
 
     /// Checks that the register may have this value, even if hosts can't write it.
@@ -89,16 +94,17 @@ impl Row {
         limits: impl Fn(u16) -> Option<i64>,
     ) -> Result<(), RegisterError> {
         let register = self.name;
-        if let Range::OneOf(listed) = self.range_while(&limits)
+        let range = self.range_while(&limits);
+        if let Range::OneOf(listed) = range
             && !listed.contains(&value)
         {
             return Err(RegisterError::NotListed { register, value, listed });
         }
-        let (min, max) = self.bounds(&limits);
+        let (min, max) = range.bounds(self.kind, &limits);
         if (min..=max).contains(&value) {
             Ok(())
         } else {
-            let limit = self.limit_beyond(value, limits);
+            let limit = range.limit_beyond(value, limits);
             Err(RegisterError::OutOfRange { register, value, min, max, limit })
         }
     }
