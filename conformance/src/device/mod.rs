@@ -81,8 +81,14 @@ impl Tables {
 
     /// Takes the model number that a device told. The user's choice stays.
     pub fn learn(&mut self, id: u8, model: u16) {
+        let device = of_model(model);
+        let known = self.0.as_ref().and_then(|bus| bus.told.get(&id));
+        // A change copies the whole bus if there are copies of it.
+        if known.map(|known| known.id) == device.map(|device| device.id) {
+            return;
+        }
         let told = &mut Rc::make_mut(self.0.get_or_insert_default()).told;
-        match of_model(model) {
+        match device {
             Some(device) => told.insert(id, device),
             None => told.remove(&id),
         };
@@ -119,5 +125,8 @@ mod tests {
         assert_eq!(of(&before, 2), None);
         tables.learn(2, 1);
         assert_eq!(of(&tables, 2), None, "another device is there now");
+        let mut tables = Tables::default();
+        tables.learn(1, 1);
+        assert!(tables.is_empty(), "no table is known for that model");
     }
 }
