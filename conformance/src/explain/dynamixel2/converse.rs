@@ -14,7 +14,7 @@ use super::super::stream::{Converse, Heard, Role, Silent, Turn};
 use super::extension::{self, FAST_BULK_READ};
 use super::fast::{block_words, data_of_write, whole_blocks};
 use super::held::Held;
-use super::warnings::Question;
+use super::warnings::{Question, Warnings};
 use super::{PREFIX, warnings};
 use crate::device::{Tables, of_model};
 
@@ -58,7 +58,8 @@ impl Asked {
 
 impl Talk {
     pub(super) fn new(tables: Tables) -> Self {
-        let (held, scratch) = (Held::default(), Vec::new());
+        // With this much room, the codec copies parameters quickest.
+        let (held, scratch) = (Held::default(), vec![0; 128]);
         Self { tables, ask: None, answered: false, held, scratch }
     }
 
@@ -66,7 +67,7 @@ impl Talk {
         let instruction = frame.instruction();
         let kind = extension::name(instruction);
         let device = Some(frame.id()).filter(|id| *id != BROADCAST_ID);
-        let turn = Turn { kind, device, tables: self.tables.clone(), ..Turn::default() };
+        let mut turn = Turn { kind, device, tables: self.tables.clone(), ..Turn::default() };
         if let Some(ask) = &mut self.ask
             && !ask.followed
             && ask.bytes == heard.bytes
@@ -75,7 +76,7 @@ impl Talk {
             ask.followed = true;
             return Turn { role: Role::Echo, ..turn };
         }
-        let silent = self.silent();
+        turn.silent = self.silent();
         // The lists of the last request are used again: there are millions of requests.
         let Self { tables, ask, held, scratch, .. } = self;
         let (mut bytes, mut devices) =
@@ -84,7 +85,8 @@ impl Talk {
         bytes.extend_from_slice(heard.bytes);
         devices.clear();
         let request = Request::parse(frame, room(scratch, frame));
-        let warnings = warnings::request(frame, &request, tables, held);
+        let mut warnings = Warnings { table: tables.of(frame.id()), list: &mut turn.warnings };
+        warnings.instruction(frame, &request, tables, held);
         if let Ok(request) = &request {
             held.request(frame.id(), request, tables);
         }
@@ -130,7 +132,8 @@ impl Talk {
             fast,
             followed: false,
         });
-        Turn { role: Role::Request, silent, warnings, ..turn }
+        turn.role = Role::Request;
+        turn
     }
 
     /// The devices that did not answer the last request. If none ever answered, the stream has one
@@ -164,9 +167,9 @@ impl Talk {
         let Self { tables, ask, held, scratch, .. } = self;
         let table = tables.of(id);
         let error = frame.error().unwrap_or_default();
-        let warnings = warnings::error(error, table);
-        let mut turn =
-            Turn { kind, device: Some(id), tables: tables.clone(), warnings, ..Turn::default() };
+        let mut turn = Turn { kind, device: Some(id), tables: tables.clone(), ..Turn::default() };
+        let mut warnings = Warnings { table, list: &mut turn.warnings };
+        warnings.error(error);
         let Some(ask) = ask else { return unasked(turn, frame) };
         let everyone = ask.devices.is_empty();
         let place = ask.devices.iter().position(|asked| asked.id == id && !asked.answered);
@@ -183,7 +186,7 @@ impl Talk {
         let instruction = ask.instruction;
         let length = asked.as_ref().and_then(|asked| asked.length);
         let question = Question { instruction, everyone, later, length };
-        turn.warnings.extend(warnings::answer(error, size, question, table));
+        warnings.answer(error, size, question);
         if let Some(asked) = asked {
             asked.answered = true;
             turn.address = asked.address;
@@ -241,10 +244,10 @@ impl Talk {
         match FastStatus::parse(heard.bytes, length, &fast.ids) {
             Ok(packet) => {
                 let blocks: Vec<_> = packet.blocks().collect();
-                let errors = blocks
-                    .iter()
-                    .flat_map(|block| warnings::error(block.error, tables.of(block.id)));
-                turn.warnings.extend(errors);
+                for block in &blocks {
+                    let table = tables.of(block.id);
+                    Warnings { table, list: &mut turn.warnings }.error(block.error);
+                }
                 ask.hear(&blocks, tables, held);
                 turn.context.fast = Some(Fast { length, ids: fast.ids });
             }
@@ -253,7 +256,7 @@ impl Talk {
                 turn.notes.push(error.to_string());
                 if matches!(error, FrameError::BlockId { .. }) {
                     let table = fast.ids.first().and_then(|id| tables.of(*id));
-                    turn.warnings.extend(warnings::order(ask.instruction, table));
+                    Warnings { table, list: &mut turn.warnings }.order(ask.instruction);
                 }
             }
         }
@@ -290,9 +293,9 @@ impl Converse for Talk {
         if is_fast {
             return self.fast_status(heard);
         }
-        match Frame::parse(heard.bytes) {
-            Ok(frame) if frame.error().is_some() => self.status(heard, &frame),
-            Ok(frame) => self.request(heard, &frame),
+        match &Frame::parse(heard.bytes) {
+            Ok(frame) if frame.instruction() == Instruction::Status => self.status(heard, frame),
+            Ok(frame) => self.request(heard, frame),
             Err(_) => Turn::default(),
         }
     }

@@ -30,12 +30,15 @@ impl Held {
     /// The register that keeps a device's EEPROM area read-only, if it was seen on.
     pub(super) fn lock(&self, id: u8, table: &Device) -> Option<&'static Row> {
         let address = table.eeprom_lock?;
-        let is_on = self.value(id, address).is_some_and(|value| value != 0);
-        table.register(address).filter(|_| is_on)
+        self.value(id, address).filter(|value| *value != 0)?;
+        table.register(address)
     }
 
     /// Takes what a request changes.
     pub(super) fn request(&mut self, id: u8, request: &Request<'_>, tables: &Tables) {
+        if tables.is_empty() {
+            return;
+        }
         match request {
             // It changes nothing until an Action.
             Request::RegWrite(_) => {}

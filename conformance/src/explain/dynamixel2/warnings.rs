@@ -16,32 +16,6 @@ use super::writes::Write;
 use crate::device::Tables;
 use crate::names::as_word;
 
-/// What is wrong with an instruction packet, which was read as `request`.
-pub(super) fn request(
-    frame: &Frame<'_>,
-    request: &Result<Request<'_>, RequestError>,
-    tables: &Tables,
-    held: &Held,
-) -> Vec<Warning> {
-    let (id, instruction) = (frame.id(), frame.instruction());
-    let mut warnings = Warnings { table: tables.of(id), list: Vec::new() };
-    match request {
-        Ok(request) => warnings.request(id, request, tables, held),
-        Err(RequestError::NotBroadcast { found }) => {
-            let name = instruction.name();
-            let text = format!("{name} names its devices, so it goes to 254, not to {found}");
-            warnings.add(&[&own(instruction, "broadcast-id")], text);
-            let params: Vec<u8> = frame.params().collect();
-            match Request::of(instruction, &params) {
-                Ok(request) => warnings.request(id, &request, tables, held),
-                Err(error) => warnings.unfit(instruction, &error),
-            }
-        }
-        Err(error) => warnings.unfit(instruction, error),
-    }
-    warnings.list
-}
-
 /// What a status packet answers.
 #[derive(Clone, Copy)]
 pub(super) struct Question {
@@ -54,53 +28,6 @@ pub(super) struct Question {
     pub(super) length: Option<u16>,
 }
 
-/// What is wrong with the error byte of a status packet.
-pub(super) fn error(error: StatusError, table: Option<&'static Device>) -> Vec<Warning> {
-    let mut warnings = Warnings { table, list: Vec::new() };
-    if let ErrorNumber::Unknown(number @ 1..) = error.number() {
-        let text = format!("no document knows the error number {number}");
-        warnings.add(&["status-packet.error.fields"], text);
-    }
-    warnings.list
-}
-
-/// What is wrong with a status packet that has `size` bytes of data, as an answer.
-pub(super) fn answer(
-    error: StatusError,
-    size: usize,
-    question: Question,
-    table: Option<&'static Device>,
-) -> Vec<Warning> {
-    let mut warnings = Warnings { table, list: Vec::new() };
-    let Question { instruction, everyone, later, length } = question;
-    let name = instruction.name();
-    let is_known = !matches!(instruction, Instruction::Unknown(_));
-    if everyone && is_known && !instruction.answers_broadcast() {
-        let own = ["broadcast", "silence"].map(|what| own(instruction, what));
-        let [broadcast, silence] = &own;
-        let names = [broadcast, silence, "response.broadcast.silence", "response.broadcast"];
-        warnings.add(&names, format!("{name} to every device is not answered"));
-    }
-    if later {
-        warnings.order(instruction);
-    }
-    let expected = length.map(usize::from).or_else(|| sum(instruction.status()?));
-    // With an error there may be no data.
-    let is_empty = size == 0 && error.number().code() != 0;
-    if let Some(expected) = expected.filter(|expected| *expected != size && !is_empty) {
-        let text = format!("the answer to {name} has {expected} bytes of data here, not {size}");
-        warnings.add(&[&own(instruction, "status")], text);
-    }
-    warnings.list
-}
-
-/// What is wrong with answers that come in another order than they were asked for.
-pub(super) fn order(instruction: Instruction, table: Option<&'static Device>) -> Vec<Warning> {
-    let mut warnings = Warnings { table, list: Vec::new() };
-    warnings.order(instruction);
-    warnings.list
-}
-
 /// Why a packet is none, with the section if that is about what its ID means.
 pub(super) fn cited(error: FrameError) -> String {
     let of_id = matches!(error, FrameError::Id { .. }).then_some("dynamixel2.packet.id.range");
@@ -109,13 +36,70 @@ pub(super) fn cited(error: FrameError) -> String {
 }
 
 /// The warnings of a packet.
-pub(super) struct Warnings {
+pub(super) struct Warnings<'a> {
     /// The control table of the device that it is for or from.
     pub(super) table: Option<&'static Device>,
-    pub(super) list: Vec<Warning>,
+    pub(super) list: &'a mut Vec<Warning>,
 }
 
-impl Warnings {
+impl Warnings<'_> {
+    /// What is wrong with an instruction packet, which was read as `request`.
+    pub(super) fn instruction(
+        &mut self,
+        frame: &Frame<'_>,
+        request: &Result<Request<'_>, RequestError>,
+        tables: &Tables,
+        held: &Held,
+    ) {
+        let (id, instruction) = (frame.id(), frame.instruction());
+        match request {
+            Ok(request) => self.request(id, request, tables, held),
+            Err(RequestError::NotBroadcast { found }) => {
+                let name = instruction.name();
+                let text = format!("{name} names its devices, so it goes to 254, not to {found}");
+                self.add(&[&own(instruction, "broadcast-id")], text);
+                let params: Vec<u8> = frame.params().collect();
+                match Request::of(instruction, &params) {
+                    Ok(request) => self.request(id, &request, tables, held),
+                    Err(error) => self.unfit(instruction, &error),
+                }
+            }
+            Err(error) => self.unfit(instruction, error),
+        }
+    }
+
+    /// What is wrong with the error byte of a status packet.
+    pub(super) fn error(&mut self, error: StatusError) {
+        if let ErrorNumber::Unknown(number @ 1..) = error.number() {
+            let text = format!("no document knows the error number {number}");
+            self.add(&["status-packet.error.fields"], text);
+        }
+    }
+
+    /// What is wrong with a status packet that has `size` bytes of data, as an answer.
+    pub(super) fn answer(&mut self, error: StatusError, size: usize, question: Question) {
+        let Question { instruction, everyone, later, length } = question;
+        let name = instruction.name();
+        let is_known = !matches!(instruction, Instruction::Unknown(_));
+        if everyone && is_known && !instruction.answers_broadcast() {
+            let own = ["broadcast", "silence"].map(|what| own(instruction, what));
+            let [broadcast, silence] = &own;
+            let names = [broadcast, silence, "response.broadcast.silence", "response.broadcast"];
+            self.add(&names, format!("{name} to every device is not answered"));
+        }
+        if later {
+            self.order(instruction);
+        }
+        let expected = length.map(usize::from).or_else(|| instruction.status().and_then(sum));
+        // With an error there may be no data.
+        let is_empty = size == 0 && error.number().code() != 0;
+        if let Some(expected) = expected.filter(|expected| *expected != size && !is_empty) {
+            let text =
+                format!("the answer to {name} has {expected} bytes of data here, not {size}");
+            self.add(&[&own(instruction, "status")], text);
+        }
+    }
+
     /// Warns by the first of these requirements: of the device's document, else of DYNAMIXEL's, else of
     /// the JA40's, which adds instructions.
     pub(super) fn add(&mut self, names: &[&str], text: String) {
@@ -125,7 +109,8 @@ impl Warnings {
         self.list.extend(Warning::of(ids, text));
     }
 
-    fn order(&mut self, instruction: Instruction) {
+    /// Answers came in another order than they were asked for.
+    pub(super) fn order(&mut self, instruction: Instruction) {
         let text = format!("{} names the devices in another order", instruction.name());
         self.add(&[&own(instruction, "order")], text);
     }
@@ -171,6 +156,9 @@ impl Warnings {
                 self.once(instruction, write.devices.clone().map(|device| device.id));
             }
             _ => {}
+        }
+        if tables.is_empty() {
+            return;
         }
         writes(id, request, |id, address, data| {
             if let Some(table) = tables.of(id) {
@@ -223,7 +211,8 @@ mod tests {
 
     #[test]
     fn every_instruction_has_the_requirements_that_are_named() {
-        let mut warnings = Warnings { table: None, list: Vec::new() };
+        let mut list = Vec::new();
+        let mut warnings = Warnings { table: None, list: &mut list };
         let mut names = Vec::new();
         for instruction in Instruction::ALL {
             names.extend(instruction.parameters().map(|_| own(instruction, "parameters")));
@@ -235,7 +224,7 @@ mod tests {
         for name in &names {
             warnings.add(&[name], String::new());
         }
-        let found: Vec<_> = warnings.list.iter().map(|warning| warning.requirement).collect();
+        let found: Vec<_> = list.iter().map(|warning| warning.requirement).collect();
         let ends = |name: &&String| {
             !found.iter().any(|id| id.split_once('.').is_some_and(|(_, rest)| rest == **name))
         };

@@ -15,7 +15,7 @@ pub(super) struct Write<'a> {
     pub(super) data: &'a [u8],
 }
 
-impl Warnings {
+impl Warnings<'_> {
     /// What is wrong with a write.
     pub(super) fn write(&mut self, write: Write<'_>, held: &Held) {
         let Write { id, table, address, data } = write;
@@ -23,7 +23,7 @@ impl Warnings {
             return;
         }
         self.table = Some(table);
-        let mut lock = held.lock(id, table);
+        let mut locked = false;
         for row in touched(table, address, data.len()) {
             let (name, size) = (row.name, usize::from(row.kind.size()));
             if row.access == Access::ReadOnly {
@@ -31,7 +31,12 @@ impl Warnings {
                 self.add(&["table.read-only", "status-packet.error.write-access"], text);
                 continue;
             }
-            if let Some(lock) = lock.take_if(|_| row.area == Area::Eeprom) {
+            // One register tells it for all.
+            if row.area == Area::Eeprom
+                && !locked
+                && let Some(lock) = held.lock(id, table)
+            {
+                locked = true;
                 let text = format!("{name} is in the EEPROM area, and {} was seen on", lock.name);
                 let rules =
                     ["table.eeprom-lock", "torque-enable.lock", "status-packet.error.locked"];
