@@ -161,7 +161,7 @@ fn single(options: &Decode, wire: Wire, tables: &Tables, input: &Input) -> Optio
     follower.end(&mut take);
     // What is wrong with bytes has an object only among the lines of a stream.
     let lines = options.json && packets == 0;
-    (asked || events == 1 && !lines).then_some(single)
+    (!lines && (asked || events == 1)).then_some(single)
 }
 
 fn packet(
