@@ -46,8 +46,8 @@ struct Bus {
     chosen: BTreeMap<u8, Chosen>,
     /// What the user chose for all others.
     others: Option<Chosen>,
-    /// What devices told.
-    told: BTreeMap<u8, &'static Device>,
+    /// What devices told, by ID. It is looked up for every packet.
+    told: Vec<Option<&'static Device>>,
 }
 
 /// A control table that the user chose.
@@ -62,8 +62,7 @@ impl Tables {
     /// The control table of a device, if it is known.
     #[must_use]
     pub fn of(&self, id: u8) -> Option<&'static Device> {
-        let told = || self.0.as_ref()?.told.get(&id).copied();
-        self.chosen(id).map(|chosen| chosen.table).or_else(told)
+        self.chosen(id).map(|chosen| chosen.table).or_else(|| self.told(id))
     }
 
     /// The same as it is in the spec or in the user's file, if the user chose it.
@@ -82,16 +81,20 @@ impl Tables {
     /// Takes the model number that a device told. The user's choice stays.
     pub fn learn(&mut self, id: u8, model: u16) {
         let device = of_model(model);
-        let known = self.0.as_ref().and_then(|bus| bus.told.get(&id));
         // A change copies the whole bus if there are copies of it.
-        if known.map(|known| known.id) == device.map(|device| device.id) {
+        if self.told(id).map(|known| known.id) == device.map(|device| device.id) {
             return;
         }
         let told = &mut Rc::make_mut(self.0.get_or_insert_default()).told;
-        match device {
-            Some(device) => told.insert(id, device),
-            None => told.remove(&id),
-        };
+        let id = usize::from(id);
+        told.resize(told.len().max(id + 1), None);
+        if let Some(known) = told.get_mut(id) {
+            *known = device;
+        }
+    }
+
+    fn told(&self, id: u8) -> Option<&'static Device> {
+        self.0.as_ref()?.told.get(usize::from(id)).copied().flatten()
     }
 
     fn chosen(&self, id: u8) -> Option<Chosen> {

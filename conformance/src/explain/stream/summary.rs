@@ -68,9 +68,9 @@ impl Summary {
                     Some((_, count)) => *count += 1,
                     None => self.packets.push((turn.kind, 1)),
                 }
-                let several = turn.context.fast.iter().flat_map(|fast| fast.ids.iter().copied());
-                for device in turn.device.into_iter().chain(several) {
-                    let model = self.devices.entry(device).or_default();
+                let several = turn.context.fast.as_ref().map_or(&[][..], |fast| &fast.ids);
+                for device in turn.device.iter().chain(several) {
+                    let model = self.devices.entry(*device).or_default();
                     *model = turn.model.or(*model);
                 }
                 for warning in &turn.warnings {
