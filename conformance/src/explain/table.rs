@@ -66,8 +66,11 @@ pub(super) fn received(rows: Vec<Row>, frame: &[u8], bytes: &[u8]) -> Vec<Row> {
     let ends: Vec<_> = rows.iter().skip(1).map(|row| row.offset).chain([frame.len()]).collect();
     let mut kept = Vec::new();
     for (mut row, end) in rows.into_iter().zip(ends) {
+        if row.offset >= bytes.len() {
+            break;
+        }
         let part = |all: &[u8]| all.get(row.offset..end.min(all.len())).map(spaced);
-        let Some(found) = part(bytes).filter(|found| !found.is_empty()) else { break };
+        let found = part(bytes).unwrap_or_default();
         if end > bytes.len() {
             (row.bytes, row.meaning) = (found, "the rest is missing".to_owned());
         } else if let Some(right) = part(frame).filter(|right| *right != found) {
