@@ -70,7 +70,7 @@ fn causes(report: &Report) -> String {
         0 => String::new(),
         more => format!("\n… and {more} more\n"),
     };
-    let line = |line: String| format!("{}\n", prose(&line));
+    let line = |line: String| format!("- {}\n", prose(&line));
     let explained: String = report.explained(CAUSES).into_iter().map(line).collect();
     let after = if explained.is_empty() { "" } else { "\n" };
     format!("\n### At fault, the most basic first\n\n{explained}{after}{causes}{more}")

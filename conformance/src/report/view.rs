@@ -76,14 +76,18 @@ impl Report {
         findings
     }
 
-    /// The mistakes that explain several failures each, at most so many, in a line each.
+    /// The mistakes that fit many more failures than chance makes, at most so many, in a line each.
     #[must_use]
     pub fn explained(&self, most: usize) -> Vec<String> {
+        let failed = self.summary.totals.count(Verdict::Fail);
+        // One mistake has up to 32 trials in 65,536: about 1 in 2,000 failures fits by chance.
+        let told = |tally: &&Tally| tally.count > 1 + failed / 500;
         let line = |Tally { text, count, example }: &Tally| {
-            let failures = words::count(*count, "wrong answer");
-            format!("{failures} fit one mistake, {text}; the first is of {example}")
+            let (count, failures) =
+                (words::thousands(*count), words::count(failed, "wrong answer"));
+            format!("{count} of {failures} fit the mistake {text}; the first is {example}")
         };
-        self.mistakes.iter().filter(|tally| tally.count > 1).take(most).map(line).collect()
+        self.mistakes.iter().filter(told).take(most).map(line).collect()
     }
 
     /// Why failures are expected, at most so many reasons, in a line each.

@@ -16,6 +16,7 @@ use actucheck_spec::model::{Fault, Level};
 use actucheck_spec::wire::dynamixel2::Packet::{Instruction, Status};
 use actucheck_spec::wire::dynamixel2::{self, reference};
 use actucheck_spec::wire::{Packet, Wire};
+use crc::{CRC_16_T10_DIF, Crc};
 
 /// A name that must be escaped.
 pub(crate) const NAME: &str = "<script>alert('odd')</script> & |co|";
@@ -48,6 +49,19 @@ fn unstuffed(op: &Question, answer: Answer) -> Answer {
             _ => answer,
         },
         _ => answer,
+    }
+}
+
+/// Sends a CRC with another polynomial.
+fn unknown_crc(op: &Question, answer: Answer) -> Answer {
+    match (op, answer) {
+        (Question::Encode { .. }, Answer::Ok(Output::Bytes(mut frame))) => {
+            if let Some((before, sent)) = frame.0.split_last_chunk_mut() {
+                *sent = Crc::<u16>::new(&CRC_16_T10_DIF).checksum(before).to_le_bytes();
+            }
+            Answer::Ok(Output::Bytes(frame))
+        }
+        (_, answer) => answer,
     }
 }
 
@@ -168,6 +182,11 @@ pub(crate) fn small() -> Report {
 pub(crate) fn unstuffed_whole() -> Report {
     static KEPT: LazyLock<Report> = LazyLock::new(|| report("unstuffed", "*", unstuffed, "[]"));
     KEPT.clone()
+}
+
+/// A whole report of an implementation whose CRC has a polynomial that no mistake has.
+pub(crate) fn unknown_crc_whole() -> Report {
+    report("unknown CRC", "*", unknown_crc, "[]")
 }
 
 /// A report without failures.

@@ -1,6 +1,6 @@
 use actucheck::adapter::Question;
 use actucheck::report::compare::Comparison;
-use actucheck::report::model::{CheckResult, NotPassed};
+use actucheck::report::model::{CheckResult, NotPassed, Tally};
 use actucheck::report::{Format, Report};
 use actucheck::verdict::{Outcome, Verdict};
 use anstream::adapter::strip_bytes;
@@ -122,11 +122,31 @@ fn failures_that_fit_one_mistake_are_told_before_the_list() {
     assert!(count > kept.len(), "{count}");
     for text in [written(Format::Text, &report), on_terminal(&report, Detail::Screen, 100)] {
         let (before, after) = text.split_once("At fault").unwrap();
-        assert!(before.contains("wrong answers fit one mistake, no byte stuffing"), "{text}");
+        assert!(before.contains(" wrong answers fit the mistake no byte stuffing; "), "{text}");
         let row = "  mistake   fits if the sender left out byte stuffing (1 byte FD)";
         assert!(after.contains(row), "{text}");
     }
     assert_eq!(sample::right().mistakes, []);
+}
+
+#[test]
+fn each_mistake_has_a_line_of_its_own() {
+    let mut report = sample::unstuffed_whole();
+    let other = Tally { text: "other CRC".to_owned(), ..report.mistakes[0].clone() };
+    report.mistakes.push(other);
+    let text = written(Format::Markdown, &report);
+    let lines = text.lines().filter(|line| line.contains(" fit the mistake "));
+    assert_eq!(lines.filter(|line| line.starts_with("- ")).count(), 2, "{text}");
+}
+
+#[test]
+fn a_mistake_that_fits_by_chance_is_not_told() {
+    let report = sample::unknown_crc_whole();
+    assert!(report.mistakes.iter().any(|tally| tally.count > 1), "{:#?}", report.mistakes);
+    for text in [written(Format::Text, &report), on_terminal(&report, Detail::Screen, 100)] {
+        let (before, _) = text.split_once("At fault").unwrap();
+        assert!(!before.contains(" fit "), "{before}");
+    }
 }
 
 #[test]
