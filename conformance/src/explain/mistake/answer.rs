@@ -2,7 +2,8 @@
 
 use actucheck_spec::wire::Wire;
 
-use super::{ALGORITHMS, CRC_SWAPPED, Fit, LONGEST, NO_STUFFING, OTHER_CRC, STUFFING_TWICE};
+use super::name::{CRC_SWAPPED, NO_STUFFING, OTHER_CRC, STUFFING_TWICE};
+use super::{ALGORITHMS, Fit, LONGEST};
 use crate::adapter::{Output, Question};
 use crate::explain::Own;
 

@@ -7,6 +7,7 @@
 
 mod answer;
 mod crc;
+pub(super) mod name;
 mod text;
 
 use std::fmt;
@@ -21,11 +22,6 @@ use super::diff::spaced;
 pub use self::answer::of_answer;
 pub(super) use self::crc::ALGORITHMS;
 use self::text::TEXT;
-
-pub(super) const CRC_SWAPPED: &str = "CRC bytes swapped";
-pub(super) const OTHER_CRC: &str = "other CRC";
-pub(super) const NO_STUFFING: &str = "no byte stuffing";
-pub(super) const STUFFING_TWICE: &str = "byte stuffing twice";
 
 /// Longest run of bytes that is looked at: that of the longest packet.
 const LONGEST: usize = 66 << 10;
@@ -119,6 +115,51 @@ impl Trials<'_> {
         if holds && !self.fits.iter().any(known) && (self.is_packet)(&meant) {
             self.fits.push((Some(meant), condition()));
         }
+    }
+
+    /// Tries a number as the CRC, its low byte first, then its high byte.
+    pub(super) fn crc(
+        &mut self,
+        sent: [u8; 2],
+        number: u16,
+        right: u16,
+        meant: &[u8],
+        condition: &str,
+    ) {
+        // The right one is another mistake's.
+        if number == right {
+            return;
+        }
+        self.count += 2;
+        let order = if sent == number.to_le_bytes() {
+            ""
+        } else if sent == number.to_be_bytes() {
+            ", and its two bytes are swapped"
+        } else {
+            return;
+        };
+        // Each number that fits is told, though all lead to the same packet.
+        if (self.is_packet)(meant) {
+            self.fits.push((Some(meant.to_vec()), format!("{condition}{order}")));
+        }
+    }
+
+    /// Without each of the bytes but the last: without that it is a packet with a byte after it.
+    pub(super) fn without_each(&mut self, bytes: &[u8]) {
+        for (at, byte) in bytes.iter().enumerate().take(bytes.len().saturating_sub(1)) {
+            let mut meant = bytes.to_vec();
+            meant.remove(at);
+            self.packet(meant, || format!("byte {at}, {byte:02X}, is one too many"));
+        }
+    }
+
+    /// A packet, and what comes after it.
+    pub(super) fn without_end(&mut self, packet: &[u8], after: &[u8]) {
+        let condition = || match after.len() {
+            1 => "the last byte is no part of it".to_owned(),
+            count => format!("the last {count} bytes are no part of it"),
+        };
+        self.packet_if(!after.is_empty(), packet.to_vec(), condition);
     }
 
     /// Fits, though the packet that was meant is not known.

@@ -9,12 +9,8 @@ const LONGEST: usize = 1024;
 
 /// Without each of the bytes.
 pub(super) fn needless(bytes: &[u8], trials: &mut Trials<'_>) {
-    // Without the last one it is a packet with a byte after it.
-    let Some((_, but_last)) = bytes.split_last().filter(|_| bytes.len() <= LONGEST) else { return };
-    for (at, byte) in but_last.iter().enumerate() {
-        let mut meant = bytes.to_vec();
-        meant.remove(at);
-        trials.packet(meant, || format!("byte {at}, {byte:02X}, is one too many"));
+    if bytes.len() <= LONGEST {
+        trials.without_each(bytes);
     }
 }
 

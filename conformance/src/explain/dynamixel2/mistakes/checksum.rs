@@ -44,34 +44,18 @@ pub(super) fn range(bytes: &[u8], trials: &mut Trials<'_>) {
         ("begins at the instruction", from(PREFIX).to_vec()),
         ("covers the parameters only", from(PREFIX + 1).to_vec()),
     ];
+    let (right, meant) = (crc(seen.before), repaired(bytes));
     for (range, covered) in ranges {
-        both_orders(&seen, bytes, crc(&covered), trials, &format!("the CRC {range}"));
+        trials.crc(seen.crc, crc(&covered), right, &meant, &format!("the CRC {range}"));
     }
 }
 
 /// With another polynomial or initial value, or reflected.
 pub(super) fn algorithm(bytes: &[u8], trials: &mut Trials<'_>) {
     let Some(seen) = Seen::whole(bytes) else { return };
+    let (right, meant) = (crc(seen.before), repaired(bytes));
     for algorithm in &ALGORITHMS {
-        let found = algorithm.checksum(seen.before);
-        both_orders(&seen, bytes, found, trials, &format!("the CRC is {}", algorithm.name));
+        let number = algorithm.checksum(seen.before);
+        trials.crc(seen.crc, number, right, &meant, &format!("the CRC is {}", algorithm.name));
     }
-}
-
-/// Tries a number as the CRC, its low byte first, then its high byte.
-fn both_orders(
-    seen: &Seen<'_>,
-    bytes: &[u8],
-    number: u16,
-    trials: &mut Trials<'_>,
-    condition: &str,
-) {
-    // The right one is another mistake's.
-    if number == crc(seen.before) {
-        return;
-    }
-    let is = |crc: [u8; 2]| crc == seen.crc;
-    trials.packet_if(is(number.to_le_bytes()), repaired(bytes), || condition.to_owned());
-    let swapped = || format!("{condition}, and its two bytes are swapped");
-    trials.packet_if(is(number.to_be_bytes()), repaired(bytes), swapped);
 }

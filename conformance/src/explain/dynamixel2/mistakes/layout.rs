@@ -93,12 +93,9 @@ pub(super) fn status(bytes: &[u8], trials: &mut Trials<'_>) {
 
 pub(super) fn trailing(bytes: &[u8], trials: &mut Trials<'_>) {
     let Some(seen) = Seen::of(bytes) else { return };
-    let Some((packet, after)) = bytes.split_at_checked(PREFIX + seen.length) else { return };
-    let condition = || match after.len() {
-        1 => "the last byte is no part of it".to_owned(),
-        count => format!("the last {count} bytes are no part of it"),
-    };
-    trials.packet_if(!after.is_empty(), packet.to_vec(), condition);
+    if let Some((packet, after)) = bytes.split_at_checked(PREFIX + seen.length) {
+        trials.without_end(packet, after);
+    }
 }
 
 /// `FF FF ID LENGTH INSTRUCTION PARAMETERS CHECKSUM`: the complement of the sum of all from the ID on.

@@ -6,27 +6,27 @@ mod layout;
 
 use actucheck_spec::wire::dynamixel2::reference::{HEADER, PREFIX, crc, repair};
 
-use super::super::mistake::{CRC_SWAPPED, Mistake, NO_STUFFING, OTHER_CRC, STUFFING_TWICE};
+use super::super::mistake::{Mistake, name};
 
 /// The mistakes, the likeliest first; those with most trials last.
 pub(in super::super) const MISTAKES: &[Mistake] = &[
-    Mistake::of_program(CRC_SWAPPED, checksum::swapped),
-    Mistake::of_program("CRC left at zero", checksum::zero),
-    Mistake::of_program("wrong length", layout::length),
-    Mistake::of_program(NO_STUFFING, layout::stuffing),
-    Mistake::of_program(STUFFING_TWICE, layout::twice),
+    Mistake::of_program(name::CRC_SWAPPED, checksum::swapped),
+    Mistake::of_program(name::CRC_ZERO, checksum::zero),
+    Mistake::of_program(name::WRONG_LENGTH, layout::length),
+    Mistake::of_program(name::NO_STUFFING, layout::stuffing),
+    Mistake::of_program(name::STUFFING_TWICE, layout::twice),
     Mistake::of_program("no reserved byte", layout::reserved),
-    Mistake::of_program("wrong header", layout::header),
+    Mistake::of_program(name::WRONG_HEADER, layout::header),
     Mistake::of_program("no instruction 0x55", layout::status),
-    Mistake::of_program("CRC over other bytes", checksum::range),
-    Mistake::of_program(OTHER_CRC, checksum::algorithm),
-    Mistake::of_line("bytes after the packet", layout::trailing),
+    Mistake::of_program(name::OTHER_RANGE, checksum::range),
+    Mistake::of_program(name::OTHER_CRC, checksum::algorithm),
+    Mistake::of_line(name::TRAILING, layout::trailing),
     Mistake::of_line("Protocol 1.0", layout::protocol_1),
-    Mistake::of_line("cut short", layout::cut),
-    Mistake::of_line("one byte too many", byte::needless),
-    Mistake::of_line("one bit changed", byte::bit),
-    Mistake::of_line("one byte changed", byte::changed),
-    Mistake::of_line("one byte missing", byte::missing),
+    Mistake::of_line(name::CUT, layout::cut),
+    Mistake::of_line(name::NEEDLESS_BYTE, byte::needless),
+    Mistake::of_line(name::OTHER_BIT, byte::bit),
+    Mistake::of_line(name::OTHER_BYTE, byte::changed),
+    Mistake::of_line(name::MISSING_BYTE, byte::missing),
 ];
 
 /// Bytes that have a header and are long enough for a packet.

@@ -16,14 +16,8 @@ fn has_ends(bytes: &[u8]) -> bool {
 }
 
 pub(super) fn needless(bytes: &[u8], trials: &mut Trials<'_>) {
-    let Some((_, but_last)) = bytes.split_last() else { return };
-    if !WITH_CRC.contains(&but_last.len()) || !has_ends(bytes) {
-        return;
-    }
-    for (at, byte) in but_last.iter().enumerate() {
-        let mut meant = bytes.to_vec();
-        meant.remove(at);
-        trials.packet(meant, || format!("byte {at}, {byte:02X}, is one too many"));
+    if WITH_CRC.contains(&bytes.len().saturating_sub(1)) && has_ends(bytes) {
+        trials.without_each(bytes);
     }
 }
 

@@ -14,7 +14,7 @@ pub(super) fn swapped(bytes: &[u8], trials: &mut Trials<'_>) {
 
 pub(super) fn zero(bytes: &[u8], trials: &mut Trials<'_>) {
     let Some(seen) = Seen::of(bytes) else { return };
-    let meant = seen.with(&crc(seen.data).to_le_bytes());
+    let (_, meant) = seen.repaired();
     let condition = || "the sender computed no CRC and sent 00 00".to_owned();
     trials.packet_if(seen.crc == [0, 0], meant, condition);
 }
@@ -44,6 +44,7 @@ pub(super) fn missing(bytes: &[u8], trials: &mut Trials<'_>) {
 /// Over other bytes than the data.
 pub(super) fn range(bytes: &[u8], trials: &mut Trials<'_>) {
     let Some(seen) = Seen::of(bytes) else { return };
+    let (right, meant) = seen.repaired();
     let from = |start: usize| seen.before.get(start..).unwrap_or_default();
     for (range, covered) in [
         ("covers all bytes before it", from(0)),
@@ -56,28 +57,16 @@ pub(super) fn range(bytes: &[u8], trials: &mut Trials<'_>) {
             seen.data.split_last().map_or(&[][..], |(_, data)| data),
         ),
     ] {
-        both_orders(&seen, crc(covered), trials, &format!("the CRC {range}"));
+        trials.crc(seen.crc, crc(covered), right, &meant, &format!("the CRC {range}"));
     }
 }
 
 /// With another polynomial or initial value.
 pub(super) fn algorithm(bytes: &[u8], trials: &mut Trials<'_>) {
     let Some(seen) = Seen::of(bytes) else { return };
+    let (right, meant) = seen.repaired();
     for algorithm in &ALGORITHMS {
-        let found = algorithm.checksum(seen.data);
-        both_orders(&seen, found, trials, &format!("the CRC is {}", algorithm.name));
+        let number = algorithm.checksum(seen.data);
+        trials.crc(seen.crc, number, right, &meant, &format!("the CRC is {}", algorithm.name));
     }
-}
-
-/// Tries a number as the CRC, its low byte first, then its high byte.
-fn both_orders(seen: &Seen<'_>, number: u16, trials: &mut Trials<'_>, condition: &str) {
-    let right = crc(seen.data);
-    // The right one is another mistake's.
-    if number == right {
-        return;
-    }
-    let meant = seen.with(&right.to_le_bytes());
-    trials.packet_if(number.to_le_bytes() == seen.crc, meant.clone(), || condition.to_owned());
-    let swapped = || format!("{condition}, and its two bytes are swapped");
-    trials.packet_if(number.to_be_bytes() == seen.crc, meant, swapped);
 }

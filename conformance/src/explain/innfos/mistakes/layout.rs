@@ -59,11 +59,7 @@ pub(super) fn trailing(bytes: &[u8], trials: &mut Trials<'_>) {
     let Some(length) = stated(bytes) else { return };
     for around in [1, CRC_AND_END] {
         let Some((frame, after)) = bytes.split_at_checked(PREFIX + length + around) else { return };
-        let condition = || match after.len() {
-            1 => "the last byte is no part of it".to_owned(),
-            count => format!("the last {count} bytes are no part of it"),
-        };
-        trials.packet_if(!after.is_empty(), frame.to_vec(), condition);
+        trials.without_end(frame, after);
     }
 }
 
