@@ -39,11 +39,13 @@ const CRCS: u32 = 1 << 16;
 pub struct Fit {
     /// The mistake.
     pub mistake: &'static str,
-    /// What must hold, in words: one of these. At most three are here.
+    /// What must hold, in words: one of these. At most three are here. Of places that lead to the same
+    /// packet, such as those of equal bytes in a row, only the first is told.
     pub conditions: Vec<String>,
     /// How many more there are.
     pub more: usize,
-    /// How many were tried. Each that a CRC decides fits by chance once in 65,536 trials.
+    /// How many were tried. Where a CRC decides, one in 65,536 trials fits by chance; where other bytes
+    /// do, such as a length, their number says little.
     pub trials: u32,
     /// The packets that were meant, where they are known.
     #[serde(skip)]
@@ -162,6 +164,14 @@ impl Trials<'_> {
         self.packet_if(!after.is_empty(), packet.to_vec(), condition);
     }
 
+    /// Fits if `example`, which differs from the packet that was meant, is a packet too.
+    pub(super) fn like(&mut self, example: &[u8], condition: &str) {
+        self.count += 1;
+        if (self.is_packet)(example) {
+            self.fits.push((None, condition.to_owned()));
+        }
+    }
+
     /// Fits, though the packet that was meant is not known.
     pub(super) fn fits(&mut self, condition: String) {
         self.count += 1;
@@ -211,8 +221,10 @@ impl fmt::Display for Fit {
             };
             write!(f, "{between}{condition}")?;
         }
-        if self.more > 0 {
-            write!(f, ", or in one of {} more ways", self.more)?;
+        match self.more {
+            0 => {}
+            1 => f.write_str(", or in 1 more way")?,
+            more => write!(f, ", or in one of {more} more ways")?,
         }
         match (self.trials, CRCS / self.trials.max(1)) {
             (..MANY, _) => Ok(()),

@@ -113,8 +113,11 @@ pub(super) fn protocol_1(bytes: &[u8], trials: &mut Trials<'_>) {
     }
     if rest.is_empty() && !ids.is_empty() {
         let word = if ids.len() == 1 { "it is a packet" } else { "they are packets" };
-        ids.truncate(4);
-        trials.fits(format!("{word} of Protocol 1.0, of ID {}", ids.join(", ")));
+        let more = match ids.split_off(ids.len().min(4)).len() {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        trials.fits(format!("{word} of Protocol 1.0, of ID {}{more}", ids.join(", ")));
     }
 }
 

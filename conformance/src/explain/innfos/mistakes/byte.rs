@@ -9,6 +9,9 @@ use super::super::super::mistake::Trials;
 
 /// Sizes of the frames of the document that have a CRC. Without one, any value of most bytes is right.
 const WITH_CRC: RangeInclusive<usize> = 9..=32;
+/// The place of the length. Any value of the address and the command before it is right: no CRC covers
+/// them.
+const LENGTH: usize = 3;
 
 /// Whether bytes begin and end like a frame. What is wrong with its ends needs no search.
 fn has_ends(bytes: &[u8]) -> bool {
@@ -35,7 +38,7 @@ fn change(bytes: &[u8], trials: &mut Trials<'_>, wanted: impl Fn(u8) -> bool) {
     if !WITH_CRC.contains(&bytes.len()) || !has_ends(bytes) {
         return;
     }
-    for at in 0..bytes.len() {
+    for at in LENGTH..bytes.len() {
         for change in (0..=u8::MAX).filter(|change| wanted(*change)) {
             let mut meant = bytes.to_vec();
             let Some(byte) = meant.get_mut(at) else { return };
@@ -50,8 +53,10 @@ pub(super) fn missing(bytes: &[u8], trials: &mut Trials<'_>) {
     if !WITH_CRC.contains(&(bytes.len() + 1)) || !has_ends(bytes) {
         return;
     }
-    for at in 0..bytes.len() {
-        for byte in 0..=u8::MAX {
+    for at in LENGTH..bytes.len() {
+        // Another one like the byte before it may as well come before that.
+        let others = (0..=u8::MAX).filter(|byte| bytes.get(at - 1) != Some(byte));
+        for byte in others {
             let mut meant = bytes.to_vec();
             meant.insert(at, byte);
             trials.packet(meant, || format!("a byte {byte:02X} comes before byte {at}"));

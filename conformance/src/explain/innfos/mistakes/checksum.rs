@@ -28,7 +28,8 @@ pub(super) fn needless(bytes: &[u8], trials: &mut Trials<'_>) {
         (right.to_be_bytes(), "right if its two bytes are swapped"),
         ([0, 0], "zero"),
     ] {
-        let condition = || format!("the CRC, which is {words}, is left out: this frame has none");
+        let condition =
+            || format!("the CRC is left out (it is {words}, but such a frame has none)");
         trials.packet_if(seen.crc == crc, seen.with(&[]), condition);
     }
 }

@@ -2,7 +2,7 @@
 
 use actucheck_codec::innfos::HEADER;
 use actucheck_spec::wire::Direction;
-use actucheck_spec::wire::innfos::reference::{PREFIX, TAIL, decode};
+use actucheck_spec::wire::innfos::reference::{PREFIX, TAIL, crc, decode};
 
 use super::super::super::mistake::{Trials, difference, hex};
 use super::super::CRC_AND_END;
@@ -42,7 +42,10 @@ pub(super) fn length(bytes: &[u8], trials: &mut Trials<'_>) {
 }
 
 pub(super) fn header(bytes: &[u8], trials: &mut Trials<'_>) {
-    let Some((first, rest)) = bytes.split_first() else { return };
+    // One more before a header is an address.
+    let Some((first, rest)) = bytes.split_first().filter(|(first, _)| **first != HEADER) else {
+        return;
+    };
     let condition = || format!("the header is {HEADER:02X}, not {first:02X}");
     trials.packet([&[HEADER], rest].concat(), condition);
     trials.packet([&[HEADER], bytes].concat(), || format!("a header {HEADER:02X} comes first"));
@@ -71,10 +74,28 @@ pub(super) fn cut(bytes: &[u8], trials: &mut Trials<'_>) {
     let Some(length) = stated(bytes) else {
         return trials.fits("the rest of the frame follows".to_owned());
     };
+    if length > MOST {
+        return;
+    }
     let least = (PREFIX + length + 1).saturating_sub(bytes.len());
-    if length <= MOST && least > 0 {
+    if least > 0 {
         let follow = if least == 1 { "byte follows" } else { "bytes follow" };
-        trials.fits(format!("{least} more {follow}, and 2 if it has a CRC"));
+        let with_crc = least + 2;
+        return trials.fits(format!("{least} more {follow}, or {with_crc} if it has a CRC"));
+    }
+    // One byte of its CRC is there, and must be right. If only the end byte is missing, the end is wrong.
+    let (body, _) = bytes.split_at_checked(PREFIX + length).unwrap_or_default();
+    let data = body.get(PREFIX..).unwrap_or_default();
+    let whole = [body, &crc(data).to_le_bytes(), &[TAIL]].concat();
+    if let Some(rest) = whole.strip_prefix(bytes).filter(|rest| rest.len() == 2) {
+        trials.packet(whole.clone(), || format!("2 more bytes follow: {}", hex(rest)));
+    }
+}
+
+/// Nothing tells which of the two is missing, nor its value.
+pub(super) fn who_or_what(bytes: &[u8], trials: &mut Trials<'_>) {
+    if let Some((header, rest)) = bytes.split_first() {
+        trials.like(&[&[*header, 0], rest].concat(), "the address or the command is missing");
     }
 }
 

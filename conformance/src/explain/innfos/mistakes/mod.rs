@@ -22,6 +22,7 @@ pub(in super::super) const MISTAKES: &[Mistake] = &[
     Mistake::of_program(name::OTHER_RANGE, checksum::range),
     Mistake::of_program(name::OTHER_CRC, checksum::algorithm),
     Mistake::of_line(name::TRAILING, layout::trailing),
+    Mistake::of_line("no address or no command", layout::who_or_what),
     Mistake::of_line(name::CUT, layout::cut),
     Mistake::of_line(name::NEEDLESS_BYTE, byte::needless),
     Mistake::of_line(name::OTHER_BIT, byte::bit),
