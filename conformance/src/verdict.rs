@@ -9,7 +9,7 @@ use serde::de::IgnoredAny;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::adapter::{Output, Question};
-use crate::explain::mistake::{self, Fit};
+use crate::explain::mistake;
 
 /// The result of a check in one word.
 #[derive(
@@ -248,9 +248,9 @@ impl Outcome {
         self.because.clone().unwrap_or_else(own)
     }
 
-    /// The mistake that explains a wrong answer.
+    /// The likeliest mistake that fits a wrong answer: its name, and what must hold, in words.
     #[must_use]
-    pub fn mistake(&self) -> Option<Fit> {
+    pub fn mistake(&self) -> Option<(&'static str, String)> {
         let failed = self.verdict == Verdict::Fail;
         mistake::of_answer(
             self.request.as_ref().filter(|_| failed)?,

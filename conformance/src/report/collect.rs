@@ -75,8 +75,8 @@ impl<'a> Collector<'a> {
         if outcome.verdict.accuses() {
             self.accuse(&outcome);
         }
-        if let Some(fit) = outcome.mistake() {
-            self.mistakes.add(fit.mistake, &outcome.id);
+        if let Some((mistake, _)) = outcome.mistake() {
+            self.mistakes.add(mistake, &outcome.id);
         }
         if let Some(behaviour) = &outcome.behaviour {
             let question = (outcome.requirement.clone(), behaviour.question.clone());

@@ -67,7 +67,7 @@ impl Run<'_> {
             }
             _ => None,
         };
-        let mistake = outcome.mistake().map(|fit| fit.to_string());
+        let mistake = outcome.mistake().map(|(_, words)| words);
         let replay = self.replay(&outcome);
         outcome.detail = legible(&outcome.detail, LONGEST_TEXT);
         outcome.reason = outcome.reason.map(|reason| legible(&reason, LONGEST_TEXT));

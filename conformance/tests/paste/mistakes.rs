@@ -412,7 +412,7 @@ fn a_wrong_answer_is_explained_by_the_right_one() {
         (&digits, Output::Crc(0xFEE8), Output::Crc(0xE8FE), Some("CRC bytes swapped")),
         (&digits, Output::Crc(0xFEE8), Output::Crc(u64::MAX), None),
     ] {
-        let found = of_answer(question, &right, &wrong).map(|fit| fit.mistake);
+        let found = of_answer(question, &right, &wrong).map(|(mistake, _)| mistake);
         assert_eq!(found, mistake, "{question} answered with {wrong}");
     }
 }

@@ -1,25 +1,30 @@
-//! The mistake that explains a wrong answer, where the right one is known.
+//! The mistake that may explain a wrong answer, where the right one is known.
 
 use actucheck_spec::wire::Wire;
 
 use super::name::{CRC_SWAPPED, NO_STUFFING, OTHER_CRC, STUFFING_TWICE};
-use super::{ALGORITHMS, Fit, LONGEST};
+use super::{ALGORITHMS, LONGEST};
 use crate::adapter::{Output, Question};
 use crate::explain::Own;
 
-/// The likeliest mistake of a program that makes the actual answer of the expected one.
+/// The likeliest mistake of a program that makes the actual answer of the expected one: its name, and
+/// what must hold, in words.
 #[must_use]
-pub fn of_answer(question: &Question, expected: &Output, actual: &Output) -> Option<Fit> {
+pub fn of_answer(
+    question: &Question,
+    expected: &Output,
+    actual: &Output,
+) -> Option<(&'static str, String)> {
     match (question, expected, actual) {
         (Question::Encode { wire, .. }, Output::Bytes(expected), Output::Bytes(actual)) => {
             frame(*wire, expected, actual)
         }
         (Question::Stuff { wire, bytes }, Output::Bytes(expected), Output::Bytes(actual)) => {
             if actual == bytes {
-                return Some(one(NO_STUFFING, "byte stuffing is left out".to_owned()));
+                return Some((NO_STUFFING, "fits if byte stuffing is left out".to_owned()));
             }
             let twice = wire.stuff(expected).is_some_and(|twice| twice == actual.0);
-            twice.then(|| one(STUFFING_TWICE, "byte stuffing is added twice".to_owned()))
+            twice.then(|| (STUFFING_TWICE, "fits if byte stuffing is added twice".to_owned()))
         }
         (Question::Crc { bytes, .. }, Output::Crc(expected), Output::Crc(actual)) => {
             let [expected, actual] = [*expected, *actual].map(u16::try_from);
@@ -29,21 +34,20 @@ pub fn of_answer(question: &Question, expected: &Output, actual: &Output) -> Opt
     }
 }
 
-fn frame(wire: Wire, meant: &[u8], bytes: &[u8]) -> Option<Fit> {
-    let mistakes = Own::of(wire)?.mistakes.iter().filter(|mistake| mistake.by_program);
-    let (is_meant, short) = (|bytes: &[u8]| bytes == meant, bytes.len() <= LONGEST);
-    let mut fits = mistakes.filter(|_| short).filter_map(|it| it.fit(bytes, &is_meant, &[]));
-    fits.find(|fit| !fit.meant.is_empty())
+fn frame(wire: Wire, meant: &[u8], bytes: &[u8]) -> Option<(&'static str, String)> {
+    if bytes.len() > LONGEST {
+        return None;
+    }
+    let is_meant = |bytes: &[u8]| bytes == meant;
+    let mut mistakes = Own::of(wire)?.mistakes.iter().filter(|mistake| mistake.by_program);
+    let fit = mistakes.find_map(|mistake| mistake.fit(bytes, &is_meant, &[]))?;
+    Some((fit.mistake, fit.to_string()))
 }
 
-fn crc(bytes: &[u8], expected: u16, actual: u16) -> Option<Fit> {
+fn crc(bytes: &[u8], expected: u16, actual: u16) -> Option<(&'static str, String)> {
     if actual == expected.swap_bytes() {
-        return Some(one(CRC_SWAPPED, "the two bytes of the CRC are swapped".to_owned()));
+        return Some((CRC_SWAPPED, "fits if the two bytes of the CRC are swapped".to_owned()));
     }
     let algorithm = ALGORITHMS.iter().find(|algorithm| algorithm.checksum(bytes) == actual)?;
-    Some(one(OTHER_CRC, format!("the CRC is {}", algorithm.name)))
-}
-
-fn one(mistake: &'static str, condition: String) -> Fit {
-    Fit { mistake, conditions: vec![condition], more: 0, trials: 1, meant: Vec::new() }
+    Some((OTHER_CRC, format!("fits if the CRC is {}", algorithm.name)))
 }
