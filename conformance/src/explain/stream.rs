@@ -175,7 +175,7 @@ impl Skipped<'_> {
         damaged(wire, &Asked { bytes: self.bytes, context, tables, address: None })
     }
 
-    /// The mistakes that explain them, the likeliest first.
+    /// The mistakes that may explain them, the likeliest first.
     #[must_use]
     pub fn fits(&self, wire: Wire) -> Vec<Fit> {
         let all = self.count == self.bytes.len() as u64;

@@ -28,7 +28,7 @@ pub struct Report {
     /// The requirements that failures accuse, the most basic first.
     #[serde(default)]
     pub causes: Vec<Cause>,
-    /// The mistakes that explain wrong answers, with the number of failures that fit each.
+    /// The mistakes that may explain wrong answers, with the number of failures that fit each.
     #[serde(default)]
     pub mistakes: Vec<Tally>,
     /// Each requirement that checks were about, in the order of the documents.
@@ -204,7 +204,7 @@ pub struct CheckResult {
     /// The part of the frame with the first byte that differs.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub differs_in: Option<String>,
-    /// What explains the answer, in words: `fits if …`. It is not certain.
+    /// What may explain the answer, in words: `fits if …`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mistake: Option<String>,
     /// The number of bytes of the request and the outputs that were cut off.

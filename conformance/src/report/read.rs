@@ -210,7 +210,7 @@ fn contradiction(report: &Report) -> Option<String> {
         }
     }
     if sum(report.mistakes.iter().map(|tally| tally.count)) > totals.count(Verdict::Fail) {
-        return Some("its mistakes explain more failures than there are".to_owned());
+        return Some("more failures fit its mistakes than there are".to_owned());
     }
     let mut rows = BTreeSet::new();
     for row in &report.not_passed {
