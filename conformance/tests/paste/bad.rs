@@ -1,6 +1,7 @@
 //! Inputs that nobody means: one sentence, and no panic.
 
-use std::io::{BufRead, BufReader, Read as _, repeat};
+use std::io::{BufRead, BufReader, Cursor, Read as _, repeat};
+use std::time::{Duration, Instant};
 
 use actucheck::capture::{self, Form, Unreadable};
 use actucheck::device::{KNOWN, Tables};
@@ -38,14 +39,25 @@ fn refused(input: impl BufRead + Send + 'static, form: Option<Form>) -> Option<S
 #[test]
 fn a_row_without_end_is_refused() {
     let rows = "time,data\n".to_owned() + &"0.1,0xFF\n".repeat(10_000) + "0.1,\"";
-    let input = BufReader::new(std::io::Cursor::new(rows).chain(repeat(b'F').take(100 << 20)));
+    let input = BufReader::new(Cursor::new(rows).chain(repeat(b'F').take(100 << 20)));
     let row = "line 10002: longer than 1 MiB; is a quote not closed?";
     assert_eq!(refused(input, Some(Form::Csv)).unwrap(), row);
 }
 
+/// The longest row of a dump takes no more time than another line.
+#[test]
+fn a_long_row_of_a_dump_is_read_at_once() {
+    for (offset, group) in [("0000000 ", "ffff "), ("00000000: ", "ffff "), ("00000000  ", "ff ")] {
+        let row = offset.to_owned() + &group.repeat(((1 << 20) - 20) / group.len());
+        let start = Instant::now();
+        assert_eq!(refused(Cursor::new(row), Some(Form::Dump)), None);
+        assert!(start.elapsed() < Duration::from_secs(10), "{offset}: {:?}", start.elapsed());
+    }
+}
+
 /// Takes an input through a form and through each wire.
 fn take(input: &[u8], form: Option<Form>) -> Result<(), Unreadable> {
-    let reading = capture::open(std::io::Cursor::new(input.to_vec()), form)?;
+    let reading = capture::open(Cursor::new(input.to_vec()), form)?;
     let mut followers: Vec<_> =
         Wire::ALL.into_iter().filter_map(|wire| Follower::new(wire, Tables::default())).collect();
     for piece in reading.pieces {

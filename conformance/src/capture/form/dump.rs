@@ -14,9 +14,12 @@ const MOST: u64 = 1 << 20;
 
 static ROW: LazyLock<Regex> = LazyLock::new(|| {
     #[allow(clippy::expect_used)] // a test uses it
-    Regex::new(r"^\s*(?P<offset>[0-9a-fA-F]{3,16})(?P<colon>:)?(?:\s+(?P<rest>\S.*)|\s*)$")
+    Regex::new(r"^\s*(?P<offset>[0-9a-fA-F]{3,16})(?P<colon>:)?(?:\s|$)")
         .expect("a pattern of this file")
 });
+
+/// What stands around the characters.
+const MARKS: [char; 3] = ['|', '>', '<'];
 
 /// A line of a dump.
 #[derive(Clone, Debug)]
@@ -29,9 +32,12 @@ struct Row {
 impl Row {
     fn of(line: &str) -> Option<Self> {
         let found = ROW.captures(line)?;
-        let part = |name| found.name(name).map_or("", |part| part.as_str()).to_owned();
+        let offset = found.name("offset")?.as_str().to_owned();
         let colon = found.name("colon").is_some();
-        Some(Self { offset: part("offset"), colon, rest: part("rest") })
+        // Every character before the end of a byte is ASCII then.
+        let wide = |c: char| c.is_whitespace() && !c.is_ascii();
+        let rest = line.get(found.get_match().end()..)?.trim_start().replace(wide, " ");
+        Some(Self { offset, colon, rest })
     }
 
     fn offset(&self, radix: u32) -> Option<u64> {
@@ -41,6 +47,7 @@ impl Row {
     /// The bytes of the groups at the beginning, and where each byte ends in the text. What follows a
     /// gap that is wider than the one in the middle of some lines are characters.
     fn groups(&self) -> Vec<(u8, usize)> {
+        let numbers = self.has_numbers();
         let mut bytes = Vec::new();
         let mut at = 0;
         for word in self.rest.split_inclusive(char::is_whitespace) {
@@ -58,7 +65,7 @@ impl Row {
             });
             let group: Vec<_> = pairs.collect();
             // hexdump without -C prints numbers whose low byte comes first.
-            if let ([(low, _), (high, end)], true) = (group.as_slice(), self.has_numbers()) {
+            if let ([(low, _), (high, end)], true) = (group.as_slice(), numbers) {
                 bytes.extend([(*high, *end), (*low, *end)]);
             } else {
                 bytes.extend(group);
@@ -75,12 +82,14 @@ impl Row {
 
     /// The numbers of bytes that the line may have: those after which the rest is as many characters.
     fn sizes(&self, bytes: &[(u8, usize)]) -> Vec<usize> {
+        let all = self.rest.trim_end().trim_end_matches(MARKS).chars().count();
         let fits = |(index, (_, end)): (usize, &(u8, usize))| {
             let rest = self.rest.get(*end..)?;
-            let column = rest.trim().trim_matches(['|', '>', '<']).chars().count();
+            let column = rest.trim_start().trim_start_matches(MARKS);
+            let column = all.saturating_sub(self.rest.len() - column.len());
             let size = index + 1;
             // Spaces at the end may be lost, and Wireshark has one in the middle.
-            let column_fits = rest.starts_with("  ") || rest.trim_start().starts_with(['|', '>']);
+            let column_fits = rest.starts_with("  ") || rest.trim_start().starts_with(MARKS);
             let last = size == bytes.len() && column == 0;
             (last || column_fits && column > 0 && column <= size + 1 && column + 8 > size)
                 .then_some(size)
@@ -92,11 +101,12 @@ impl Row {
     fn size(&self, bytes: &[(u8, usize)]) -> Option<usize> {
         // Characters may look like bytes. They are as many as the bytes, and after a wider gap than
         // the one in the middle of some lines.
+        let all = self.rest.chars().count();
         let exact = |(index, (_, end)): (usize, &(u8, usize))| {
             let rest = self.rest.get(*end..)?;
-            let (size, column) = (index + 1, rest.trim_start());
-            let gap = rest.len() - column.len();
-            let fits = column.chars().count() == size && gap > 1 && (gap > 2 || size != 8);
+            let size = index + 1;
+            let gap = rest.len() - rest.trim_start().len();
+            let fits = all - end - gap == size && gap > 1 && (gap > 2 || size != 8);
             fits.then_some(size)
         };
         let exact = bytes.iter().enumerate().find_map(exact);
@@ -129,7 +139,7 @@ pub(in crate::capture) fn is_dump(text: &str) -> bool {
         let (Some(from), Some(to)) = (first.offset(radix), next.offset(radix)) else {
             return false;
         };
-        // Behind the bytes there may be characters that look like bytes.
+        // After the bytes there may be characters that look like bytes.
         let fits = |size: usize| to - from <= size as u64 && to - from + 1 >= size as u64;
         to > from && (fits(groups.len()) || sizes.iter().copied().any(fits))
     };
