@@ -161,7 +161,20 @@ pub(super) fn pieces(input: Sampled) -> Pieces {
     let radix = if is_octal(&String::from_utf8_lossy(input.sample())) { 8 } else { 16 };
     let lines = input.into_lines();
     let mut dump = Dump { lines, radix, held: None, repeated: false };
-    up_to_error(move || dump.next())
+    let mut wrong = None;
+    up_to_error(move || {
+        if let Some(error) = wrong.take() {
+            return Err(error);
+        }
+        // The row that is held comes before what is wrong with a later line.
+        dump.next().or_else(|error| match dump.held(None)? {
+            None => Err(error),
+            held => {
+                wrong = Some(error);
+                Ok(held)
+            }
+        })
+    })
 }
 
 /// od counts in octal: the second offset is 20 where others have 10.
