@@ -22,8 +22,7 @@ pub(super) fn form(input: &Sampled) -> Result<Form, Unreadable> {
     if !is_text(sample) {
         return Ok(Form::Raw);
     }
-    let text = String::from_utf8_lossy(sample);
-    let text = if input.whole { &text } else { whole_words(&text) };
+    let text = &input.text();
     if is_dump(text) {
         return Ok(Form::Dump);
     }
@@ -77,10 +76,4 @@ fn bytes(form: Form, text: &str) -> Result<Vec<u8>, Unreadable> {
         bytes.extend(piece?.bytes);
     }
     if bytes.is_empty() { Err(Unreadable::Empty) } else { Ok(bytes) }
-}
-
-/// A sample without its last line, or its last word if there is one line.
-fn whole_words(text: &str) -> &str {
-    let end = text.rfind('\n').or_else(|| text.rfind(|c: char| !c.is_alphanumeric()));
-    text.get(..end.unwrap_or(text.len() & !1)).unwrap_or(text)
 }

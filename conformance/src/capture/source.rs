@@ -1,5 +1,6 @@
 //! The input: a sample of its beginning, and its lines.
 
+use std::borrow::Cow;
 use std::io::{self, BufRead, Cursor, Read};
 
 use anstream::adapter::strip_str;
@@ -15,7 +16,7 @@ pub(super) const LONGEST_LINE: usize = 1 << 20;
 pub(super) struct Sampled {
     sample: Vec<u8>,
     /// Whether the sample is all.
-    pub(super) whole: bool,
+    whole: bool,
     rest: Box<dyn BufRead + Send>,
 }
 
@@ -29,6 +30,17 @@ impl Sampled {
 
     pub(super) fn sample(&self) -> &[u8] {
         &self.sample
+    }
+
+    /// The sample as text. If it is not all, it has no last line, or no last word of a single line.
+    pub(super) fn text(&self) -> String {
+        let text = String::from_utf8_lossy(&self.sample);
+        let text = plain(&text);
+        if self.whole {
+            return text.into_owned();
+        }
+        let end = text.rfind('\n').or_else(|| text.rfind(|c: char| !c.is_alphanumeric()));
+        text.get(..end.unwrap_or(text.len() & !1)).unwrap_or(&text).to_owned()
     }
 
     /// All of it.
@@ -63,11 +75,15 @@ impl Lines {
         if bytes.len() > LONGEST_LINE {
             return Err(wrong("longer than 1 MiB; break it into lines"));
         }
-        // A byte order mark is no part of the first line.
         let text = String::from_utf8_lossy(&bytes);
-        let text = text.trim_start_matches('\u{feff}').trim_end_matches(['\r', '\n']);
-        Ok(Some(if text.contains('\x1B') { strip_str(text).to_string() } else { text.to_owned() }))
+        Ok(Some(plain(text.trim_end_matches(['\r', '\n'])).into_owned()))
     }
+}
+
+/// A text without its byte order mark and without colours.
+pub(super) fn plain(text: &str) -> Cow<'_, str> {
+    let text = text.trim_start_matches('\u{feff}');
+    if text.contains('\x1B') { strip_str(text).to_string().into() } else { text.into() }
 }
 
 /// Whether bytes can be text: no control characters, except white space and colours.

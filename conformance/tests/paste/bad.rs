@@ -55,6 +55,18 @@ fn a_long_row_of_a_dump_is_read_at_once() {
     }
 }
 
+/// The form is found from the beginning of an input, which may end inside a number.
+#[test]
+fn a_table_is_not_judged_by_half_a_row() {
+    const BEGINNING: usize = 64 << 10;
+    let row = format!("0.1,{:90},0xFF\n", "x");
+    let table = format!("{:38}\n", "time,note,data") + &row.repeat(1000);
+    assert!(table[..BEGINNING].ends_with(",0x"));
+    for form in [Some(Form::Csv), None] {
+        assert_eq!(refused(Cursor::new(table.clone()), form), None);
+    }
+}
+
 /// Takes an input through a form and through each wire.
 fn take(input: &[u8], form: Option<Form>) -> Result<(), Unreadable> {
     let reading = capture::open(Cursor::new(input.to_vec()), form)?;

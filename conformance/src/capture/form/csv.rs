@@ -11,7 +11,7 @@ use super::text::Notation;
 use super::up_to_error;
 use crate::capture::error::readings;
 use crate::capture::line;
-use crate::capture::source::{LONGEST_LINE, Sampled};
+use crate::capture::source::{LONGEST_LINE, Sampled, plain};
 use crate::capture::{Form, Piece, Pieces, Unreadable};
 
 /// Rows that the notation of the data is found from.
@@ -94,8 +94,7 @@ fn separator(text: &str) -> u8 {
 
 /// The pieces of a table.
 pub(super) fn pieces(input: Sampled) -> Pieces {
-    let sample = String::from_utf8_lossy(input.sample()).into_owned();
-    match Table::open(input, &sample) {
+    match Table::open(input) {
         Ok(mut table) => up_to_error(move || table.next()),
         Err(error) => Box::new(std::iter::once(Err(error))),
     }
@@ -109,8 +108,9 @@ struct Table {
 }
 
 impl Table {
-    fn open(input: Sampled, sample: &str) -> Result<Self, Unreadable> {
-        let separator = separator(sample);
+    fn open(input: Sampled) -> Result<Self, Unreadable> {
+        let sample = input.text();
+        let separator = separator(&sample);
         let builder = || {
             let mut builder = ReaderBuilder::new();
             builder.delimiter(separator).flexible(true);
@@ -148,6 +148,9 @@ impl Table {
         }
         if !found {
             return Ok(None);
+        }
+        if row.as_slice().contains('\x1B') {
+            *row = row.iter().map(plain).collect();
         }
         let cell = row.get(columns.data).ok_or_else(|| wrong("this row has no data".to_owned()))?;
         let bytes = read(*notation, cell).map_err(wrong)?;

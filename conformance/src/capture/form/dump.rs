@@ -158,7 +158,7 @@ pub(super) fn bytes(line: &str) -> Option<Vec<u8>> {
 
 /// The pieces of a dump.
 pub(super) fn pieces(input: Sampled) -> Pieces {
-    let radix = if is_octal(&String::from_utf8_lossy(input.sample())) { 8 } else { 16 };
+    let radix = if is_octal(&input.text()) { 8 } else { 16 };
     let lines = input.into_lines();
     let mut dump = Dump { lines, radix, held: None, repeated: false };
     let mut wrong = None;
