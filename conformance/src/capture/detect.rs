@@ -3,7 +3,7 @@
 //! Each form says whether the beginning of the input can be in it. A form with a mark of its own,
 //! such as `\x`, is sure. If none is and two remain that give different bytes, that is an error.
 
-use super::form::{is_csv, is_dump, is_pcap};
+use super::form::{is_csv, is_dump, is_escaped, is_pcap};
 use super::source::{Sampled, is_text};
 use super::{Form, Unreadable};
 
@@ -29,17 +29,10 @@ pub(super) fn form(input: &Sampled) -> Result<Form, Unreadable> {
     if is_csv(text) {
         return Ok(Form::Csv);
     }
-    if text.contains("\\x") || has_literal(text) {
+    if is_escaped(text) {
         return Ok(Form::Escaped);
     }
     notation(text)
-}
-
-/// Whether a text has bytes as Python prints them: a b that no word ends with, and a quote.
-fn has_literal(text: &str) -> bool {
-    let begins =
-        |(at, _)| !text.get(..at).is_some_and(|before| before.ends_with(char::is_alphanumeric));
-    ["b'", "b\""].iter().any(|literal| text.match_indices(literal).any(begins))
 }
 
 /// Hex or decimal.

@@ -53,6 +53,27 @@ pattern!(COUNTER, r"^\s*\[\d+\]\s+\b");
 pattern!(LABEL, r"[A-Za-z_][\w.]*\s*(?:\[\w*\])?\s*[:=]");
 pattern!(REMARK, r"(?P<before>^|[^\w\])])[\[(](?P<inner>[^\[\](){},]*)[\])]");
 
+/// How much of a text is a comment at its beginning. `#3` is a number, and `#define` has bytes after it.
+pub(super) fn comment(text: &str) -> usize {
+    let other =
+        |word: &str| word.starts_with("define") || word.starts_with(|c: char| c.is_ascii_digit());
+    let begins = text.starts_with("//") || text.strip_prefix('#').is_some_and(|word| !other(word));
+    match text.strip_prefix("/*") {
+        Some(inner) => inner.find("*/").map_or(text.len(), |end| end + 4),
+        None if begins => text.len(),
+        None => 0,
+    }
+}
+
+/// Whether a place in a line is in a comment.
+pub(super) fn is_comment(line: &str, place: usize) -> bool {
+    COMMENT.find_iter(line).any(|found| {
+        let start = found.as_str().find(['/', '#']).unwrap_or_default();
+        let begins = found.as_str().get(start..).is_some_and(|text| comment(text) > 0);
+        begins && found.start() < place && place < found.end()
+    })
+}
+
 /// The time of a line, and its parts. `before` is where they are looked for; `payload` follows it.
 pub(super) fn read(before: &str, payload: &str) -> (Option<Duration>, Vec<Marked>) {
     // In a literal every character is a byte.

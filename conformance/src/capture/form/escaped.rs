@@ -1,6 +1,7 @@
 //! Text with `\xFF`, in quotes or without, as Python and C have it.
 
 use super::text::Notation;
+use crate::capture::line::{comment, is_comment};
 
 /// `b'\xff\xff\xfd\x00\x01\x03\x00\x01\x19N'`.
 pub(super) struct Escaped;
@@ -8,6 +9,9 @@ pub(super) struct Escaped;
 impl Notation for Escaped {
     fn split<'a>(&self, line: &'a str) -> (&'a str, &'a str) {
         let start = line.find(['\'', '"', '\\']).unwrap_or(line.len());
+        if is_comment(line, start) {
+            return (line, "");
+        }
         let before = line.get(..start).unwrap_or_default();
         // The b of Python's literals.
         let bare = before.strip_suffix(['b', 'B']).unwrap_or(before);
@@ -34,11 +38,23 @@ impl Notation for Escaped {
                 let used = literal(inner, Some(first), &mut bytes)?;
                 rest = inner.get(used..).unwrap_or_default();
             } else {
-                rest = rest.get(first.len_utf8()..).unwrap_or_default();
+                rest = rest.get(comment(rest).max(first.len_utf8())..).unwrap_or_default();
             }
         }
         Ok(bytes)
     }
+}
+
+/// Whether a text has `\x`, or bytes as Python prints them: a b that no word ends with, and a quote.
+pub(in crate::capture) fn is_escaped(text: &str) -> bool {
+    text.lines().any(|line| {
+        let (_, payload) = Escaped.split(line);
+        let begins = |(at, _)| {
+            !payload.get(..at).is_some_and(|before| before.ends_with(char::is_alphanumeric))
+        };
+        payload.contains("\\x")
+            || ["b'", "b\""].iter().any(|start| payload.match_indices(start).any(begins))
+    })
 }
 
 /// Reads a literal up to its quote; returns how much of the text it is.

@@ -14,6 +14,7 @@ use std::fmt;
 
 pub(super) use csv::is_csv;
 pub(super) use dump::is_dump;
+pub(super) use escaped::is_escaped;
 pub(super) use pcap::is_pcap;
 
 use super::source::Sampled;
