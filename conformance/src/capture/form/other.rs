@@ -8,9 +8,12 @@ use super::text::Notation;
 use crate::capture::{Form, line};
 use crate::explain::stream::has_frame;
 
-/// What is wrong with a line that can't be read in the input's form, but in another.
+/// What is wrong with a line that can't be read in the input's form, but in another. A mistyped byte
+/// may be a number of another form, but neither a packet nor a form with a mark of its own.
 pub(super) fn instead(form: Form, line: &str) -> Option<String> {
-    others(form, line).next().map(|(other, _)| mixed(form, other))
+    let sure = |other| matches!(other, Form::Dump | Form::Escaped);
+    let mut meant = others(form, line).filter(|(other, bytes)| sure(*other) || has_frame(bytes));
+    meant.next().map(|(other, _)| mixed(form, other))
 }
 
 /// What is wrong with a line without bytes in the input's form, if it has a packet in another. Fewer
