@@ -1,6 +1,8 @@
 //! Text with `\xFF`, in quotes or without, as Python and C have it.
 
+use super::other::forgotten;
 use super::text::Notation;
+use crate::capture::Form;
 use crate::capture::line::{comment, is_comment};
 
 /// `b'\xff\xff\xfd\x00\x01\x03\x00\x01\x19N'`.
@@ -24,7 +26,8 @@ impl Notation for Escaped {
         let Some(start) = text.find(['\'', '"', '\\']).filter(|_| is_bytes) else {
             return Ok(Vec::new());
         };
-        let mut rest = text.get(start..).unwrap_or_default();
+        let (before, mut rest) = text.split_at(start);
+        let mut outside = before.to_owned();
         let mut bytes = Vec::new();
         while let Some(first) = rest.chars().next() {
             if first == '\\' {
@@ -38,10 +41,17 @@ impl Notation for Escaped {
                 let used = literal(inner, Some(first), &mut bytes)?;
                 rest = inner.get(used..).unwrap_or_default();
             } else {
-                rest = rest.get(comment(rest).max(first.len_utf8())..).unwrap_or_default();
+                let comment = comment(rest);
+                if comment == 0 {
+                    outside.push(first);
+                }
+                rest = rest.get(comment.max(first.len_utf8())..).unwrap_or_default();
             }
         }
-        Ok(bytes)
+        match forgotten(Form::Escaped, &outside) {
+            Some(what) => Err(what),
+            None => Ok(bytes),
+        }
     }
 }
 

@@ -24,7 +24,7 @@ pub(super) fn forgotten(form: Form, line: &str) -> Option<String> {
 }
 
 fn mixed(form: Form, other: Form) -> String {
-    format!("this line is {other}, but the input is read as {form}; give one form at a time")
+    format!("this line has {other}, but the input is read as {form}; give one form at a time")
 }
 
 /// The other forms in which a line has bytes.
