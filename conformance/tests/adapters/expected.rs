@@ -86,6 +86,16 @@ fn rows_that_are_there_stay_and_what_passes_goes() {
 }
 
 #[test]
+fn a_comment_without_a_line_end_stays_one() {
+    let folder = with("# mine");
+    let path = folder.path();
+    assert_eq!(wrong(path, &["--expect", "e.yaml", "--write-expect", "e.yaml"]).0, 1);
+    let text = fs::read_to_string(path.join("e.yaml")).unwrap();
+    assert!(text.starts_with("# mine\nexpected_failures:\n"), "{text}");
+    assert_eq!(wrong(path, &["--expect", "e.yaml"]), (0, String::new()));
+}
+
+#[test]
 fn rows_of_checks_that_did_not_pass_stay() {
     // The one that ends at every question is given up.
     for answer in [r#"printf '{"id":%s,"skip":{"reason":"no"}}\n' "$id""#, "exit"] {

@@ -95,7 +95,9 @@ impl File {
     pub(super) fn text(self) -> Result<String, serde_yaml::Error> {
         let comment = if self.comment.is_empty() { COMMENT } else { &self.comment };
         let rows = serde_yaml::to_string(&Content { expected_failures: Some(self.rows) })?;
-        Ok(format!("{comment}{rows}"))
+        // The last line of a file may have no end.
+        let end = if comment.ends_with('\n') { "" } else { "\n" };
+        Ok(format!("{comment}{end}{rows}"))
     }
 }
 
