@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use serde_json::Value;
+
 /// The limit of a sentence, in characters.
 pub const LONGEST_TEXT: usize = 1000;
 
@@ -41,6 +43,16 @@ pub fn legible(text: &str, longest: usize) -> String {
         }
     }
     clean
+}
+
+/// The first text in a value that is not [`legible`] as it is, made so.
+pub(crate) fn first_hidden(value: &Value, longest: usize) -> Option<String> {
+    match value {
+        Value::String(text) => Some(legible(text, longest)).filter(|clean| clean != text),
+        Value::Array(items) => items.iter().find_map(|item| first_hidden(item, longest)),
+        Value::Object(fields) => fields.values().find_map(|field| first_hidden(field, longest)),
+        _ => None,
+    }
 }
 
 /// Whether a character shows as what it is, and moves nothing else.

@@ -7,13 +7,12 @@ use std::str::FromStr;
 
 use actucheck_codec::register::Device;
 use actucheck_spec::{Diagnostic, Spec};
-use serde_json::Value;
 use thiserror::Error;
 
 use super::table::{self, Absent};
 use super::{Bus, Chosen, KNOWN, NONE, Tables};
 use crate::input::{self, InputError};
-use crate::legible::{LONGEST_TEXT, legible};
+use crate::legible::{LONGEST_TEXT, first_hidden, legible};
 use crate::names::nearest;
 
 /// Defects of a file that are told.
@@ -30,7 +29,7 @@ pub enum DeviceError {
         /// What may be meant.
         hint: String,
     },
-    /// The ID is larger than a byte.
+    /// What comes before `=` is the ID of no device.
     #[error("`{0}` begins with no ID; write it as 1=ja40")]
     NoId(String),
     /// Two tables are for the same device.
@@ -114,24 +113,15 @@ fn read(path: &str) -> Result<Chosen, DeviceError> {
     let spec = Spec::with_own_device(path, &text).map_err(|defects| told(&defects))?;
     let absent = |Absent(name): Absent| DeviceError::Defects(format!("{path} has no {name}"));
     let file = spec.devices.first().ok_or_else(|| absent(Absent("device".to_owned())))?;
-    let texts = serde_json::to_value(&file.content).unwrap_or_default();
-    if let Some(text) = hidden(&texts) {
+    let texts = serde_json::to_value(&file.content)
+        .map_err(|error| DeviceError::Defects(format!("{path}: {error}")))?;
+    if let Some(text) = first_hidden(&texts, LONGEST_TEXT) {
         let message = format!("{path}: `{text}` is too long, or has characters that do not show");
         return Err(DeviceError::Defects(message));
     }
     let table = table::of(&spec, &file.content).map_err(absent)?;
     let file = Box::leak(Box::new(file.content.clone()));
     Ok(Chosen { table: Box::leak(Box::new(table)), file: Some(file) })
-}
-
-/// The first text that can't be shown as it is.
-fn hidden(value: &Value) -> Option<String> {
-    match value {
-        Value::String(text) => Some(legible(text, LONGEST_TEXT)).filter(|clean| clean != text),
-        Value::Array(items) => items.iter().find_map(hidden),
-        Value::Object(fields) => fields.values().find_map(hidden),
-        _ => None,
-    }
 }
 
 /// The first defects, a line each with its place.

@@ -2,13 +2,12 @@
 
 use std::path::Path;
 
-use actucheck_spec::model::Citation;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::check::{Check, Demand, Unspecified, Way};
+use super::check::Check;
 use crate::input::{self, InputError};
-use crate::legible::{LONGEST_TEXT, legible};
+use crate::legible::{LONGEST_NAME, first_hidden, legible};
 
 /// Version of the file's form. It changes when a field goes or takes another meaning.
 pub const VERSION: u32 = 1;
@@ -63,7 +62,7 @@ pub fn read(path: &Path) -> Result<Vec<Check>, SavedError> {
 /// Reads the text of the file `name`.
 ///
 /// # Errors
-/// If it is malformed or of another version.
+/// If it is malformed, has text that does not show, or is of another version.
 pub fn parse(name: &str, text: &str) -> Result<Vec<Check>, SavedError> {
     let path = || name.to_owned();
     let file: File =
@@ -71,28 +70,12 @@ pub fn parse(name: &str, text: &str) -> Result<Vec<Check>, SavedError> {
     if file.version != VERSION {
         return Err(SavedError::Version { path: path(), version: file.version });
     }
-    Ok(file.checks.into_iter().map(cleaned).collect())
-}
-
-/// A check whose texts are legible, as nobody knows who wrote the file.
-fn cleaned(check: Check) -> Check {
-    let clean = |text: String| legible(&text, LONGEST_TEXT);
-    let way = |way: Way| Way { name: clean(way.name), ..way };
-    Check {
-        id: clean(check.id),
-        requirement: clean(check.requirement),
-        source: Citation {
-            document: clean(check.source.document),
-            section: clean(check.source.section),
-        },
-        requires: check.requires.map(clean),
-        demand: match check.demand {
-            Demand::Record(Unspecified { question, ways }) => Demand::Record(Unspecified {
-                question: clean(question),
-                ways: ways.into_iter().map(way).collect(),
-            }),
-            demand => demand,
-        },
-        ..check
+    // Nobody knows who wrote the file.
+    let texts = serde_json::to_value(&file.checks)
+        .map_err(|error| SavedError::Parse { path: path(), error: error.to_string() })?;
+    if let Some(text) = first_hidden(&texts, usize::MAX) {
+        let error = format!("`{}` has characters that do not show", legible(&text, LONGEST_NAME));
+        return Err(SavedError::Parse { path: path(), error });
     }
+    Ok(file.checks)
 }

@@ -104,44 +104,36 @@ fn a_report_of_anybody_moves_no_cursor_and_forges_no_line() {
     }
 }
 
-/// `name` is in YAML's double quotes.
-fn checks(name: &str) -> String {
+/// A check whose requirement and register are in YAML's double quotes.
+fn check(requirement: &str, register: &str) -> String {
     format!(
         r#"version: 1
 checks:
-- id: "{name}"
-  requirement: "{name}"
+- id: a/value
+  requirement: "{requirement}"
   level: must
-  source: "{name} §{name} (meaning)"
-  request: {{op: crc, wire: dynamixel2, bytes: "00"}}
-  demand: {{yield: {{crc: 7}}}}
-- id: "{name}2"
-  requirement: "{name}"
-  level: must
-  source: "{name} §{name} (meaning)"
-  requires: "{name}"
-  request: {{op: crc, wire: dynamixel2, bytes: "01"}}
-  demand: {{record: {{question: "{name}", ways: [{{name: "{name}", output: {{crc: 32773}}}}]}}}}
+  source: "ja40 §1 (meaning)"
+  request: {{op: value, wire: dynamixel2, device: ja40, register: "{register}", address: 65, size: 1,
+    unit: null, value: {{number: 7.0}}}}
+  demand: {{yield: {{bytes: "07"}}}}
 "#
     )
 }
 
 #[test]
-fn a_check_of_anybody_moves_no_cursor_and_forges_no_line() {
+fn a_check_of_anybody_has_no_text_that_does_not_show() {
     let folder = tempfile::tempdir().unwrap();
+    let replay = |requirement, register| {
+        fs::write(folder.path().join("checks.yaml"), check(requirement, register)).unwrap();
+        let (status, _, stderr) = actucheck(folder.path(), &["replay", "checks.yaml"]);
+        (status, stderr)
+    };
     let hostile = r"x\e[2J\r\nFORGED\u2028\u202e";
-    fs::write(folder.path().join("checks.yaml"), checks(hostile)).unwrap();
-    let formats = ["text", "markdown", "html"];
-    let targets = formats.map(|format| format!("--report={format}=out.{format}"));
-    let run = ["codec", "--also", "checks.yaml", "--select", "x*"];
-    let run: Vec<_> = run.into_iter().chain(targets.iter().map(String::as_str)).collect();
-    let (status, stdout, stderr) = actucheck(folder.path(), &run);
-    assert_eq!((status, stderr.as_str()), (1, ""), "{stdout}");
-    let files = formats.map(|format| folder.path().join(format!("out.{format}")));
-    let files = files.map(|file| fs::read_to_string(file).unwrap());
-    let (_, replayed, _) = actucheck(folder.path(), &["replay", "checks.yaml"]);
-    for text in files.iter().chain([&stdout, &replayed]) {
-        assert!(text.contains("FORGED"), "{text}");
-        assert_eq!(text.split('\n').find(|line| hides(line) || line.starts_with("FORGED")), None);
+    for (requirement, register) in [(hostile, "LED"), ("a", hostile)] {
+        let (status, stderr) = replay(requirement, register);
+        assert_eq!(status, 2, "{stderr}");
+        let sentence = r"FORGED\u{2028}\u{202e}` has characters that do not show";
+        assert!(stderr.contains(sentence), "{stderr}");
+        assert_eq!(stderr.split('\n').find(|it| hides(it) || it.starts_with("FORGED")), None);
     }
 }
