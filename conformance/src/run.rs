@@ -37,8 +37,8 @@ pub type Sink<'s> = dyn FnMut(Outcome) -> ControlFlow<()> + Send + 's;
 /// Each question is asked so many `times` in a row; answers that differ are [`Verdict::Flaky`].
 /// What failed is asked again in another process of the subject, and is flaky too if it does not
 /// come again. If an adapter answers an op that does not exist, the first outcome reports that
-/// fault. When `interrupted` is set, the run waits for the outstanding questions and passes on what
-/// was answered. Returns of how many checks the outcome was handed on.
+/// fault. When `interrupted` is set, the run ends and passes on what was answered; the subject says
+/// how long an outstanding question is awaited. Returns of how many checks the outcome was handed on.
 pub fn run<'s>(
     subjects: &mut [Box<dyn Subject + Send>],
     plan: &'s Plan<'_>,
@@ -54,14 +54,18 @@ pub fn run<'s>(
     ask(subjects, plan, times, Merge::new(sink, again, interrupted))
 }
 
-/// Asks all checks of a short plan once, and keeps every outcome as it is.
-pub fn outcomes(subjects: &mut [Box<dyn Subject + Send>], plan: &Plan<'_>) -> Vec<Outcome> {
-    let (mut outcomes, interrupted) = (Vec::new(), AtomicBool::new(false));
+/// Asks all checks of a short plan once, and keeps every outcome as it is; until it is `interrupted`.
+pub fn outcomes(
+    subjects: &mut [Box<dyn Subject + Send>],
+    plan: &Plan<'_>,
+    interrupted: &AtomicBool,
+) -> Vec<Outcome> {
+    let mut outcomes = Vec::new();
     let mut sink = |outcome| {
         outcomes.push(outcome);
         ControlFlow::Continue(())
     };
-    ask(subjects, plan, NonZeroU32::MIN, Merge::new(&mut sink, None, &interrupted));
+    ask(subjects, plan, NonZeroU32::MIN, Merge::new(&mut sink, None, interrupted));
     outcomes
 }
 

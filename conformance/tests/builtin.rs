@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)] // in what the tests share
 
 use std::collections::BTreeSet;
+use std::sync::atomic::AtomicBool;
 
 use actucheck::adapter::{Hello, Output, Question, Request, Wire};
 use actucheck::run;
@@ -43,7 +44,7 @@ impl<F: Fn(&Question, Answer) -> Answer + Send> Subject for Bent<F> {
 
 fn outcomes(bend: impl Fn(&Question, Answer) -> Answer + Send + 'static) -> Vec<Outcome> {
     let subject = Bent { codec: Builtin::default(), bend };
-    run::outcomes(&mut [Box::new(subject)], &Plan::of(checks()))
+    run::outcomes(&mut [Box::new(subject)], &Plan::of(checks()), &AtomicBool::new(false))
 }
 
 /// The ops whose checks failed.

@@ -204,7 +204,7 @@ fn nobody_gets_far_ahead_and_the_order_stays() {
     });
     // The first subject is also asked a question that is not a check.
     let mut subjects: [Box<dyn Subject + Send>; 2] = [Box::new(fast), Box::new(slow)];
-    let outcomes = run::outcomes(&mut subjects, &plan);
+    let outcomes = run::outcomes(&mut subjects, &plan, &AtomicBool::new(false));
     let ahead = watch.join().unwrap();
     assert!(ahead < MOST, "{ahead} questions answered beside one that is not");
     assert!(outcomes.into_iter().map(|outcome| outcome.id).eq(plan.ids()));

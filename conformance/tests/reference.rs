@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
 use std::sync::OnceLock;
+use std::sync::atomic::AtomicBool;
 
 use actucheck::adapter::{Given, Hello, Limits, Output, Question, Rejection, Told, Wire};
 use actucheck::run::outcomes;
@@ -159,7 +160,7 @@ fn the_reference_passes_every_check() {
         let options = suite::Options { cases: 100, limits: LIMITS, ..suite::Options::new() };
         let plan = suite::plan(&spec, &[wire], &options);
         let model = Model(Builtin::default(), Spec::embedded().unwrap());
-        let outcomes = outcomes(&mut [Box::new(model)], &plan);
+        let outcomes = outcomes(&mut [Box::new(model)], &plan, &AtomicBool::new(false));
         let bad = outcomes
             .iter()
             .find(|outcome| !matches!(outcome.verdict, Verdict::Pass | Verdict::Recorded));

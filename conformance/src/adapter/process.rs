@@ -131,9 +131,6 @@ impl Running {
     /// Waits for the next line; `None` if the time limit is reached and the process is still there.
     pub(crate) fn receive(&mut self, limit: Duration) -> Option<Line> {
         let line = self.wait(limit);
-        // Its children may hold the pipe open after it has ended.
-        let mut has_ended = || matches!(self.child.try_wait(), Ok(Some(_)));
-        let line = line.or_else(|| has_ended().then_some(Line::End));
         match &line {
             Some(Line::Text(text)) => self.note('<', text),
             Some(Line::TooLong) => self.note('!', b"a line that is too long"),
@@ -147,16 +144,27 @@ impl Running {
     /// Waits for a line, so long at most.
     fn wait(&mut self, limit: Duration) -> Option<Line> {
         let started = Instant::now();
+        let mut seen_dead = false;
         loop {
             let left = limit.saturating_sub(started.elapsed());
             let pipes = &mut self.pipes;
             let next = async { timeout(left.min(INTERRUPT), pipes.exchange()).await };
-            match self.runtime.block_on(next) {
-                Ok(line) => return Some(line),
-                Err(_) if self.interrupted.load(Ordering::Relaxed) => return Some(Line::Interrupt),
-                Err(_) if left <= INTERRUPT => return None,
-                Err(_) => {}
+            if let Ok(line) = self.runtime.block_on(next) {
+                return Some(line);
             }
+            if self.interrupted.load(Ordering::Relaxed) {
+                return Some(Line::Interrupt);
+            }
+            // Its children may hold the pipe open. What it wrote last had time to arrive.
+            let is_over = left <= INTERRUPT;
+            let is_dead = matches!(self.child.try_wait(), Ok(Some(_)));
+            if seen_dead || is_dead && is_over {
+                return Some(Line::End);
+            }
+            if is_over {
+                return None;
+            }
+            seen_dead = is_dead;
         }
     }
 

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use actucheck::adapter::{Hello, Wire};
-use actucheck::report::{Collector, End, Run, text};
+use actucheck::report::{Collector, End, Run, Stopped, text};
 use actucheck::run;
 use actucheck::suite::check::Check;
 use actucheck::suite::plan::Plan;
@@ -68,10 +68,12 @@ pub(crate) fn run(options: &Replay) -> Result<ExitCode, Failure> {
         records,
     };
     let mut collector = Collector::new(&run);
-    let outcomes = run::outcomes(&mut subjects.all, &Plan::of(asked));
+    let outcomes = run::outcomes(&mut subjects.all, &Plan::of(asked), &interrupted);
+    let left = checks.len().saturating_sub(outcomes.len().saturating_sub(before));
     collector.extend(outcomes.into_iter().skip(before));
     let (log, traced) = subjects.end();
-    let report = collector.finish(End { log, ..End::default() });
+    let stopped = (left > 0).then_some(Stopped::Interrupted);
+    let report = collector.finish(End { log, stopped, left, ..End::default() });
     let mut out = anstream::stdout();
     let written = checks
         .iter()

@@ -270,6 +270,9 @@ impl Subject for Process {
     /// Counts as no failure of the adapter, unless it does not start.
     fn restart(&mut self) {
         self.end();
+        if self.settings.interrupted.load(Ordering::Relaxed) {
+            return;
+        }
         // The next question says why it does not start.
         self.conversation = start(&self.command, &self.settings).ok().map(|(started, _)| started);
     }

@@ -50,6 +50,7 @@ struct Interrupted {
     took: Duration,
     status: Option<i32>,
     folder: TempDir,
+    stdout: String,
     stderr: String,
 }
 
@@ -61,6 +62,19 @@ fn interrupt(run: &Child) {
     let pid = run.id().to_string();
     assert!(Command::new("kill").args(["-INT", &pid]).status().unwrap().success());
 }
+
+/// Asks CRCs, and waits for long.
+const CODEC: [&str; 9] = [
+    "codec",
+    "--select",
+    "ja40.*/crc",
+    "--timeout",
+    "600",
+    "--start-timeout",
+    "600",
+    "--report",
+    "json=report.json",
+];
 
 /// Waits for the end of a run.
 fn end(run: &mut Child) -> Option<i32> {
@@ -77,18 +91,17 @@ fn end(run: &mut Child) -> Option<i32> {
 }
 
 impl Interrupted {
-    /// Runs checks of an adapter, and interrupts them when it has written so many lines to `asked`.
-    fn once(options: &[&str], script: &str, lines: usize) -> Self {
+    /// Runs the program with an adapter, and interrupts it when the adapter has written so many lines
+    /// to `asked`: twice at once, as a person in a hurry does.
+    fn once(arguments: &[&str], script: &str, lines: usize) -> Self {
         let folder = tempfile::tempdir().unwrap();
-        let stderr = std::fs::File::create(folder.path().join("stderr")).unwrap();
+        let output = |name| std::fs::File::create(folder.path().join(name)).unwrap();
         let mut run = Command::new(env!("CARGO_BIN_EXE_actucheck"))
             .current_dir(folder.path())
-            .args(["codec", "--select", "ja40.*/crc", "--timeout", "600", "--start-timeout", "600"])
-            .args(["--report", "json=report.json"])
-            .args(options)
+            .args(arguments)
             .args(["--", "sh", "-c", &format!("echo $$ >>started\n{script}")])
-            .stdout(Stdio::null())
-            .stderr(stderr)
+            .stdout(output("stdout"))
+            .stderr(output("stderr"))
             .spawn()
             .unwrap();
         let patience = Instant::now() + PATIENCE;
@@ -99,21 +112,24 @@ impl Interrupted {
         }
         let interrupted = Instant::now();
         interrupt(&run);
+        sleep(Duration::from_millis(20));
+        interrupt(&run);
         let status = end(&mut run);
         let took = interrupted.elapsed();
-        let stderr = std::fs::read_to_string(folder.path().join("stderr")).unwrap();
-        Self { took, status, folder, stderr }
+        let text = |name| std::fs::read_to_string(folder.path().join(name)).unwrap();
+        let (stdout, stderr) = (text("stdout"), text("stderr"));
+        Self { took, status, folder, stdout, stderr }
     }
 
     /// The same, and it ends within a second, unless this machine is busy three times in a row.
-    fn of(options: &[&str], script: &str, lines: usize) -> Self {
-        let mut run = Self::once(options, script, lines);
+    fn of(arguments: &[&str], script: &str, lines: usize) -> Self {
+        let mut run = Self::once(arguments, script, lines);
         for _ in 0..2 {
             if run.took > SECOND && run.status.is_some() {
-                run = Self::once(options, script, lines);
+                run = Self::once(arguments, script, lines);
             }
         }
-        assert!(run.took < SECOND, "{:?} for {options:?} and {script}", run.took);
+        assert!(run.took < SECOND, "{:?} for {arguments:?} and {script}", run.took);
         let started = std::fs::read_to_string(run.folder.path().join("started")).unwrap();
         for process in started.lines() {
             let mut probe = Command::new("kill");
@@ -156,7 +172,7 @@ fn ctrl_c_ends_a_run_within_a_second_with_a_report() {
     std::thread::scope(|scope| {
         for (options, script, lines) in &cases {
             scope.spawn(move || {
-                let run = Interrupted::of(options, script, *lines);
+                let run = Interrupted::of(&[&CODEC, *options].concat(), script, *lines);
                 let report = run.report();
                 assert_eq!(report["stopped"], "interrupted", "{}", run.stderr);
                 let totals = &report["totals"];
@@ -172,12 +188,38 @@ fn ctrl_c_ends_a_run_within_a_second_with_a_report() {
 
 #[test]
 fn ctrl_c_ends_an_adapter_that_does_not_start() {
-    let run = Interrupted::of(&["--report=junit=j.xml"], "echo >>asked; sleep 600", 1);
+    let run = Interrupted::of(
+        &[&CODEC[..], &["--report=junit=j.xml"]].concat(),
+        "echo >>asked; sleep 600",
+        1,
+    );
     assert_eq!(run.status, Some(4), "{}", run.stderr);
     let sentence = "had not said hello when the program was interrupted";
     assert!(run.stderr.contains(sentence), "{}", run.stderr);
     let junit = std::fs::read_to_string(run.folder.path().join("j.xml")).unwrap();
     assert!(junit.contains(sentence) && !run.folder.path().join("report.json").exists(), "{junit}");
+}
+
+#[test]
+fn ctrl_c_ends_a_replay_too() {
+    let mut arguments = vec!["replay", "ja40.reboot.instruction/crc"];
+    arguments.extend(["--after", "ja40.ping.instruction/crc"].repeat(60));
+    let script = WELL_BEHAVED.replace("ANSWER", &format!("echo >>asked; sleep 0.05; {WRONG}"));
+    let run = Interrupted::of(&arguments, &script, 3);
+    assert_eq!(run.status, Some(3), "{}", run.stdout);
+    assert!(run.stdout.contains("interrupted"), "{}", run.stdout);
+}
+
+#[test]
+fn an_adapter_is_not_at_fault_for_ctrl_c() {
+    let hangs = WELL_BEHAVED.replace("ANSWER", "echo >>asked; sleep 600");
+    for script in [&hangs, "echo >>asked; sleep 600"] {
+        let arguments = ["adapter", "check", "--timeout", "600", "--start-timeout", "600"];
+        let run = Interrupted::of(&arguments, script, 1);
+        assert_eq!((run.status, run.stdout.as_str()), (Some(3), ""), "{}", run.stderr);
+        let sentence = "interrupted; the adapter was not checked to its end";
+        assert!(run.stderr.contains(sentence), "{}", run.stderr);
+    }
 }
 
 /// A pipe takes less than the report has, so that the run waits for its reader.
@@ -199,7 +241,8 @@ fn ctrl_c_while_a_report_is_written_leaves_it_whole() {
         report.read_exact(&mut text).unwrap();
         for _ in 0..times {
             interrupt(&run);
-            sleep(Duration::from_millis(100));
+            // Another one counts when no adapter can be there any more.
+            sleep(SECOND + Duration::from_millis(100));
         }
         if times == 1 {
             assert_eq!(run.try_wait().unwrap(), None);

@@ -87,8 +87,8 @@ pub(crate) const ROWS: &[Row] = &[
     row("wrong every thousandth time", "wrong thousandth", GENERATED, 1, "8-10 flaky"),
     row("leaves a child", "leaves-a-child crc", FEW, 0, ""),
     row("leaves a child with setsid", "leaves-a-session crc", FEW, 0, ""),
-    row("dies, its child lives", "dies-with-a-child crc", FEW, 1, "3 crash").silent(),
-    row("as before, with setsid", "dies-with-a-session crc", FEW, 1, "3 crash").silent(),
+    row("dies, its child lives", "dies-with-a-child crc", FEW, 1, "3 crash"),
+    row("as before, with setsid", "dies-with-a-session crc", FEW, 1, "3 crash"),
     row("floods its log", "floods-its-log crc", FEW, 0, ""),
     row("details of 1 MB", "long-detail always", SHORT, 1, "160 fail"),
     // To read one of them takes 70 MB for a moment; two more that are kept would be too much.

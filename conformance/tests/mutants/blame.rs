@@ -1,6 +1,7 @@
 //! Each fault accuses first the requirement that it breaks, and few others beside it.
 
 use std::collections::BTreeSet;
+use std::sync::atomic::AtomicBool;
 
 use actucheck::run;
 use actucheck::suite::check::Check;
@@ -20,7 +21,7 @@ fn outcomes(mutant: &'static Mutant, checks: &[Check], finders: &[usize]) -> Vec
         Wrong::RejectsAfter(_) => checks.to_vec(),
         _ => finders.iter().map(|place| checks[*place].clone()).collect(),
     };
-    run::outcomes(&mut [Box::new(Mutated::new(mutant))], &Plan::of(asked))
+    run::outcomes(&mut [Box::new(Mutated::new(mutant))], &Plan::of(asked), &AtomicBool::new(false))
 }
 
 /// The requirements that are accused, in the order of the plan, each with the first check that

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::iter;
 use std::ops::ControlFlow;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use actucheck::adapter::{Hello, Question, Wire};
 use actucheck::blackbox::{self, Finding, Fuzzed, Options, Symptom, fuzz};
@@ -123,7 +123,7 @@ fn again(findings: &[Finding], subject: Box<dyn Subject + Send>) -> Vec<Verdict>
     std::fs::write(&file, saved::write(&checks).unwrap()).unwrap();
     let read = saved::read(&file).unwrap();
     assert_eq!(read, checks);
-    let outcomes = run::outcomes(&mut [subject], &Plan::of(read));
+    let outcomes = run::outcomes(&mut [subject], &Plan::of(read), &AtomicBool::new(false));
     outcomes.into_iter().map(|outcome| outcome.verdict).collect()
 }
 

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
+use std::sync::atomic::AtomicBool;
 
 use actucheck::adapter::{Hello, Implementation, Output, Question, Rejection};
 use actucheck::report::model::Summary;
@@ -118,7 +119,7 @@ fn report(name: &str, only: &str, bend: fn(&Question, Answer) -> Answer, expect:
     };
     let implementation = hello.implementation.clone();
     let subject = Odd { codec, hello, bend };
-    let mut outcomes = outcomes(&mut [Box::new(subject)], &plan);
+    let mut outcomes = outcomes(&mut [Box::new(subject)], &plan, &AtomicBool::new(false));
     make_flaky(&mut outcomes);
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("expected-failures.yaml");

@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 use std::process::ExitCode;
+use std::sync::atomic::Ordering;
 
 use actucheck::adapter::Wire;
 use actucheck::adapter::lint::{self, Point, Report, Said};
@@ -20,7 +21,8 @@ Examples:
       with every line exchanged
   actucheck adapter check --start-timeout 60 -- ./run
 
-Exit status: 0 all is well, 1 something is wrong, 2 wrong usage, 4 the adapter could not be started.";
+Exit status: 0 all is well, 1 something is wrong, 2 wrong usage, 3 it was interrupted, or the
+results could not be written, 4 the adapter could not be started.";
 
 /// Checks an adapter itself, point by point, before its library is checked
 #[derive(Debug, Args)]
@@ -45,13 +47,17 @@ const WIDTH: usize = 400;
 pub(crate) fn run(options: &Check) -> Result<ExitCode, Failure> {
     let spec = shared::spec()?;
     let plan = suite::plan(&spec, &Wire::ALL, &Options::new());
-    let settings = options.exchange.settings(&shared::interrupted()?)?;
+    let interrupted = shared::interrupted()?;
+    let settings = options.exchange.settings(&interrupted)?;
     let command = options.command.join(" ");
     let report = lint::check(&options.command, &settings, &[plan]).map_err(|error| {
         let message = format!("cannot run `{command}`: {error}; give the command after `--`");
         Failure::not_started(message)
     })?;
     shared::finish(settings.trace)?;
+    if interrupted.load(Ordering::Relaxed) && !report.is_good() {
+        return Err(Failure::incomplete("interrupted; the adapter was not checked to its end"));
+    }
     let written = write(&report, &command, options.verbose, &mut anstream::stdout());
     shared::printed(written)?;
     Ok(ExitCode::from(match &report.hello {

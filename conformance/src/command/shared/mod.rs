@@ -15,6 +15,7 @@ mod value;
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 use actucheck_spec::Spec;
 
@@ -40,14 +41,18 @@ pub(crate) fn spec() -> Result<Spec, Failure> {
 
 /// The exit status at a second Ctrl-C, as a shell would tell it.
 const INTERRUPTED: i32 = 130;
+/// By then no adapter runs any more: the first Ctrl-C has ended them.
+const ADAPTERS_END: Duration = Duration::from_secs(1);
 
-/// Returns a flag that Ctrl-C sets, or what else asks the program to end. A second Ctrl-C ends it at
-/// once: it may be writing to somebody who does not read.
+/// Returns a flag that Ctrl-C sets, or what else asks the program to end. Another Ctrl-C after a
+/// second ends it at once: it may be writing to somebody who does not read.
 pub(crate) fn interrupted() -> Result<Arc<AtomicBool>, Failure> {
     let flag = Arc::new(AtomicBool::new(false));
     let setter = Arc::clone(&flag);
+    let mut first = None;
     let end = move || {
-        if setter.swap(true, Ordering::Relaxed) {
+        setter.store(true, Ordering::Relaxed);
+        if first.get_or_insert_with(Instant::now).elapsed() > ADAPTERS_END {
             std::process::exit(INTERRUPTED);
         }
     };

@@ -88,9 +88,7 @@ impl Subjects {
                 ));
             }
             if adapter.exchange.trace.is_some() {
-                return Err(Failure::usage(
-                    "--trace is of an adapter, and none is given; put its command after `--`",
-                ));
+                return Err(Failure::usage("--trace needs an adapter; put its command after `--`"));
             }
             let mut subjects = Self::of(Builtin::default());
             subjects.all.resize_with(jobs.into(), || Box::new(Builtin::default()));
