@@ -62,7 +62,7 @@ What fails is asked again in a second process. If it does not fail in the same w
 
 Exit status: 0 all passed, 1 something failed, was flaky, crashed or gave no answer in time, \
 2 wrong usage, 3 something could not be run or written, or the adapter itself is at fault, 4 the \
-adapter could not be started.";
+adapter could not be started, 130 another Ctrl-C ended it, a second after the first.";
 
 /// Checks a codec: the built-in one, or a library behind an adapter
 #[derive(Debug, Args)]

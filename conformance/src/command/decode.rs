@@ -44,18 +44,18 @@ Examples:
 
 The form of the bytes is found by itself: hex with any separators, decimal lists, arrays of
 programs, text with \\xFF, dumps of xxd, hexdump or Wireshark, tables of logic analysers, pcap and
-pcapng, and plain bytes. Lines of a log may
-have times, and directions such as TX: and RX:. What has two readings is refused.
+pcapng, and plain bytes. Lines of a log may have times, and directions such as TX: and RX:. What
+has two readings is refused.
 
-Bytes that are no packet are shown as far as they can be read, with the mistakes that may explain them.
-None is certain, and the likeliest is first.
+Bytes that are no packet are shown as far as they can be read, with the mistakes that may explain
+them. None is certain, and the likeliest is first.
 
 A warning tells what a document says against the meaning of a packet that is valid. Rules of
 registers need --device, or an answer to Ping before.
 
-Exit status: 0 every byte is in a valid packet, 1 some byte is not, also of line noise, or with
---strict a warning, 2 wrong usage, or an input that can't be read to its end, 3 the output could not
-be written.";
+Exit status: 0 every byte is in a valid packet, 1 some byte is in none, line noise included, or
+with --strict there is a warning, 2 wrong usage, or an input that can't be read to its end, 3 the
+output could not be written.";
 
 /// Explains packets field by field: one, or all in a log, a dump or a capture
 #[derive(Debug, Args)]

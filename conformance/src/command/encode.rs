@@ -26,7 +26,8 @@ Examples:
 
 Values are whole numbers, names, or amounts in the register's unit; data are bytes in hex.
 
-Exit status: 0 a packet was written, 1 the spec refuses it, 2 wrong usage.";
+Exit status: 0 a packet was written, 1 the spec refuses it, 2 wrong usage, 3 it could not
+be written out.";
 
 /// Builds a packet from words
 #[derive(Debug, Args)]

@@ -251,7 +251,7 @@ fn a_trace_without_an_adapter_is_refused() {
         let option = format!("--trace={}", trace.display());
         let (status, _, stderr) = actucheck(&[command, &[&option]].concat());
         assert_eq!((status, stderr.lines().count()), (2, 1), "{stderr}");
-        assert!(stderr.contains("--trace is of an adapter, and none is given"), "{stderr}");
+        assert!(stderr.contains("--trace needs an adapter"), "{stderr}");
     }
     assert!(!trace.exists());
 }

@@ -19,7 +19,8 @@ Examples:
   actucheck spec show \"ja40/Goal Position\"
       reads on at an id that was found
 
-Exit status: 0 something was found, 1 nothing was, 2 wrong usage.";
+Exit status: 0 something was found, 1 nothing was, 2 wrong usage, 3 the output could not
+be written.";
 
 /// Lines that are printed.
 const SHOWN: usize = 40;
@@ -30,7 +31,7 @@ const WIDTH: usize = 110;
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Find {
-    /// Words, or parts of them, that all have to be there, in any case
+    /// Words, or parts of them, that all have to be there, in upper or lower case
     #[arg(required = true, value_name = "WORD")]
     words: Vec<String>,
 }
@@ -94,9 +95,9 @@ fn rank(thing: &Thing, query: &str, words: &[&str]) -> Option<Rank> {
 
 /// Says which words are missing, and what may be meant.
 fn nothing(things: &[Thing], words: &[&str]) -> String {
-    let letters = |letter: char| !letter.is_alphanumeric();
+    let separator = |letter: char| !letter.is_alphanumeric();
     let known: BTreeSet<_> =
-        things.iter().flat_map(|thing| thing.id.split(letters)).map(str::to_lowercase).collect();
+        things.iter().flat_map(|thing| thing.id.split(separator)).map(str::to_lowercase).collect();
     let has = |word: &str| things.iter().any(|thing| rank(thing, word, &[word]).is_some());
     match words.iter().find(|word| !has(word)) {
         None => "nothing in the spec has all of these words; leave one out".to_owned(),
