@@ -99,7 +99,7 @@ class Alarms:
 
 @dataclass
 class Scaled:
-    """A signed number. `factor` means 1, or the full scale that this column of MODELS has."""
+    """A signed number; the raw value `factor` means 1, or the full scale that this column of MODELS has."""
 
     size: int
     factor: float
