@@ -82,7 +82,7 @@ fn an_innfos_frame_is_explained_if_it_is_told_which_way_it_goes() {
         5  00 05  data     Overvoltage, Locked rotor
         7  e1 83  CRC      C1 B3 is expected
         9  ed     end
-           fits if byte 5 is 7F (2470 were tried, so 1 in 26 wrong packets fits by chance)
+           fits if byte 5 is 7F (1729 were tried, so 1 in 37 wrong packets fits by chance)
     ");
     let others = "EE 01 FF 00 02 08 00 06 70 ED";
     let (_, stdout, _) = actucheck(&["decode", "--wire", "innfos", "--kind", "reply", others]);
