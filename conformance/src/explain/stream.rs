@@ -3,6 +3,7 @@
 //! A wire has two parts here. `Split` finds its frames, and `Converse` knows what a frame is in
 //! the conversation. [`Follower`] knows where and when each byte was.
 
+mod devices;
 pub mod lines;
 mod summary;
 
@@ -11,6 +12,7 @@ use std::time::Duration;
 
 use actucheck_spec::wire::{Context, Direction, Wire};
 
+pub use devices::Devices;
 pub use summary::{Answers, Summary};
 
 use super::mistake::{self, Fit};

@@ -75,9 +75,8 @@ impl<W: Write> Sink for Text<W> {
                 summary.warnings.iter().map(|(rule, count)| format!("{count} {rule}")).collect();
             writeln!(self.out, "{BOLD}warnings{BOLD:#}: {}", rules.join(", "))?;
         }
-        if !summary.devices.is_empty() {
-            let devices: Vec<_> =
-                summary.devices.iter().map(|(id, model)| device(*id, *model)).collect();
+        let devices: Vec<_> = summary.devices.iter().map(|(id, model)| device(id, model)).collect();
+        if !devices.is_empty() {
             writeln!(self.out, "devices: {}", devices.join(", "))?;
         }
         let answers = &summary.answers;

@@ -240,7 +240,7 @@ impl Line {
         let runs = |(reason, (runs, bytes)): (&String, &(u64, u64))| {
             (reason.clone(), Runs { runs: *runs, bytes: *bytes })
         };
-        let seen = |(id, model): (&u8, &Option<u16>)| Seen { id: *id, model: *model };
+        let seen = |(id, model)| Seen { id, model };
         Self::Summary {
             packets: summary.packets.iter().copied().collect(),
             skipped: summary.skipped.iter().map(runs).collect(),

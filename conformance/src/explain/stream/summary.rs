@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::ptr;
 use std::time::Duration;
 
+use super::devices::Devices;
 use super::{Event, Role, Skipped};
 
 /// Counts over a stream.
@@ -14,7 +15,7 @@ pub struct Summary {
     /// Runs of bytes that are no packet, and their bytes, by reason.
     pub skipped: BTreeMap<String, (u64, u64)>,
     /// The devices that packets were for or from, each with its model number if it told it.
-    pub devices: BTreeMap<u8, Option<u16>>,
+    pub devices: Devices,
     /// Warnings, by the id of the requirement.
     pub warnings: BTreeMap<&'static str, u64>,
     /// Echoes.
@@ -70,8 +71,7 @@ impl Summary {
                 }
                 let several = turn.context.fast.as_ref().map_or(&[][..], |fast| &fast.ids);
                 for device in turn.device.iter().chain(several) {
-                    let model = self.devices.entry(*device).or_default();
-                    *model = turn.model.or(*model);
+                    self.devices.see(*device, turn.model);
                 }
                 for warning in &turn.warnings {
                     *self.warnings.entry(warning.requirement).or_default() += 1;
