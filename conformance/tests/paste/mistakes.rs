@@ -426,6 +426,12 @@ fn what_fits_is_told_in_words() {
     for (wire, direction, bytes, told) in [
         (DYNAMIXEL2, None, four, "they are packets of Protocol 1.0, of ID 1, 2, 3, 4"),
         (DYNAMIXEL2, None, &six, "they are packets of Protocol 1.0, of ID 1, 2, 3, 4 and 2 more"),
+        (
+            DYNAMIXEL2,
+            None,
+            "ff ff fd 00 01 06 00 03 ff ff fd 6f 50",
+            "the sender left out byte stuffing (1 byte FD), which the CRC covers",
+        ),
         // Any address and any command would be right.
         (
             INNFOS,

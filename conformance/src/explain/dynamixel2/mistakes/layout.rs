@@ -28,17 +28,21 @@ pub(super) fn length(bytes: &[u8], trials: &mut Trials<'_>) {
     trials.packet(meant, condition);
 }
 
-/// Left out everywhere, or at some places.
+/// Left out everywhere, or at some places; also where the sender's CRC covers it.
 pub(super) fn stuffing(bytes: &[u8], trials: &mut Trials<'_>) {
     let Some(seen) = Seen::whole(bytes) else { return };
+    let front = seen.before.get(..PREFIX).unwrap_or_default();
     for plain in [plain(seen.body), seen.body.to_vec()] {
-        let meant = frame(seen.id, &stuff(&plain));
-        let condition = || {
+        let stuffed = stuff(&plain);
+        let covered = crc(&[front, &stuffed].concat()).to_le_bytes() == seen.crc;
+        let meant = frame(seen.id, &stuffed);
+        let condition = |crc: &str| {
             let missing = meant.len() - bytes.len();
             let s = if missing == 1 { "" } else { "s" };
-            format!("the sender left out byte stuffing ({missing} byte{s} FD)")
+            format!("the sender left out byte stuffing ({missing} byte{s} FD){crc}")
         };
-        trials.packet_if(crc_is_right(bytes), meant.clone(), condition);
+        trials.packet_if(crc_is_right(bytes), meant.clone(), || condition(""));
+        trials.packet_if(covered, meant.clone(), || condition(", which the CRC covers"));
     }
 }
 
