@@ -9,6 +9,7 @@
 
 pub mod adapter;
 pub mod blackbox;
+pub mod bus;
 pub mod capture;
 pub mod compose;
 pub mod device;

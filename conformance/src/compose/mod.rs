@@ -144,6 +144,11 @@ pub fn compose(spec: &Spec, wire: Wire, phrase: &Phrase<'_>) -> Result<Composed,
     own.ok_or_else(missing).and_then(|(_, compose)| compose(spec, phrase))
 }
 
+/// The address of the register that a word names, and the bytes of the value that it has.
+pub(crate) fn register(device: &Device, word: &Word) -> Result<(u16, Vec<u8>), ComposeError> {
+    dynamixel2::bytes(device, word)
+}
+
 /// The value of a word, which must have one.
 fn value_of(word: &Word) -> Result<&str, ComposeError> {
     let missing = || ComposeError::Missing(format!("`{0}` needs a value: {0}=VALUE", word.name));

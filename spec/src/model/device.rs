@@ -18,6 +18,8 @@ pub struct Device {
     pub source: Vec<Citation>,
     /// The model number that Ping returns; absent if the document states none.
     pub model_number: Option<u16>,
+    /// The counts of the position registers in a turn; absent if no document states them.
+    pub counts_per_turn: Option<u32>,
     /// Whether the control table has every register. A table that has not tells nothing about other
     /// addresses.
     #[serde(default)]

@@ -9,6 +9,8 @@ use actucheck_spec::model::HexBytes;
 use actucheck_spec::wire::Direction;
 use actucheck_spec::wire::dynamixel2::{Block, Dynamixel2, Instruction, Packet, reference};
 
+pub(super) use self::register::bytes;
+
 use self::fields::{Part, Parts};
 use super::{
     ComposeError, Composed, Phrase, Word, as_word, for_one_device, hex_of, named, no_value, number,

@@ -57,6 +57,15 @@ pub(super) fn span(device: &Device, words: &[&Word]) -> Result<Span, ComposeErro
     Ok(Span { address: first, size, data: (given > 0).then_some(data) })
 }
 
+/// The address of the register that a word names, and the bytes of its value.
+pub(in super::super) fn bytes(
+    device: &Device,
+    word: &Word,
+) -> Result<(u16, Vec<u8>), ComposeError> {
+    let span = span(device, &[word])?;
+    Ok((span.address, span.data.unwrap_or_default()))
+}
+
 /// A value as a number of counts, as the name of a value, as flags with `+` between, or in the
 /// register's unit.
 fn value(device: &Device, register: &Register, text: &str) -> Result<i64, ComposeError> {

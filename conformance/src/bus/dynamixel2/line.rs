@@ -1,0 +1,90 @@
+//! The line: what carries bytes between the host and the devices, and when they are there.
+
+use std::time::Duration;
+
+use actucheck_codec::dynamixel2::stream::{Event, Parser};
+
+use super::super::{Chunk, Devices};
+use super::device::VirtualDevice;
+use super::hearing::Hearing;
+use super::readings::Readings;
+
+/// No packet goes on after so long a pause.
+const QUIET: Duration = Duration::from_millis(100);
+/// Bits of a byte on the line: a start bit, the byte, a stop bit.
+const BITS: u64 = 10;
+/// Blocks of 64 bytes: the longest packet that the length field can say.
+const BLOCKS: usize = 1025;
+
+/// A half-duplex line with its devices.
+pub(in super::super) struct Line {
+    parser: Box<Parser<BLOCKS>>,
+    /// When the last byte was heard.
+    heard: Duration,
+    devices: Vec<VirtualDevice>,
+    readings: Readings,
+    clock: Clock,
+    scratch: Vec<u8>,
+}
+
+impl Line {
+    /// A line on which bytes take no time, unless it has a rate in bit/s.
+    pub(in super::super) fn new(
+        devices: Vec<VirtualDevice>,
+        readings: Readings,
+        rate: Option<u32>,
+    ) -> Self {
+        Self {
+            parser: Box::new(Parser::with_max_packet(BLOCKS * 64)),
+            heard: Duration::ZERO,
+            devices,
+            readings,
+            clock: Clock { rate, free: Duration::ZERO },
+            scratch: Vec::new(),
+        }
+    }
+}
+
+impl Devices for Line {
+    fn hear(&mut self, bytes: &[u8], now: Duration, send: &mut dyn FnMut(Chunk)) {
+        let Self { parser, devices, readings, clock, scratch, .. } = self;
+        if now.saturating_sub(self.heard) > QUIET {
+            parser.idle();
+        }
+        self.heard = now;
+        clock.carry(bytes.len(), now);
+        parser.feed(bytes, |event| {
+            // Bytes that are no packet are for nobody.
+            if let Event::Frame(frame) = event {
+                let readings = *readings;
+                Hearing { devices, readings, clock, now, send }.hear(&frame, scratch);
+            }
+        });
+    }
+}
+
+/// When the line is free.
+pub(super) struct Clock {
+    rate: Option<u32>,
+    free: Duration,
+}
+
+impl Clock {
+    /// Carries bytes from `now` on, or when those before them are through. Returns when the last of
+    /// them is there.
+    pub(super) fn carry(&mut self, bytes: usize, now: Duration) -> Duration {
+        let start = self.free.max(now);
+        self.free = self.rate.filter(|rate| *rate > 0).map_or(start, |rate| {
+            let bits = u64::try_from(bytes).unwrap_or(u64::MAX).saturating_mul(BITS);
+            start + Duration::from_nanos(bits.saturating_mul(1_000_000_000) / u64::from(rate))
+        });
+        self.free
+    }
+
+    /// A device waits before it answers, where time counts.
+    pub(super) fn wait(&mut self, delay: Duration, now: Duration) {
+        if self.rate.is_some() {
+            self.free = self.free.max(now) + delay;
+        }
+    }
+}

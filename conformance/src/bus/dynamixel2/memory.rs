@@ -1,0 +1,167 @@
+//! What a device's registers hold.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use actucheck_codec::dynamixel2::ErrorNumber;
+use actucheck_codec::register::{Access, Area, Bound, Range as Limits, Row};
+
+use super::model::{self, Model};
+
+/// A control table with values.
+#[derive(Clone, Debug)]
+pub(super) struct Memory {
+    model: Arc<Model>,
+    bytes: Vec<u8>,
+}
+
+impl Memory {
+    /// All registers with their initial values.
+    pub(super) fn new(model: Arc<Model>) -> Self {
+        let bytes = vec![0; model.size()];
+        let mut memory = Self { model, bytes };
+        memory.reset(|_| true);
+        memory
+    }
+
+    /// Gives registers their initial values.
+    ///
+    /// Where a document states none it is 0, or what is nearest to it within the register's range. A
+    /// goal between a limit and its negative begins at the limit: with 0 the device would never move.
+    pub(super) fn reset(&mut self, which: impl Fn(&Row) -> bool) {
+        for row in self.model.table.registers.iter().filter(|row| which(row)) {
+            self.put(row, row.initial.unwrap_or_else(|| self.unstated(row)));
+        }
+        if let (Some(row), Some(number)) =
+            (self.model.roles.model_number, self.model.table.model_number)
+        {
+            self.put(row, number.into());
+        }
+    }
+
+    /// The initial value of a register for which the documents state none.
+    fn unstated(&self, row: &Row) -> i64 {
+        let (min, max) = row.bounds(|address| self.at(address));
+        let is_both_ways =
+            matches!(row.range, Limits::Between { min: Bound::Register { negated: true, .. }, .. });
+        if row.name.starts_with("Goal") && is_both_ways { max } else { 0.clamp(min, max.max(min)) }
+    }
+
+    /// What a register holds.
+    pub(super) fn value(&self, row: &Row) -> i64 {
+        let bytes = self.bytes.get(usize::from(row.address)..model::end(row));
+        bytes.and_then(|bytes| row.decode(bytes)).unwrap_or_default()
+    }
+
+    /// What a register holds, if the device has it.
+    pub(super) fn get(&self, row: Option<&Row>) -> Option<i64> {
+        row.map(|row| self.value(row))
+    }
+
+    /// What the register at an address holds.
+    fn at(&self, address: u16) -> Option<i64> {
+        self.get(self.model.table.register(address))
+    }
+
+    /// Sets a register, whoever may write it. A value that it can't hold becomes the nearest.
+    pub(super) fn put(&mut self, row: &Row, value: i64) {
+        let (min, max) = row.kind.limits();
+        let value = value.clamp(min, max).to_le_bytes();
+        if let Some(bytes) = self.bytes.get_mut(usize::from(row.address)..model::end(row)) {
+            let size = bytes.len();
+            bytes.copy_from_slice(value.get(..size).unwrap_or_default());
+        }
+    }
+
+    /// Sets a register if the device has it.
+    pub(super) fn set(&mut self, row: Option<&Row>, value: i64) {
+        if let Some(row) = row {
+            self.put(row, value);
+        }
+    }
+
+    /// The value of a register in the unit of one count; `None` if the device has no such register.
+    pub(super) fn physical(&self, row: Option<&'static Row>) -> Option<(f64, &'static str)> {
+        let row = row?;
+        let unit = row.unit_while(|address| self.at(address))?;
+        #[allow(clippy::cast_precision_loss)] // no register has more than 32 bits
+        let value = self.value(row) as f64;
+        Some((value * unit.factor, unit.symbol))
+    }
+
+    /// Sets a register to an amount in the unit of its count.
+    pub(super) fn put_physical(&mut self, row: Option<&'static Row>, amount: f64) {
+        if let Some((row, count)) = row.and_then(|row| Some((row, row.from_physical(amount)?))) {
+            self.put(row, count);
+        }
+    }
+
+    /// The bytes at addresses that all have a register.
+    pub(super) fn read(&self, address: u16, length: u16) -> Result<&[u8], ErrorNumber> {
+        let place = place(address, length.into());
+        let bytes = self.bytes.get(place.clone()).filter(|_| self.model.has(place));
+        bytes.ok_or(ErrorNumber::AccessError)
+    }
+
+    /// Sets bytes, whoever may write them.
+    pub(super) fn preset(&mut self, address: u16, data: &[u8]) {
+        self.replace(place(address, data.len()), data);
+    }
+
+    /// Writes whole registers, all of them or none. If several things are wrong, an address or the lock
+    /// counts first, then the length, then the values in their order.
+    pub(super) fn write(&mut self, address: u16, data: &[u8]) -> Result<(), ErrorNumber> {
+        let place = place(address, data.len());
+        let rows = self.model.rows(&place);
+        let is_closed = |row: &&Row| row.access == Access::ReadOnly || self.is_locked(row);
+        if !self.model.has(place.clone()) || rows.iter().any(is_closed) {
+            return Err(ErrorNumber::AccessError);
+        }
+        let is_cut =
+            |row: &&Row| usize::from(row.address) < place.start || model::end(row) > place.end;
+        if data.is_empty() || rows.iter().any(is_cut) {
+            return Err(ErrorNumber::DataLengthError);
+        }
+        let before = self.replace(place.clone(), data);
+        let refused = rows.iter().find_map(|row| self.judge(row).err());
+        refused.map_or(Ok(()), |number| {
+            self.replace(place, &before);
+            Err(number)
+        })
+    }
+
+    /// Whether a write would be carried out.
+    pub(super) fn check(&self, address: u16, data: &[u8]) -> Result<(), ErrorNumber> {
+        self.clone().write(address, data)
+    }
+
+    fn is_locked(&self, row: &Row) -> bool {
+        let lock = || self.model.table.eeprom_lock.and_then(|address| self.at(address));
+        row.area == Area::Eeprom && lock().is_some_and(|lock| lock != 0)
+    }
+
+    /// Whether a register may have the value that it has. If the documents don't settle its range, it
+    /// may have each value that they name.
+    fn judge(&self, row: &Row) -> Result<(), ErrorNumber> {
+        let value = self.value(row);
+        if row.settled {
+            row.check(value, |address| self.at(address)).map_err(|error| error.number())
+        } else if row.values.is_empty() || row.value_name(value).is_some() {
+            Ok(())
+        } else {
+            Err(ErrorNumber::DataRangeError)
+        }
+    }
+
+    fn replace(&mut self, place: Range<usize>, data: &[u8]) -> Vec<u8> {
+        let Some(bytes) = self.bytes.get_mut(place) else { return Vec::new() };
+        let before = bytes.to_vec();
+        bytes.iter_mut().zip(data).for_each(|(byte, new)| *byte = *new);
+        before
+    }
+}
+
+fn place(address: u16, length: usize) -> Range<usize> {
+    let start = usize::from(address);
+    start..start.saturating_add(length)
+}

@@ -1,0 +1,112 @@
+//! Virtual devices: a bus that programs can't tell from hardware.
+//!
+//! Nothing here reads a clock or does input and output. Bytes come in with the time, and go out with the
+//! time at which they are there; so a test runs in no time, and a program decides what waiting means.
+//! Times count from the moment at which the bus got power.
+//!
+//! ```
+//! use std::time::Duration;
+//! use actucheck::bus::VirtualBus;
+//!
+//! let mut bus: VirtualBus = "ja40@1 ja40@2:present-position=2000".parse()?;
+//! // Read Present Position, 4 bytes, of device 2.
+//! let read = b"\xFF\xFF\xFD\x00\x02\x07\x00\x02\x44\x02\x04\x00\x1E\xA5";
+//! bus.send(read, Duration::ZERO);
+//! let answer = b"\xFF\xFF\xFD\x00\x02\x08\x00\x55\x00\xD0\x07\x00\x00\x54\x72";
+//! assert_eq!(bus.receive(Duration::from_millis(1)), answer);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod dynamixel2;
+mod place;
+
+use std::collections::VecDeque;
+use std::str::FromStr;
+use std::time::Duration;
+
+use actucheck_spec::Spec;
+
+pub use self::dynamixel2::{ReadingError, Readings, VirtualDevice};
+pub use self::place::{Place, PlaceError};
+
+/// Bytes that devices send, and when the first of them is there.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Chunk {
+    /// The time.
+    pub at: Duration,
+    /// The bytes.
+    pub bytes: Vec<u8>,
+}
+
+/// The devices of a wire, and the line that they are on.
+trait Devices: Send {
+    /// Takes the bytes of a host, and hands on what devices send.
+    fn hear(&mut self, bytes: &[u8], now: Duration, send: &mut dyn FnMut(Chunk));
+}
+
+/// Devices on a bus.
+pub struct VirtualBus {
+    devices: Box<dyn Devices>,
+    /// What is on its way, by time.
+    coming: VecDeque<Chunk>,
+}
+
+/// What a bus is besides its devices.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Setup {
+    /// What is done where the documents leave something open.
+    pub readings: Readings,
+    /// The rate of the line in bit/s; bytes take no time if it is `None`.
+    pub rate: Option<u32>,
+}
+
+impl VirtualBus {
+    /// A bus with these devices, which have just got power.
+    ///
+    /// # Errors
+    /// If a device or a register is not known, or there is none.
+    pub fn new(spec: &Spec, places: &[Place], setup: Setup) -> Result<Self, PlaceError> {
+        let devices = Box::new(dynamixel2::line(spec, places, setup)?);
+        Ok(Self { devices, coming: VecDeque::new() })
+    }
+
+    /// Takes what a host sends.
+    pub fn send(&mut self, bytes: &[u8], now: Duration) {
+        let Self { devices, coming } = self;
+        devices.hear(bytes, now, &mut |chunk| {
+            let place = coming.partition_point(|other| other.at <= chunk.at);
+            coming.insert(place, chunk);
+        });
+    }
+
+    /// The bytes that are there by now.
+    #[must_use]
+    pub fn receive(&mut self, now: Duration) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        while let Some(chunk) = self.coming.pop_front_if(|chunk| chunk.at <= now) {
+            if bytes.is_empty() {
+                bytes = chunk.bytes;
+            } else {
+                bytes.extend(chunk.bytes);
+            }
+        }
+        bytes
+    }
+
+    /// When the next bytes are there; `None` if none are on their way.
+    #[must_use]
+    pub fn next(&self) -> Option<Duration> {
+        self.coming.front().map(|chunk| chunk.at)
+    }
+}
+
+/// Devices with white space between: `ja40@1 ja40@2:present-position=2000 my-servo.yaml@7`.
+impl FromStr for VirtualBus {
+    type Err = PlaceError;
+
+    fn from_str(text: &str) -> Result<Self, PlaceError> {
+        let places = text.split_whitespace().map(str::parse).collect::<Result<Vec<_>, _>>()?;
+        let spec = Spec::embedded().map_err(|defects| PlaceError::Spec(defects.len()))?;
+        Self::new(&spec, &places, Setup::default())
+    }
+}
