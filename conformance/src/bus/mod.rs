@@ -18,6 +18,7 @@
 //! ```
 
 mod dynamixel2;
+mod fault;
 mod place;
 
 use std::collections::VecDeque;
@@ -27,6 +28,8 @@ use std::time::Duration;
 use actucheck_spec::Spec;
 
 pub use self::dynamixel2::{ReadingError, Readings, VirtualDevice};
+pub use self::fault::{Fault, FaultError};
+use self::fault::{Faults, OnDevice, What};
 pub use self::place::{Place, PlaceError};
 
 /// Bytes that devices send, and when the first of them is there.
@@ -40,24 +43,41 @@ pub struct Chunk {
 
 /// The devices of a wire, and the line that they are on.
 trait Devices: Send {
-    /// Takes the bytes of a host, and hands on what devices send.
+    /// Takes the bytes of a host, and hands on what devices send, an answer at a time.
     fn hear(&mut self, bytes: &[u8], now: Duration, send: &mut dyn FnMut(Chunk));
+
+    /// All devices lose their power and get it back.
+    fn restart(&mut self, now: Duration);
+
+    /// The devices that know this alarm have it from now on.
+    fn alarm(&mut self, name: &str);
+
+    /// Makes the answer one of another device, which is right in itself.
+    fn rename(&self, answer: &mut [u8]);
 }
 
 /// Devices on a bus.
 pub struct VirtualBus {
     devices: Box<dyn Devices>,
+    echo: bool,
+    faults: Faults,
     /// What is on its way, by time.
     coming: VecDeque<Chunk>,
 }
 
 /// What a bus is besides its devices.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Setup {
     /// What is done where the documents leave something open.
     pub readings: Readings,
     /// The rate of the line in bit/s; bytes take no time if it is `None`.
     pub rate: Option<u32>,
+    /// Whether a host hears what it sends, as with most adapters for a line of one wire.
+    pub echo: bool,
+    /// What goes wrong.
+    pub faults: Vec<Fault>,
+    /// Where the faults' chance begins.
+    pub seed: u64,
 }
 
 impl VirtualBus {
@@ -66,17 +86,48 @@ impl VirtualBus {
     /// # Errors
     /// If a device or a register is not known, or there is none.
     pub fn new(spec: &Spec, places: &[Place], setup: Setup) -> Result<Self, PlaceError> {
-        let devices = Box::new(dynamixel2::line(spec, places, setup)?);
-        Ok(Self { devices, coming: VecDeque::new() })
+        let devices = Box::new(dynamixel2::line(spec, places, &setup)?);
+        let Setup { echo, faults, seed, .. } = setup;
+        let (faults, coming) = (Faults::new(faults, seed), VecDeque::new());
+        Ok(Self { devices, echo, faults, coming })
     }
 
     /// Takes what a host sends.
     pub fn send(&mut self, bytes: &[u8], now: Duration) {
-        let Self { devices, coming } = self;
-        devices.hear(bytes, now, &mut |chunk| {
-            let place = coming.partition_point(|other| other.at <= chunk.at);
-            coming.insert(place, chunk);
-        });
+        if self.echo {
+            self.put(Chunk { at: now, bytes: bytes.to_vec() });
+        }
+        let mut answers = Vec::new();
+        self.devices.hear(bytes, now, &mut |chunk| answers.push(chunk));
+        for answer in answers {
+            for piece in self.struck(answer, now) {
+                self.put(piece);
+            }
+        }
+    }
+
+    /// What arrives of an answer.
+    fn struck(&mut self, answer: Chunk, now: Duration) -> Vec<Chunk> {
+        let mut pieces = vec![answer];
+        for fault in self.faults.next() {
+            match fault {
+                What::Line(fault) => self.faults.strike(fault, &mut pieces),
+                What::Device(OnDevice::OtherId) => {
+                    pieces.iter_mut().for_each(|piece| self.devices.rename(&mut piece.bytes));
+                }
+                What::Device(OnDevice::Power) => {
+                    pieces.clear();
+                    self.devices.restart(now);
+                }
+                What::Device(OnDevice::Alarm(name)) => self.devices.alarm(name),
+            }
+        }
+        pieces
+    }
+
+    fn put(&mut self, chunk: Chunk) {
+        let place = self.coming.partition_point(|other| other.at <= chunk.at);
+        self.coming.insert(place, chunk);
     }
 
     /// The bytes that are there by now.

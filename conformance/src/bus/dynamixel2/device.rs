@@ -13,7 +13,7 @@ use actucheck_codec::register::{Area, Row};
 use super::memory::Memory;
 use super::model::Model;
 use super::readings::{BackupUnderTorque, OtherOptions, Readings, RegWriteAgain, Restore};
-use super::shaft::Shaft;
+use super::shaft::{self, Shaft};
 
 /// What an instruction came to: data for the status packet, or an error number.
 pub(super) type Outcome = Result<Vec<u8>, ErrorNumber>;
@@ -179,6 +179,16 @@ impl VirtualDevice {
         self.memory.reset(|row| row.area == Area::Ram);
         self.memory.set(self.model.roles.backup_ready, self.stored.is_some().into());
         self.shaft.restart(&mut self.memory, &self.model);
+    }
+
+    /// Sets a bit of Hardware Error Status, if it has one of this name.
+    pub(super) fn alarm(&mut self, name: &str) {
+        let roles = &self.model.roles;
+        let Some(status) = roles.hardware_error_status else { return };
+        let bit = status.bits.iter().find(|bits| bits.name == name);
+        if let Some(bit) = bit.and_then(|bits| 1_i64.checked_shl(bits.lowest.into())) {
+            shaft::raise(&mut self.memory, &self.model, bit);
+        }
     }
 
     /// Clear without parameters clears a fault, as in the JA40 document; with the option and the key it

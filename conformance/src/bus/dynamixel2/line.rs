@@ -3,12 +3,15 @@
 use std::time::Duration;
 
 use actucheck_codec::dynamixel2::stream::{Event, Parser};
+use actucheck_spec::wire::dynamixel2::reference::{HEADER, repair};
 
 use super::super::{Chunk, Devices};
 use super::device::VirtualDevice;
 use super::hearing::Hearing;
 use super::readings::Readings;
 
+/// The largest ID of a device.
+const LARGEST_ID: u8 = 252;
 /// No packet goes on after so long a pause.
 const QUIET: Duration = Duration::from_millis(100);
 /// Bits of a byte on the line: a start bit, the byte, a stop bit.
@@ -60,6 +63,26 @@ impl Devices for Line {
                 Hearing { devices, readings, clock, now, send }.hear(&frame, scratch);
             }
         });
+    }
+
+    fn restart(&mut self, now: Duration) {
+        for device in &mut self.devices {
+            device.reboot(now);
+        }
+    }
+
+    fn alarm(&mut self, name: &str) {
+        for device in &mut self.devices {
+            device.alarm(name);
+        }
+    }
+
+    fn rename(&self, answer: &mut [u8]) {
+        // The ID comes after the header.
+        if let Some(id) = answer.get_mut(HEADER.len()) {
+            *id = if *id < LARGEST_ID { *id + 1 } else { 0 };
+        }
+        repair(answer);
     }
 }
 

@@ -24,7 +24,7 @@ pub use device::VirtualDevice;
 pub use readings::{ReadingError, Readings};
 
 /// A line with devices.
-pub(super) fn line(spec: &Spec, places: &[Place], setup: Setup) -> Result<Line, PlaceError> {
+pub(super) fn line(spec: &Spec, places: &[Place], setup: &Setup) -> Result<Line, PlaceError> {
     let mut models = BTreeMap::new();
     let mut devices = Vec::new();
     for place in places {

@@ -259,12 +259,17 @@ impl Watch {
         if !passes || !holds {
             return;
         }
-        let roles = &model.roles;
-        let status = memory.get(roles.hardware_error_status).unwrap_or_default() | self.bit;
-        memory.set(roles.hardware_error_status, status);
-        if memory.get(roles.shutdown).unwrap_or_default() & self.bit != 0 {
-            memory.set(roles.torque_enable, 0);
-        }
+        raise(memory, model, self.bit);
+    }
+}
+
+/// Sets a bit of Hardware Error Status, and turns torque off if Shutdown says so.
+pub(super) fn raise(memory: &mut Memory, model: &Model, bit: i64) {
+    let roles = &model.roles;
+    let status = memory.get(roles.hardware_error_status).unwrap_or_default() | bit;
+    memory.set(roles.hardware_error_status, status);
+    if memory.get(roles.shutdown).unwrap_or_default() & bit != 0 {
+        memory.set(roles.torque_enable, 0);
     }
 }
 

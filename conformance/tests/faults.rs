@@ -1,0 +1,115 @@
+//! What faults make of a virtual bus.
+
+#![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
+
+use std::time::Duration;
+
+use actucheck::bus::{Setup, VirtualBus};
+use actucheck_spec::Spec;
+use actucheck_spec::wire::dynamixel2::Packet::Status;
+use actucheck_spec::wire::dynamixel2::{WIRE, reference};
+use actucheck_spec::wire::{Context, Direction, Packet};
+
+const NOW: Duration = Duration::from_secs(1);
+
+fn bus(faults: &[&str], setup: Setup) -> VirtualBus {
+    let faults = faults.iter().map(|fault| fault.parse().unwrap()).collect();
+    let places = ["ja40@1".parse().unwrap()];
+    VirtualBus::new(&Spec::embedded().unwrap(), &places, Setup { faults, ..setup }).unwrap()
+}
+
+fn instruction(instruction: u8, params: &[u8]) -> Vec<u8> {
+    reference::frame(1, &reference::stuff(&[&[instruction], params].concat()))
+}
+
+/// Read, from an address on.
+fn read(address: u16, length: u16) -> Vec<u8> {
+    instruction(2, &[address.to_le_bytes(), length.to_le_bytes()].concat())
+}
+
+/// What the bus answers, at once or later.
+fn ask(bus: &mut VirtualBus, request: &[u8]) -> Vec<u8> {
+    bus.send(request, NOW);
+    bus.receive(Duration::MAX)
+}
+
+/// The ID, the error byte and the data of a status packet.
+fn status(bytes: &[u8]) -> (u8, u8, Vec<u8>) {
+    let context = Context { fast: None, direction: Some(Direction::Reply) };
+    match WIRE.decode(bytes, &context).unwrap() {
+        Packet::Dynamixel2(Status { id, error, params }) => (id, error, params.0),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn a_fault_strikes_the_answers_that_it_names() {
+    let ping = instruction(1, &[]);
+    let mut right = bus(&[], Setup::default());
+    let mut wrong = bus(&["flip#2"], Setup::default());
+    let answers: Vec<_> =
+        (0..3).map(|_| ask(&mut wrong, &ping) == ask(&mut right, &ping)).collect();
+    assert_eq!(answers, [true, false, true]);
+}
+
+#[test]
+fn a_seed_has_the_same_faults_again() {
+    let ping = instruction(1, &[]);
+    let faults = ["flip:0.3", "drop:0.3", "noise-before:0.3"];
+    let answers = |seed| {
+        let mut bus = bus(&faults, Setup { seed, ..Setup::default() });
+        (0..50).map(|_| ask(&mut bus, &ping)).collect::<Vec<_>>()
+    };
+    assert_eq!(answers(1), answers(1));
+    assert_ne!(answers(1), answers(2));
+}
+
+#[test]
+fn an_answer_comes_split_or_late() {
+    let ping = instruction(1, &[]);
+    let mut bus = bus(&["split#1", "late=20ms#2"], Setup::default());
+    bus.send(&ping, NOW);
+    let first = bus.receive(NOW);
+    assert!(first.len() < 14);
+    assert_eq!(bus.next(), Some(NOW + Duration::from_millis(5)));
+    let rest = bus.receive(NOW + Duration::from_millis(5));
+    let whole = [first, rest].concat();
+    assert_eq!(status(&whole).0, 1);
+    bus.send(&ping, NOW);
+    assert!(bus.receive(NOW + Duration::from_millis(19)).is_empty());
+    assert_eq!(bus.receive(NOW + Duration::from_millis(20)), whole);
+}
+
+#[test]
+fn an_echo_comes_before_the_answer() {
+    let ping = instruction(1, &[]);
+    let mut bus = bus(&["lost"], Setup { echo: true, ..Setup::default() });
+    assert_eq!(ask(&mut bus, &ping), ping);
+}
+
+#[test]
+fn another_device_answers() {
+    let mut bus = bus(&["other-id"], Setup::default());
+    assert_eq!(status(&ask(&mut bus, &instruction(1, &[]))).0, 2);
+}
+
+/// Profile Time, in the RAM area, is 2000 at the beginning; Temperature Limit, in the EEPROM area, is 80.
+#[test]
+fn without_power_the_ram_area_is_lost() {
+    let mut bus = bus(&["power#3"], Setup::default());
+    assert_eq!(status(&ask(&mut bus, &instruction(3, &[10, 2, 7, 0]))).1, 0);
+    assert_eq!(status(&ask(&mut bus, &instruction(3, &[31, 0, 70]))).1, 0);
+    assert!(ask(&mut bus, &read(522, 2)).is_empty());
+    assert_eq!(status(&ask(&mut bus, &read(522, 2))).2, 2000_u16.to_le_bytes());
+    assert_eq!(status(&ask(&mut bus, &read(31, 1))).2, [70]);
+}
+
+/// Overheating is bit 2 of Hardware Error Status. The JA40 has no Input Voltage Error.
+#[test]
+fn an_alarm_is_in_every_later_answer() {
+    let mut bus = bus(&["low-voltage#1", "overheating#2"], Setup::default());
+    let error = |bus: &mut VirtualBus| status(&ask(bus, &read(518, 1)));
+    assert_eq!(error(&mut bus), (1, 0, vec![0]));
+    assert_eq!(error(&mut bus), (1, 0, vec![0]));
+    assert_eq!(error(&mut bus), (1, 0x80, vec![0b100]));
+}
