@@ -1,11 +1,7 @@
 //! `actucheck decode`.
 
-mod fitted;
 mod input;
 mod packet;
-mod page;
-mod sink;
-mod text;
 
 use std::io::BufWriter;
 use std::process::ExitCode;
@@ -13,16 +9,14 @@ use std::process::ExitCode;
 use actucheck::adapter::Wire;
 use actucheck::capture::{Form, Piece};
 use actucheck::device::Tables;
-use actucheck::explain::stream::{Event, Follower, Summary, wire_of};
+use actucheck::explain::stream::{Event, Follower, wire_of};
 use actucheck::explain::{Asked, Warning};
 use actucheck_spec::wire::{Context, Direction, Fast};
 use clap::Args;
 
+use super::shared::stream::{Fitted, Lines, Show, Sink, Text, Told, width};
 use super::shared::{self, DeviceOption, Failure, one_of, wire};
-use fitted::Fitted;
 use input::Input;
-use sink::{Lines, Sink, Told};
-use text::Text;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -95,22 +89,6 @@ pub(crate) struct Decode {
 
 const DIRECTIONS: [(Direction, &str, &str); 2] =
     [(Direction::Request, "request", "From the host"), (Direction::Reply, "reply", "To the host")];
-
-/// How much of a stream is shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Show {
-    Fields,
-    Lines,
-    Summary,
-}
-
-impl Show {
-    const ALL: [(Self, &'static str, &'static str); 3] = [
-        (Self::Fields, "fields", "The fields of every packet"),
-        (Self::Lines, "lines", "A line for every packet"),
-        (Self::Summary, "summary", "The summary only"),
-    ];
-}
 
 /// Explains one packet or a stream.
 pub(crate) fn run(options: &Decode) -> Result<ExitCode, Failure> {
@@ -191,11 +169,11 @@ fn stream(options: &Decode, wire: Wire, tables: Tables, input: Input) -> Result<
     let sink: Box<dyn Sink> = if options.json {
         Box::new(Lines { out, wire, show })
     } else {
-        let out = Fitted::new(out, page::width());
+        let out = Fitted::new(out, width());
         Box::new(Text { out, wire, show, begin: None })
     };
-    let mut told = Told { sink, summary: Summary::default(), written: Ok(()) };
-    told.write(|sink| sink.begin(input.form));
+    let mut told = Told::new(sink);
+    told.write(|sink| sink.begin(Some(input.form)));
     let mut failed = None;
     for piece in input.into_pieces() {
         let piece = match piece {

@@ -1,16 +1,15 @@
 //! One packet, field by field.
 
 use actucheck::adapter::{Output, Question, Wire};
-use actucheck::explain::mistake::{self, Fit};
+use actucheck::explain::mistake;
 use actucheck::explain::{Asked, Invalid, Warning, damaged, explain};
 use actucheck::subject::{Answer, Builtin, Subject as _};
 use actucheck_spec::wire::{Direction, Packet};
 use serde::Serialize;
 
 use super::super::shared::Failure;
+use super::super::shared::stream::{fields, fits, fitted, warned, width};
 use super::super::shared::table::BOLD;
-use super::fitted::fitted;
-use super::page::{fields, width};
 
 /// The packet in words, or as an object; and whether it is one.
 pub(super) fn text(
@@ -49,24 +48,6 @@ fn damaged_packet(wire: Wire, asked: &Asked<'_>, error: &Invalid) -> String {
     let fits = fits(&mistake::fits(wire, asked.bytes, &asked.context));
     let fields = fields(&damaged(wire, asked));
     fitted(&format!("{BOLD}no valid packet{BOLD:#}, {error}\n{fields}{fits}"), width())
-}
-
-/// The warnings as lines.
-pub(super) fn warned(warnings: &[Warning]) -> String {
-    let line = |warning| format!("       {BOLD}warning{BOLD:#}: {warning}\n");
-    warnings.iter().map(line).collect::<Vec<_>>().concat()
-}
-
-/// The mistakes that may explain bytes, a line each; the likeliest if there are many.
-pub(super) fn fits(fits: &[Fit]) -> String {
-    const SHOWN: usize = 3;
-    let mut lines: Vec<_> = fits.iter().take(SHOWN).map(|fit| format!("       {fit}\n")).collect();
-    match fits.len().saturating_sub(SHOWN) {
-        0 => {}
-        1 => lines.push("       and 1 less likely mistake fits\n".to_owned()),
-        more => lines.push(format!("       and {more} less likely mistakes fit\n")),
-    }
-    lines.concat()
 }
 
 /// Refuses a packet whose direction is not the one that the user gave.

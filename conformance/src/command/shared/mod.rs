@@ -7,6 +7,7 @@ mod look;
 mod outputs;
 mod progress;
 mod selection;
+pub(crate) mod stream;
 mod streams;
 mod subjects;
 pub(crate) mod table;
@@ -44,19 +45,24 @@ const INTERRUPTED: i32 = 130;
 /// By then no adapter runs any more: the first Ctrl-C has ended them.
 const ADAPTERS_END: Duration = Duration::from_secs(1);
 
-/// Returns a flag that Ctrl-C sets, or what else asks the program to end. Another Ctrl-C after a
-/// second ends it at once: it may be writing to somebody who does not read.
+/// Returns a flag that Ctrl-C sets, or what else asks the program to end.
 pub(crate) fn interrupted() -> Result<Arc<AtomicBool>, Failure> {
     let flag = Arc::new(AtomicBool::new(false));
     let setter = Arc::clone(&flag);
+    at_interrupt(move || setter.store(true, Ordering::Relaxed))?;
+    Ok(flag)
+}
+
+/// Does something at Ctrl-C, or at what else asks the program to end. Another Ctrl-C after a second
+/// ends it at once: it may be writing to somebody who does not read.
+pub(crate) fn at_interrupt(mut act: impl FnMut() + Send + 'static) -> Result<(), Failure> {
     let mut first = None;
     let end = move || {
-        setter.store(true, Ordering::Relaxed);
+        act();
         if first.get_or_insert_with(Instant::now).elapsed() > ADAPTERS_END {
             std::process::exit(INTERRUPTED);
         }
     };
     ctrlc::set_handler(end)
-        .map_err(|error| Failure::incomplete(format!("cannot listen for Ctrl-C: {error}")))?;
-    Ok(flag)
+        .map_err(|error| Failure::incomplete(format!("cannot listen for Ctrl-C: {error}")))
 }

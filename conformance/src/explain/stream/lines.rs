@@ -25,10 +25,20 @@ pub enum Line {
     Header {
         /// Version of the lines.
         version: u32,
-        /// The form that the input was read in, as `--input` names it.
+        /// The form that the input was read in, as `--input` names it; `bus` if it is no input, but what
+        /// passes on a virtual bus.
         form: &'static str,
         /// The wire.
         wire: Wire,
+    },
+    /// A port of a virtual bus.
+    Port {
+        /// `pty`, `tcp` or `udp`.
+        kind: &'static str,
+        /// Its path or address.
+        address: String,
+        /// The symbolic link that leads to it; null if there is none.
+        link: Option<String>,
     },
     /// A packet.
     Packet(Box<Said>),
@@ -198,10 +208,10 @@ pub struct Times {
 }
 
 impl Line {
-    /// The first line.
+    /// The first line, of an input in a form or of a virtual bus.
     #[must_use]
-    pub const fn header(wire: Wire, form: Form) -> Self {
-        Self::Header { version: VERSION, form: form.id(), wire }
+    pub fn header(wire: Wire, form: Option<Form>) -> Self {
+        Self::Header { version: VERSION, form: form.map_or("bus", Form::id), wire }
     }
 
     /// The line of an event, with the fields of a packet or without.

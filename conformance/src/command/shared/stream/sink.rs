@@ -7,22 +7,26 @@ use actucheck::capture::Form;
 use actucheck::explain::stream::lines::Line;
 use actucheck::explain::stream::{Event, Summary};
 
-use super::super::shared::{self, Failure};
+use super::super::{Failure, seen};
 use super::Show;
 
 /// Writes a stream.
-pub(super) trait Sink {
-    fn begin(&mut self, form: Form) -> io::Result<()>;
+pub(crate) trait Sink {
+    /// The beginning of what was read in a form, or of what passes on a line.
+    fn begin(&mut self, form: Option<Form>) -> io::Result<()>;
+    /// A port of the line, and the link that leads to it.
+    fn port(&mut self, kind: &'static str, address: &str, link: Option<&str>) -> io::Result<()>;
     fn event(&mut self, event: &Event<'_>) -> io::Result<()>;
     fn note(&mut self, at: u64, note: &str) -> io::Result<()>;
     fn end(&mut self, summary: &Summary) -> io::Result<()>;
+    fn flush(&mut self) -> io::Result<()>;
 }
 
 /// Writes a stream for programs: an object on each line.
-pub(super) struct Lines<W> {
-    pub(super) out: W,
-    pub(super) wire: Wire,
-    pub(super) show: Show,
+pub(crate) struct Lines<W> {
+    pub(crate) out: W,
+    pub(crate) wire: Wire,
+    pub(crate) show: Show,
 }
 
 impl<W: Write> Lines<W> {
@@ -33,8 +37,13 @@ impl<W: Write> Lines<W> {
 }
 
 impl<W: Write> Sink for Lines<W> {
-    fn begin(&mut self, form: Form) -> io::Result<()> {
+    fn begin(&mut self, form: Option<Form>) -> io::Result<()> {
         self.line(&Line::header(self.wire, form))
+    }
+
+    fn port(&mut self, kind: &'static str, address: &str, link: Option<&str>) -> io::Result<()> {
+        let (address, link) = (address.to_owned(), link.map(str::to_owned));
+        self.line(&Line::Port { kind, address, link })
     }
 
     fn event(&mut self, event: &Event<'_>) -> io::Result<()> {
@@ -52,31 +61,39 @@ impl<W: Write> Sink for Lines<W> {
         self.line(&Line::summary(summary))?;
         self.out.flush()
     }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.out.flush()
+    }
 }
 
 /// A sink that takes no more after an error, and the summary of what it was told.
-pub(super) struct Told {
-    pub(super) sink: Box<dyn Sink>,
-    pub(super) summary: Summary,
-    pub(super) written: io::Result<()>,
+pub(crate) struct Told {
+    pub(crate) sink: Box<dyn Sink>,
+    pub(crate) summary: Summary,
+    pub(crate) written: io::Result<()>,
 }
 
 impl Told {
-    pub(super) fn write(&mut self, write: impl FnOnce(&mut dyn Sink) -> io::Result<()>) {
+    pub(crate) fn new(sink: Box<dyn Sink>) -> Self {
+        Self { sink, summary: Summary::default(), written: Ok(()) }
+    }
+
+    pub(crate) fn write(&mut self, write: impl FnOnce(&mut dyn Sink) -> io::Result<()>) {
         if self.written.is_ok() {
             self.written = write(&mut *self.sink);
         }
     }
 
-    pub(super) fn event(&mut self, event: &Event<'_>) {
+    pub(crate) fn event(&mut self, event: &Event<'_>) {
         self.summary.add(event);
         self.write(|sink| sink.event(event));
     }
 
-    pub(super) fn end(mut self) -> Result<Summary, Failure> {
+    pub(crate) fn end(mut self) -> Result<Summary, Failure> {
         let summary = std::mem::take(&mut self.summary);
         self.write(|sink| sink.end(&summary));
-        shared::seen("the packets", self.written)?;
+        seen("the packets", self.written)?;
         Ok(summary)
     }
 }

@@ -9,7 +9,7 @@ use textwrap::{Options, fill};
 const INDENT: &str = "         ";
 
 /// A text whose lines are not wider than the terminal.
-pub(super) fn fitted(text: &str, width: usize) -> String {
+pub(crate) fn fitted(text: &str, width: usize) -> String {
     let line = |line: &str| {
         if display_width(line) <= width {
             line.to_owned()
@@ -21,7 +21,7 @@ pub(super) fn fitted(text: &str, width: usize) -> String {
 }
 
 /// Writes texts so.
-pub(super) struct Fitted<W> {
+pub(crate) struct Fitted<W> {
     out: W,
     width: usize,
     /// A line whose end is still to come.
@@ -29,7 +29,7 @@ pub(super) struct Fitted<W> {
 }
 
 impl<W: Write> Fitted<W> {
-    pub(super) const fn new(out: W, width: usize) -> Self {
+    pub(crate) const fn new(out: W, width: usize) -> Self {
         Self { out, width, begun: Vec::new() }
     }
 }

@@ -8,31 +8,40 @@ use actucheck::adapter::Wire;
 use actucheck::capture::Form;
 use actucheck::device::of_model;
 use actucheck::explain::diff::spaced;
+use actucheck::explain::mistake::Fit;
 use actucheck::explain::stream::{Event, Heard, Place, Role, Silent, Skipped, Summary, Turn};
-use actucheck::explain::{Asked, Explanation, explain};
+use actucheck::explain::{Asked, Explanation, Warning, explain};
 use actucheck::legible::legible;
 
-use super::super::shared::table::{BOLD, DIM};
-use super::Show;
-use super::packet::{fits, warned};
-use super::page;
+use super::super::table::{BOLD, DIM};
 use super::sink::Sink;
+use super::{Show, page};
 
 /// Bytes of a run that are shown.
 const SHOWN: usize = 32;
 
 /// Writes events.
-pub(super) struct Text<W> {
-    pub(super) out: W,
-    pub(super) wire: Wire,
-    pub(super) show: Show,
+pub(crate) struct Text<W> {
+    pub(crate) out: W,
+    pub(crate) wire: Wire,
+    pub(crate) show: Show,
     /// The first time, from which all are counted.
-    pub(super) begin: Option<Duration>,
+    pub(crate) begin: Option<Duration>,
 }
 
 impl<W: Write> Sink for Text<W> {
-    fn begin(&mut self, form: Form) -> io::Result<()> {
+    fn begin(&mut self, form: Option<Form>) -> io::Result<()> {
+        let Some(form) = form else { return Ok(()) };
         writeln!(self.out, "read as {form}, wire {}", self.wire)
+    }
+
+    fn port(&mut self, kind: &'static str, address: &str, link: Option<&str>) -> io::Result<()> {
+        let link = link.map(|link| format!(" (link {link})")).unwrap_or_default();
+        writeln!(self.out, "{kind} {address}{link}")
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.out.flush()
     }
 
     fn event(&mut self, event: &Event<'_>) -> io::Result<()> {
@@ -155,6 +164,24 @@ impl<W: Write> Text<W> {
         }
         text
     }
+}
+
+/// The warnings as lines.
+pub(crate) fn warned(warnings: &[Warning]) -> String {
+    let line = |warning| format!("       {BOLD}warning{BOLD:#}: {warning}\n");
+    warnings.iter().map(line).collect::<Vec<_>>().concat()
+}
+
+/// The mistakes that may explain bytes, a line each; the likeliest if there are many.
+pub(crate) fn fits(fits: &[Fit]) -> String {
+    const SHOWN: usize = 3;
+    let mut lines: Vec<_> = fits.iter().take(SHOWN).map(|fit| format!("       {fit}\n")).collect();
+    match fits.len().saturating_sub(SHOWN) {
+        0 => {}
+        1 => lines.push("       and 1 less likely mistake fits\n".to_owned()),
+        more => lines.push(format!("       and {more} less likely mistakes fit\n")),
+    }
+    lines.concat()
 }
 
 /// What the data of a packet mean, on its line.

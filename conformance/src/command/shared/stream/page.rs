@@ -9,24 +9,24 @@ use anstyle::{AnsiColor, Style};
 use textwrap::core::display_width;
 use textwrap::{Options, fill, wrap};
 
-use super::super::shared::table::{self, DIM};
-use super::super::shared::terminal_width;
+use super::super::table::{self, DIM};
+use super::super::terminal_width;
 
 static STDOUT: LazyLock<Page> = LazyLock::new(Page::stdout);
 
 /// The fields as lines for the standard output. If it has colours, all bytes come first, each in the
 /// colour of its field.
-pub(super) fn fields(rows: &[Row]) -> String {
+pub(crate) fn fields(rows: &[Row]) -> String {
     STDOUT.fields(rows)
 }
 
 /// The same without the bytes before the fields.
-pub(super) fn table(rows: &[Row]) -> String {
+pub(crate) fn table(rows: &[Row]) -> String {
     STDOUT.table(rows)
 }
 
 /// The columns of the standard output; as many as needed if it is no terminal.
-pub(super) fn width() -> usize {
+pub(crate) fn width() -> usize {
     STDOUT.width
 }
 
