@@ -16,6 +16,8 @@ pub mod device;
 pub mod explain;
 pub mod input;
 pub mod legible;
+#[cfg(unix)]
+pub mod link;
 pub mod names;
 pub mod report;
 pub mod run;

@@ -54,7 +54,16 @@ trait Devices: Send {
 
     /// Makes the answer one of another device, which is right in itself.
     fn rename(&self, answer: &mut [u8]);
+
+    /// When the line has carried all that was sent on it.
+    fn free(&self) -> Duration;
+
+    /// Whether bytes that were heard may be the beginning of a packet.
+    fn is_within_packet(&self) -> bool;
 }
+
+/// No packet goes on after so long a pause.
+pub const QUIET: Duration = Duration::from_millis(100);
 
 /// Devices on a bus.
 pub struct VirtualBus {
@@ -148,6 +157,18 @@ impl VirtualBus {
     #[must_use]
     pub fn next(&self) -> Option<Duration> {
         self.coming.front().map(|chunk| chunk.at)
+    }
+
+    /// When the line has carried all that was sent on it. What is sent before then waits.
+    #[must_use]
+    pub fn free(&self) -> Duration {
+        self.devices.free()
+    }
+
+    /// Whether the last bytes that were sent may be the beginning of a packet.
+    #[must_use]
+    pub fn is_within_packet(&self) -> bool {
+        self.devices.is_within_packet()
     }
 }
 

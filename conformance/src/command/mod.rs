@@ -1,6 +1,7 @@
 //! The command line: a file for each subcommand, with its options and what it does.
 
 pub(crate) mod adapter;
+pub(crate) mod bus;
 pub(crate) mod codec;
 pub(crate) mod completions;
 pub(crate) mod decode;
@@ -35,6 +36,7 @@ pub(crate) enum Command {
     Fuzz(fuzz::Fuzz),
     Decode(decode::Decode),
     Encode(encode::Encode),
+    Bus(bus::Bus),
     List(list::List),
     Show(show::Show),
     Replay(replay::Replay),

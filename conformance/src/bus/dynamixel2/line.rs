@@ -5,15 +5,13 @@ use std::time::Duration;
 use actucheck_codec::dynamixel2::stream::{Event, Parser};
 use actucheck_spec::wire::dynamixel2::reference::{HEADER, repair};
 
-use super::super::{Chunk, Devices};
+use super::super::{Chunk, Devices, QUIET};
 use super::device::VirtualDevice;
 use super::hearing::Hearing;
 use super::readings::Readings;
 
 /// The largest ID of a device.
 const LARGEST_ID: u8 = 252;
-/// No packet goes on after so long a pause.
-const QUIET: Duration = Duration::from_millis(100);
 /// Bits of a byte on the line: a start bit, the byte, a stop bit.
 const BITS: u64 = 10;
 /// Blocks of 64 bytes: the longest packet that the length field can say.
@@ -83,6 +81,14 @@ impl Devices for Line {
             *id = if *id < LARGEST_ID { *id + 1 } else { 0 };
         }
         repair(answer);
+    }
+
+    fn free(&self) -> Duration {
+        self.clock.free
+    }
+
+    fn is_within_packet(&self) -> bool {
+        self.parser.pending() > 0
     }
 }
 

@@ -1,0 +1,183 @@
+//! `actucheck bus`.
+
+mod watcher;
+
+use std::io::{BufWriter, Write};
+use std::os::fd::AsFd as _;
+use std::os::unix::net::UnixStream;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use actucheck::adapter::Wire;
+use actucheck::bus::{Place, Readings, Setup, VirtualBus};
+use actucheck::device::Tables;
+use actucheck::link::{LinkError, Links, Port, Reach, address};
+use clap::Args;
+
+use super::shared::stream::{Fitted, Lines, Show, Sink, Text, Told, width};
+use super::shared::{self, Failure};
+use watcher::{Watcher, Wrong};
+
+const EXAMPLES: &str = "\
+Examples:
+  actucheck bus ja40@1
+      a device with ID 1 behind a pseudo-terminal, whose path is printed: open it as a serial port
+  actucheck bus ja40@1 ja40@2:present-position=2000 --pty /tmp/servos
+      two devices, one of which stands elsewhere, behind a path that is always the same
+  actucheck bus my-servo.yaml@7 --tcp 7777 --udp 127.0.0.1:0 --trace
+      a device of your own behind two sockets, and a line for each packet that passes
+  actucheck bus ja40@1 --realtime --baud 57600
+      bytes take as long as on a line of that rate
+  printf '\\xFF\\xFF\\xFD\\x00\\x01\\x03\\x00\\x01\\x19\\x4E' | actucheck bus ja40@1 --stdio | xxd
+
+All ports lead to one line. A host's answers go to that host; what it does not read is lost as soon as
+its port is full.
+
+The first lines of the output are the ports, one each: what it is, and its path or address. At Ctrl-C
+comes what passed in numbers, as of `actucheck decode --show summary`. What a host sends that no
+document allows is told at once on standard error, the first times that it happens.
+
+Exit status: 0 ended by Ctrl-C or by the end of standard input, 2 wrong usage, 3 the output could not
+be written, 4 a port could not be opened.";
+
+/// Puts virtual devices on a bus that programs open as they open a serial port
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Bus {
+    /// The devices, each with its ID and, if they are to begin with others than the document's, values
+    /// of registers. A device is one that `actucheck decode --device` knows, or a YAML file
+    #[arg(required = true, value_name = "DEVICE@ID[:REGISTER=VALUE,…]")]
+    devices: Vec<Place>,
+    #[command(flatten)]
+    ports: Ports,
+    /// Let bytes take their time at the rate of the line
+    #[arg(long)]
+    realtime: bool,
+    /// The rate of the line in bit/s
+    #[arg(long, value_name = "RATE", default_value_t = 1_000_000, requires = "realtime")]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..))]
+    baud: u32,
+    /// What devices do where the documents leave something unspecified
+    #[arg(long, value_name = "NAME=WAY,…")]
+    readings: Option<Readings>,
+    /// Print a line for each packet that passes
+    #[arg(long)]
+    trace: bool,
+    /// Print an object for each packet that passes, on a line each
+    #[arg(long)]
+    json: bool,
+}
+
+/// The ports of a bus: a pseudo-terminal if none is named.
+#[derive(Debug, Args)]
+struct Ports {
+    /// Open a pseudo-terminal, with a symbolic link to it at this path; this is the default
+    #[arg(long, value_name = "LINK", value_parser = link)]
+    #[allow(clippy::option_option, reason = "the option, and its value")]
+    pty: Option<Option<PathBuf>>,
+    /// Open a TCP address, or a port of this machine; port 0 is one that is free
+    #[arg(long, value_name = "ADDR")]
+    tcp: Vec<String>,
+    /// Open a UDP address, or a port of this machine; port 0 is one that is free
+    #[arg(long, value_name = "ADDR")]
+    udp: Vec<String>,
+    /// Take standard input and output as the line, until the input ends; what else is printed goes to
+    /// standard error
+    #[arg(long)]
+    stdio: bool,
+    /// Allow addresses that other machines reach
+    #[arg(long)]
+    listen: bool,
+}
+
+impl Ports {
+    fn open(&self, links: &mut Links) -> Result<Vec<Port>, LinkError> {
+        let reach = if self.listen { Reach::Others } else { Reach::Machine };
+        let addresses = |texts: &[String]| {
+            texts.iter().map(|text| address(text, reach)).collect::<Result<Vec<_>, _>>()
+        };
+        let (tcp, udp) = (addresses(&self.tcp)?, addresses(&self.udp)?);
+        let is_default = tcp.is_empty() && udp.is_empty() && !self.stdio;
+        let pty = self.pty.clone().or(is_default.then_some(None));
+        let mut ports = Vec::new();
+        if let Some(link) = pty {
+            ports.push(links.pty(link.as_deref())?);
+        }
+        for address in tcp {
+            ports.push(links.tcp(address)?);
+        }
+        for address in udp {
+            ports.push(links.udp(address)?);
+        }
+        if self.stdio {
+            links.stdio();
+        }
+        Ok(ports)
+    }
+}
+
+/// Serves until Ctrl-C.
+pub(crate) fn run(options: &Bus) -> Result<ExitCode, Failure> {
+    let setup = Setup {
+        readings: options.readings.unwrap_or_default(),
+        rate: options.realtime.then_some(options.baud),
+    };
+    let mut bus =
+        VirtualBus::new(&shared::spec()?, &options.devices, setup).map_err(Failure::usage)?;
+    let (stop, stopped) = UnixStream::pair().map_err(Failure::incomplete)?;
+    shared::at_interrupt(move || {
+        // One byte is enough, and there is room for it.
+        let _ = (&stop).write(&[0]);
+    })?;
+    let mut links = Links::default();
+    let ports = options.ports.open(&mut links).map_err(failure)?;
+    let mut watcher = watcher(options)?;
+    watcher.begin(&ports);
+    let lost = links.serve(&mut bus, stopped.as_fd(), &mut watcher).map_err(failure)?;
+    watcher.end(lost)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn watcher(options: &Bus) -> Result<Watcher, Failure> {
+    let wire = Wire::default();
+    let mut ids: Vec<_> =
+        options.devices.iter().map(|place| (place.id, place.device.as_str())).collect();
+    ids.sort_unstable();
+    ids.dedup_by_key(|(id, _)| *id);
+    let words: Vec<_> = ids.iter().map(|(id, device)| format!("{id}={device}")).collect();
+    let tables: Tables = words.join(",").parse().map_err(Failure::usage)?;
+    let out: Box<dyn Write> = if options.ports.stdio {
+        Box::new(BufWriter::new(anstream::stderr()))
+    } else {
+        Box::new(Fitted::new(BufWriter::new(anstream::stdout()), width()))
+    };
+    let is_quiet = !options.trace && !options.json;
+    let show = if is_quiet { Show::Summary } else { Show::Lines };
+    let sink: Box<dyn Sink> = if options.json {
+        Box::new(Lines { out, wire, show })
+    } else {
+        Box::new(Text { out, wire, show, begin: None })
+    };
+    let wrong = is_quiet.then(|| {
+        let out: Box<dyn Write> = Box::new(anstream::stderr());
+        Wrong::new(Text { out, wire, show: Show::Lines, begin: None })
+    });
+    Watcher::new(wire, tables, Told::new(sink), wrong)
+        .ok_or_else(|| Failure::usage(format!("streams of {wire} are not followed")))
+}
+
+fn failure(error: LinkError) -> Failure {
+    match error {
+        LinkError::Address(_) | LinkError::Reach(_) => Failure::usage(error),
+        LinkError::Wait(_) => Failure::incomplete(error),
+        _ => Failure::not_started(error),
+    }
+}
+
+/// Takes a path that is no device: what follows `--pty` is its link.
+fn link(text: &str) -> Result<PathBuf, String> {
+    match text.parse::<Place>() {
+        Ok(_) => Err(format!("`{text}` is a device; name the devices before --pty")),
+        Err(_) => Ok(text.into()),
+    }
+}

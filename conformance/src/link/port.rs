@@ -1,0 +1,107 @@
+//! The ports of a bus, and who is connected to them.
+
+use std::net::{SocketAddr, TcpListener};
+use std::path::Path;
+
+use super::LinkError;
+use super::channel::Channel;
+use super::net::{self, Udp};
+use super::pty::Pty;
+use super::stdio::Stdio;
+
+/// Hosts that may be connected at once. More are turned away.
+const HOSTS: usize = 64;
+
+/// What a host opens to come to a bus.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Port {
+    /// `pty`, `tcp` or `udp`.
+    pub kind: &'static str,
+    /// Its path or address.
+    pub address: String,
+    /// The symbolic link that leads to it.
+    pub link: Option<String>,
+}
+
+impl Port {
+    fn of(kind: &'static str, address: SocketAddr) -> Self {
+        Self { kind, address: address.to_string(), link: None }
+    }
+}
+
+/// Someone who sends and gets answers.
+pub(super) struct Host {
+    /// No two have the same.
+    pub(super) number: u64,
+    pub(super) channel: Box<dyn Channel>,
+}
+
+/// Ports that lead to one line.
+#[derive(Default)]
+pub struct Links {
+    pub(super) listeners: Vec<TcpListener>,
+    pub(super) hosts: Vec<Host>,
+    /// Hosts that there were so far.
+    count: u64,
+}
+
+impl Links {
+    /// Opens a pseudo-terminal, with a symbolic link to it if there is a path for that.
+    ///
+    /// # Errors
+    /// If the system gives none, or something else has the link's name.
+    pub fn pty(&mut self, link: Option<&Path>) -> Result<Port, LinkError> {
+        let pty = Pty::open(link)?;
+        let text = |path: &Path| path.display().to_string();
+        let port = Port { kind: "pty", address: text(&pty.path), link: link.map(text) };
+        self.join(Box::new(pty));
+        Ok(port)
+    }
+
+    /// Opens an address for any number of hosts.
+    ///
+    /// # Errors
+    /// If the address can't be had.
+    pub fn tcp(&mut self, address: SocketAddr) -> Result<Port, LinkError> {
+        let listener = net::listen(address)?;
+        let port = listener.local_addr().map(|address| Port::of("tcp", address));
+        self.listeners.push(listener);
+        port.map_err(|error| LinkError::Bind { address, error })
+    }
+
+    /// Opens an address for datagrams.
+    ///
+    /// # Errors
+    /// If the address can't be had.
+    pub fn udp(&mut self, address: SocketAddr) -> Result<Port, LinkError> {
+        let socket = Udp::open(address)?;
+        let port = socket.address().map(|address| Port::of("udp", address));
+        self.join(Box::new(socket));
+        port.map_err(|error| LinkError::Bind { address, error })
+    }
+
+    /// Takes standard input and output. The bus ends with the input.
+    pub fn stdio(&mut self) {
+        self.join(Box::new(Stdio::open()));
+    }
+
+    /// Lets in who has connected.
+    pub(super) fn accept(&mut self, listener: usize) {
+        let stream = self.listeners.get(listener).and_then(net::accept);
+        if let Some(stream) = stream.filter(|_| self.hosts.len() < HOSTS) {
+            self.join(Box::new(stream));
+        }
+    }
+
+    /// Writes what a host takes. The rest is lost, and counted.
+    pub(super) fn write(&mut self, host: Option<u64>, bytes: &[u8]) -> u64 {
+        let asker = self.hosts.iter_mut().find(|other| Some(other.number) == host);
+        let taken = asker.map_or(0, |asker| asker.channel.write(bytes));
+        bytes.len().saturating_sub(taken) as u64
+    }
+
+    fn join(&mut self, channel: Box<dyn Channel>) {
+        self.hosts.push(Host { number: self.count, channel });
+        self.count += 1;
+    }
+}
