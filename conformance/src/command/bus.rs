@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use actucheck::adapter::Wire;
-use actucheck::bus::{Place, Readings, Setup, VirtualBus};
+use actucheck::bus::{Fault, Place, Readings, Setup, VirtualBus};
 use actucheck::device::Tables;
 use actucheck::link::{LinkError, Links, Port, Reach, address};
 use clap::Args;
@@ -28,6 +28,8 @@ Examples:
       a device of your own behind two sockets, and a line for each packet that passes
   actucheck bus ja40@1 --realtime --baud 57600
       bytes take as long as on a line of that rate
+  actucheck bus ja40@1 --echo --fault flip:0.01 --fault late=200ms#5 --seed 7
+      one answer in a hundred has a wrong bit, and the fifth comes too late
   printf '\\xFF\\xFF\\xFD\\x00\\x01\\x03\\x00\\x01\\x19\\x4E' | actucheck bus ja40@1 --stdio | xxd
 
 All ports lead to one line. A host's answers go to that host; what it does not read is lost as soon as
@@ -60,6 +62,14 @@ pub(crate) struct Bus {
     /// What devices do where the documents leave something unspecified
     #[arg(long, value_name = "NAME=WAY,…")]
     readings: Option<Readings>,
+    /// Let each host hear what it sends, as most adapters for a line of one wire do
+    #[arg(long)]
+    echo: bool,
+    #[arg(long = "fault", value_name = "FAULT", help = "What goes wrong; may be given more than once", long_help = faults_help())]
+    faults: Vec<Fault>,
+    /// What the chance of faults begins with: the same seed and the same requests have the same faults
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
     /// Print a line for each packet that passes
     #[arg(long)]
     trace: bool,
@@ -116,11 +126,23 @@ impl Ports {
     }
 }
 
+fn faults_help() -> String {
+    let lines: Vec<_> = Fault::names().map(|(name, words)| format!("- {name}: {words}")).collect();
+    format!(
+        "What goes wrong with answers; may be given more than once. flip is for every answer, flip#5 \
+         for the fifth, flip#5- from it on, flip:0.01 for one in a hundred\n\n{}",
+        lines.join("\n")
+    )
+}
+
 /// Serves until Ctrl-C.
 pub(crate) fn run(options: &Bus) -> Result<ExitCode, Failure> {
     let setup = Setup {
         readings: options.readings.unwrap_or_default(),
         rate: options.realtime.then_some(options.baud),
+        echo: options.echo,
+        faults: options.faults.clone(),
+        seed: options.seed,
     };
     let mut bus =
         VirtualBus::new(&shared::spec()?, &options.devices, setup).map_err(Failure::usage)?;
