@@ -22,6 +22,8 @@ pub(super) type Outcome = Result<Vec<u8>, ErrorNumber>;
 #[derive(Clone, Debug)]
 pub struct VirtualDevice {
     model: Arc<Model>,
+    /// Its ID, if no register holds one.
+    id: u8,
     memory: Memory,
     shaft: Shaft,
     /// The write that an Action carries out.
@@ -33,28 +35,28 @@ pub struct VirtualDevice {
 
 impl VirtualDevice {
     /// A device that has just got power, with its initial values.
-    pub(super) fn new(model: Arc<Model>, readings: Readings) -> Self {
+    pub(super) fn new(model: Arc<Model>, id: u8, readings: Readings) -> Self {
         let mut memory = Memory::new(Arc::clone(&model));
+        memory.set(model.roles.id, id.into());
         let shaft = Shaft::new(&mut memory, &model);
-        Self { model, memory, shaft, registered: None, stored: None, readings }
-    }
-
-    /// Gives it another ID.
-    pub(super) fn set_id(&mut self, id: u8) {
-        self.memory.set(self.model.roles.id, id.into());
+        Self { model, id, memory, shaft, registered: None, stored: None, readings }
     }
 
     /// Its ID.
     #[must_use]
     pub fn id(&self) -> u8 {
-        let id = self.memory.get(self.model.roles.id).unwrap_or(1);
-        u8::try_from(id).unwrap_or_default()
+        let id = self.memory.get(self.model.roles.id);
+        id.and_then(|id| u8::try_from(id).ok()).unwrap_or(self.id)
+    }
+
+    /// Whether it has a hardware error.
+    pub(super) fn alert(&self) -> bool {
+        self.memory.get(self.model.roles.hardware_error_status).is_some_and(|status| status != 0)
     }
 
     /// The error byte of its status packets.
     pub(super) fn error(&self, number: ErrorNumber) -> StatusError {
-        let status = self.memory.get(self.model.roles.hardware_error_status);
-        StatusError::new(number, status.is_some_and(|status| status != 0))
+        StatusError::new(number, self.alert())
     }
 
     /// Whether it answers an instruction that is for it alone (DYNAMIXEL Protocol 2.0, Response
@@ -91,11 +93,12 @@ impl VirtualDevice {
     /// Sets registers as if a host had, whoever may write them.
     pub(super) fn preset(&mut self, address: u16, data: &[u8]) {
         self.memory.preset(address, data);
-        self.shaft.turned(&mut self.memory, &self.model);
+        self.shaft.preset(&mut self.memory, &self.model, address);
     }
 
     /// Carries out an instruction that is for it, at `now`.
     pub(super) fn carry_out(&mut self, request: &Request<'_>, now: Duration) -> Outcome {
+        self.advance(now);
         if !self.knows(request.instruction()) {
             return Err(ErrorNumber::InstructionError);
         }
@@ -105,13 +108,13 @@ impl VirtualDevice {
             Request::Write(write) => self.write(write.address, write.data, now),
             Request::RegWrite(write) => self.register(write.address, write.data),
             Request::Action(_) => self.act(now),
-            Request::FactoryReset(reset) => self.factory_reset(reset.option, now),
+            Request::FactoryReset(reset) => self.factory_reset(reset.option),
             Request::Reboot(_) => {
-                self.reboot(now);
+                self.reboot();
                 Ok(Vec::new())
             }
-            Request::Clear(clear) => self.clear(clear, now),
-            Request::ControlTableBackup(backup) => self.back_up(*backup, now),
+            Request::Clear(clear) => self.clear(clear),
+            Request::ControlTableBackup(backup) => self.back_up(*backup),
             // What goes to several devices comes here as a Read or a Write.
             _ => Err(ErrorNumber::InstructionError),
         }
@@ -157,7 +160,7 @@ impl VirtualDevice {
         self.write(address, &data, now)
     }
 
-    fn factory_reset(&mut self, option: FactoryResetOption, now: Duration) -> Outcome {
+    fn factory_reset(&mut self, option: FactoryResetOption) -> Outcome {
         let roles = &self.model.roles;
         let kept = match option {
             FactoryResetOption::ResetAll => [None, None],
@@ -168,13 +171,12 @@ impl VirtualDevice {
         let is_kept =
             |row: &Row| kept.into_iter().flatten().any(|kept| kept.address == row.address);
         self.memory.reset(|row| !is_kept(row));
-        self.reboot(now);
+        self.reboot();
         Ok(Vec::new())
     }
 
     /// Power off and on: the RAM area gets its initial values, the EEPROM area keeps its own.
-    pub(super) fn reboot(&mut self, now: Duration) {
-        self.advance(now);
+    pub(super) fn reboot(&mut self) {
         self.registered = None;
         self.memory.reset(|row| row.area == Area::Ram);
         self.memory.set(self.model.roles.backup_ready, self.stored.is_some().into());
@@ -193,8 +195,7 @@ impl VirtualDevice {
 
     /// Clear without parameters clears a fault, as in the JA40 document; with the option and the key it
     /// clears turns, as in the DYNAMIXEL document.
-    fn clear(&mut self, clear: &Clear<'_>, now: Duration) -> Outcome {
-        self.advance(now);
+    fn clear(&mut self, clear: &Clear<'_>) -> Outcome {
         match clear {
             Clear::Bare => {
                 self.memory.set(self.model.roles.hardware_error_status, 0);
@@ -213,7 +214,7 @@ impl VirtualDevice {
         }
     }
 
-    fn back_up(&mut self, backup: ControlTableBackup, now: Duration) -> Outcome {
+    fn back_up(&mut self, backup: ControlTableBackup) -> Outcome {
         if self.memory.get(self.model.roles.torque_enable).unwrap_or_default() != 0 {
             return Err(match self.readings.backup_under_torque {
                 BackupUnderTorque::ResultFail => ErrorNumber::ResultFail,
@@ -237,7 +238,8 @@ impl VirtualDevice {
                 for row in self.model.table.registers.iter().filter(|row| is_stored(row)) {
                     self.memory.put(row, stored.value(row));
                 }
-                self.advance(now);
+                self.memory.settle();
+                self.shaft.told(&mut self.memory, &self.model);
             }
             ControlTableBackupOption::Unknown(_) => return self.other_option(),
         }

@@ -12,7 +12,7 @@ use actucheck_codec::dynamixel2::{
 use super::super::Chunk;
 use super::device::{Outcome, VirtualDevice};
 use super::line::Clock;
-use super::readings::{AfterMissing, Readings};
+use super::readings::{AfterMissing, Readings, RestartAnswer};
 
 /// Bytes that most packets fit in.
 const USUAL: usize = 64;
@@ -112,7 +112,7 @@ impl Hearing<'_> {
         let now = self.now;
         for (id, address, length) in ranges {
             let read = |device: &mut VirtualDevice| device.read(address, length, now);
-            let is_there = self.knowing(id, instruction).next().is_some();
+            let is_there = self.knowing(id, instruction).any(|device| device.answers(instruction));
             if is_there {
                 self.one(id, instruction, read);
             } else if self.readings.after_missing == AfterMissing::Silent {
@@ -186,14 +186,23 @@ impl Hearing<'_> {
         instruction: Instruction,
         mut carry_out: impl FnMut(&mut VirtualDevice) -> Outcome,
     ) {
+        let restarts = matches!(instruction, Instruction::FactoryReset | Instruction::Reboot);
+        let restart_answer = self.readings.restart_answer;
         let mut answers: Vec<Vec<u8>> = Vec::new();
         for device in self.devices.iter_mut().filter(|device| device.id() == id) {
-            let answers_it = device.answers(instruction);
-            let outcome = carry_out(device);
+            device.advance(self.now);
+            let (answers_it, delay) = (device.answers(instruction), device.delay());
+            let before = (id, device.alert());
+            let (number, data) = split(carry_out(device));
+            let (id, alert) = match (restarts, restart_answer) {
+                (true, RestartAnswer::Before) => before,
+                (true, RestartAnswer::After) => (device.id(), device.alert()),
+                // What is written counts, but a new ID only after the answer.
+                (false, _) => (id, device.alert()),
+            };
             if answers_it {
-                self.clock.wait(device.delay(), self.now);
-                let (number, data) = split(outcome);
-                let error = device.error(number);
+                self.clock.wait(delay, self.now);
+                let error = StatusError::new(number, alert);
                 answers.extend(encoded(|buffer| status::encode(id, error, &data, buffer)));
             }
         }

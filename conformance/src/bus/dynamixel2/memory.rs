@@ -24,12 +24,14 @@ impl Memory {
         memory
     }
 
-    /// Gives registers their initial values.
+    /// Gives registers their initial values. What hosts can't write and no document states is no
+    /// setting but a fact or a measurement, and stays.
     ///
     /// Where a document states none it is 0, or what is nearest to it within the register's range. A
     /// goal between a limit and its negative begins at the limit: with 0 the device would never move.
     pub(super) fn reset(&mut self, which: impl Fn(&Row) -> bool) {
-        for row in self.model.table.registers.iter().filter(|row| which(row)) {
+        let is_setting = |row: &Row| row.access == Access::ReadWrite || row.initial.is_some();
+        for row in self.model.table.registers.iter().filter(|row| is_setting(row) && which(row)) {
             self.put(row, row.initial.unwrap_or_else(|| self.unstated(row)));
         }
         if let (Some(row), Some(number)) =
@@ -124,10 +126,22 @@ impl Memory {
         }
         let before = self.replace(place.clone(), data);
         let refused = rows.iter().find_map(|row| self.judge(row).err());
-        refused.map_or(Ok(()), |number| {
+        if let Some(number) = refused {
             self.replace(place, &before);
-            Err(number)
-        })
+            return Err(number);
+        }
+        self.settle();
+        Ok(())
+    }
+
+    /// Takes registers back into ranges that other registers have made smaller.
+    pub(super) fn settle(&mut self) {
+        for row in &Arc::clone(&self.model).bounded {
+            let (min, max) = row.bounds(|address| self.at(address));
+            if min <= max {
+                self.put(row, self.value(row).clamp(min, max));
+            }
+        }
     }
 
     /// Whether a write would be carried out.
@@ -141,12 +155,14 @@ impl Memory {
     }
 
     /// Whether a register may have the value that it has. If the documents don't settle its range, it
-    /// may have each value that they name.
+    /// may have each value that they name, or all bits that they name.
     fn judge(&self, row: &Row) -> Result<(), ErrorNumber> {
         let value = self.value(row);
         if row.settled {
             row.check(value, |address| self.at(address)).map_err(|error| error.number())
-        } else if row.values.is_empty() || row.value_name(value).is_some() {
+        } else if row.value_name(value).is_some()
+            || row.values.is_empty() && (row.bits.is_empty() || value & !named(row) == 0)
+        {
             Ok(())
         } else {
             Err(ErrorNumber::DataRangeError)
@@ -159,6 +175,11 @@ impl Memory {
         bytes.iter_mut().zip(data).for_each(|(byte, new)| *byte = *new);
         before
     }
+}
+
+/// The bits of a register that have a name.
+fn named(row: &Row) -> i64 {
+    row.bits.iter().fold(0, |named, bits| named | model::mask(bits.lowest, bits.width))
 }
 
 fn place(address: u16, length: usize) -> Range<usize> {

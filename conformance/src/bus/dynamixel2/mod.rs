@@ -36,8 +36,7 @@ pub(super) fn line(spec: &Spec, places: &[Place], setup: &Setup) -> Result<Line,
             models.insert(&place.device, (model, tables));
         }
         let Some((model, tables)) = models.get(&place.device) else { continue };
-        let mut device = VirtualDevice::new(Arc::clone(model), setup.readings);
-        device.set_id(place.id);
+        let mut device = VirtualDevice::new(Arc::clone(model), place.id, setup.readings);
         if let Some(written) = tables.written(place.id, spec) {
             for word in &place.registers {
                 let (address, data) = compose::register(written, word)?;

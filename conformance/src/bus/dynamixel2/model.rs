@@ -1,8 +1,8 @@
 //! The facts of a device that do not change: its control table, and the registers with a role.
 
-use std::ops::Range;
+use std::ops;
 
-use actucheck_codec::register::{Device, Row};
+use actucheck_codec::register::{Access, Bound, Device, Range, Row};
 use actucheck_spec::model;
 
 /// Counts in a turn of a device whose file does not tell them.
@@ -19,6 +19,8 @@ pub(super) struct Model {
     /// Bits of Hardware Error Status, and when they are set.
     pub(super) alarms: Vec<Watch>,
     pub(super) roles: Roles,
+    /// The registers whose range depends on other registers.
+    pub(super) bounded: Vec<&'static Row>,
     /// Whether there is a register at an address.
     taken: Vec<bool>,
 }
@@ -31,8 +33,37 @@ pub(super) struct Watch {
     pub(super) watched: &'static Row,
     pub(super) below: Option<&'static Row>,
     pub(super) above: Option<&'static Row>,
-    /// The register that has one of these values while the bit may be set.
-    pub(super) when: Option<(&'static Row, Vec<i64>)>,
+    /// What must hold beside that.
+    pub(super) when: Option<When>,
+}
+
+/// A condition on some bits of a register.
+#[derive(Debug)]
+pub(super) struct When {
+    pub(super) row: &'static Row,
+    lowest: u8,
+    mask: i64,
+    one_of: Vec<i64>,
+}
+
+impl When {
+    fn new(table: &Device, written: &model::Condition) -> Option<Self> {
+        let row = table.register_named(&written.register)?;
+        let (lowest, mask) = match &written.bits {
+            Some(name) => {
+                let bits = row.bits.iter().find(|bits| bits.name == name)?;
+                (bits.lowest, mask(0, bits.width))
+            }
+            None => (0, -1),
+        };
+        Some(Self { row, lowest, mask, one_of: written.one_of.clone() })
+    }
+
+    /// Whether it holds for this value of the register.
+    pub(super) fn holds(&self, value: i64) -> bool {
+        let bits = value.checked_shr(self.lowest.into()).unwrap_or_default() & self.mask;
+        self.one_of.contains(&bits)
+    }
 }
 
 /// Defines the registers with a role by their names.
@@ -71,6 +102,7 @@ roles! {
     current_limit: "Current Limit",
     velocity_limit: "Velocity Limit",
     pwm_limit: "PWM Limit",
+    movement_duration: "Movement Duration",
     profile_acceleration: "Profile Acceleration",
     profile_velocity: "Profile Velocity",
     goal_pwm: "Goal PWM",
@@ -96,13 +128,16 @@ impl Model {
         let watch = |alarm: &model::Alarm| {
             let status = table.register_named("Hardware Error Status")?;
             let bit = status.bits.iter().find(|bits| bits.name == alarm.bit)?;
-            let when = alarm.when.as_ref().filter(|when| when.bits.is_none());
+            let when = match &alarm.when {
+                Some(when) => Some(When::new(table, when)?),
+                None => None,
+            };
             Some(Watch {
                 bit: 1_i64.checked_shl(bit.lowest.into())?,
                 watched: named(&alarm.register)?,
                 below: alarm.below.as_ref().and_then(named),
                 above: alarm.above.as_ref().and_then(named),
-                when: when.and_then(|when| Some((named(&when.register)?, when.one_of.clone()))),
+                when,
             })
         };
         let end = table.registers.iter().map(|row| end(row)).max().unwrap_or_default();
@@ -117,6 +152,7 @@ impl Model {
             backup: written.backup.iter().filter_map(named).collect(),
             alarms: written.alarms.iter().filter_map(watch).collect(),
             roles: Roles::of(table),
+            bounded: table.registers.iter().copied().filter(|row| is_bounded(row)).collect(),
             taken,
         }
     }
@@ -127,17 +163,31 @@ impl Model {
     }
 
     /// Whether there is a register at each of these addresses.
-    pub(super) fn has(&self, addresses: Range<usize>) -> bool {
+    pub(super) fn has(&self, addresses: ops::Range<usize>) -> bool {
         self.taken.get(addresses).is_some_and(|taken| !taken.contains(&false))
     }
 
     /// The registers that have a byte at one of these addresses.
-    pub(super) fn rows(&self, addresses: &Range<usize>) -> &'static [&'static Row] {
+    pub(super) fn rows(&self, addresses: &ops::Range<usize>) -> &'static [&'static Row] {
         let registers = self.table.registers;
         let first = registers.partition_point(|row| end(row) <= addresses.start);
         let last = registers.partition_point(|row| usize::from(row.address) < addresses.end);
         registers.get(first..last).unwrap_or_default()
     }
+}
+
+/// Whether hosts write it, within a range that depends on other registers.
+fn is_bounded(row: &Row) -> bool {
+    let is_register = |bound: Bound| matches!(bound, Bound::Register { .. });
+    let refers = matches!(row.range, Range::Between { min, max }
+        if is_register(min) || is_register(max));
+    row.settled && row.access == Access::ReadWrite && (refers || !row.meanings.is_empty())
+}
+
+/// `width` ones from the bit `lowest` on.
+pub(super) fn mask(lowest: u8, width: u8) -> i64 {
+    let ones = 1_i64.checked_shl(width.into()).map_or(-1, |end| end - 1);
+    ones.checked_shl(lowest.into()).unwrap_or_default()
 }
 
 /// The address after a register's last byte.

@@ -37,6 +37,8 @@ pub(super) struct Bounds {
 
 /// The seconds of a step in which the velocity changes.
 const STEP: f64 = 1e-3;
+/// So near to its goal, in counts, a shaft is there.
+const NEAR: f64 = 0.01;
 
 impl Motion {
     /// Moves on by some time.
@@ -71,19 +73,21 @@ impl Motion {
     fn approach(&mut self, goal: f64, bounds: Bounds, left: f64) -> f64 {
         let way = goal - self.position;
         let distance = way.abs();
-        // Faster than this it could not stop at the goal.
-        let stoppable = (2.0 * bounds.acceleration * distance).sqrt();
+        let time = STEP.min(left);
+        // With more than this for a step it could not stop at the goal.
+        let stoppable =
+            2.0 * distance / (time + (time * time + 2.0 * distance / bounds.acceleration).sqrt());
         let target = stoppable.min(bounds.velocity).copysign(way);
         let missing = target - self.velocity;
         let braking = |velocity: f64| velocity * velocity / (2.0 * bounds.acceleration);
         let cruise = (distance - braking(self.velocity)) / target.abs();
         let is_steady = missing.abs() <= 0.0 && cruise > STEP;
-        let time = if is_steady { cruise.min(left) } else { STEP.min(left) };
+        let time = if is_steady { cruise.min(left) } else { time };
         let change = bounds.acceleration * time;
         self.velocity += missing.clamp(-change, change);
         let step = self.velocity * time;
         let is_too_fast = braking(self.velocity) > step.abs();
-        if step * way.signum() < distance || is_too_fast {
+        if distance - step * way.signum() > NEAR || is_too_fast {
             self.position += step;
             return time;
         }

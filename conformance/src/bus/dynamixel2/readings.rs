@@ -56,6 +56,14 @@ readings! {
         /// It is answered with Result Fail.
         Refuse: "refuse",
     },
+    /// When the answer to a Factory Reset or a Reboot comes.
+    restart_answer: "restart-answer", "dynamixel2.reset.answer", RestartAnswer {
+        /// Before the restart, with the old ID.
+        #[default]
+        Before: "before",
+        /// After it, with the new ID.
+        After: "after",
+    },
     /// What answers a Control Table Backup while torque is on.
     backup_under_torque: "backup-under-torque", "ja40.backup.torque", BackupUnderTorque {
         /// Result Fail.

@@ -43,8 +43,8 @@ pub(super) struct Shaft {
     temperature: f64,
     /// Mode, torque and goal as they were after the last write.
     before: Asked,
-    /// The velocity of a profile that states the time of a movement.
-    pace: Option<f64>,
+    /// The bounds by which a movement takes its time, if a register states the time.
+    pace: Option<Bounds>,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -52,6 +52,7 @@ struct Asked {
     mode: i64,
     torque: bool,
     goal: i64,
+    reverse: bool,
 }
 
 impl Asked {
@@ -61,7 +62,13 @@ impl Asked {
             mode: memory.get(roles.operating_mode).unwrap_or(mode::POSITION),
             torque: memory.get(roles.torque_enable).unwrap_or(1) != 0,
             goal: memory.get(roles.goal_position).unwrap_or_default(),
+            reverse: bits(memory, roles.drive_mode, "Reverse Mode").unwrap_or_default() != 0,
         }
+    }
+
+    /// Whether the mode goes to positions.
+    const fn goes(self) -> bool {
+        matches!(self.mode, mode::POSITION | mode::EXTENDED_POSITION | mode::CURRENT_BASED_POSITION)
     }
 }
 
@@ -85,11 +92,18 @@ impl Shaft {
         self.started = self.now;
         self.motion.velocity = 0.0;
         self.clear_turns(memory, model);
-        if let Some(goal) = model.roles.goal_position.filter(|goal| goal.initial.is_none()) {
-            memory.put(goal, present(self.motion.position, memory, model));
-        }
+        self.goal_here(memory, model);
         self.before = Asked::of(memory, model);
         self.pace = None;
+        self.look(memory, model);
+    }
+
+    /// The goal is where the shaft is, if no document has another one for the beginning.
+    fn goal_here(&self, memory: &mut Memory, model: &Model) {
+        if let Some(goal) = model.roles.goal_position.filter(|goal| goal.initial.is_none()) {
+            memory.put(goal, present(self.motion.position, memory, model));
+            memory.settle();
+        }
     }
 
     /// Takes the turns away.
@@ -99,18 +113,23 @@ impl Shaft {
         // A device whose least position is negative has 0 in the middle of its turn.
         let least = if limit.is_some_and(|limit| limit < 0) { -turn / 2.0 } else { 0.0 };
         self.motion.position = (self.motion.position - least).rem_euclid(turn) + least;
-        self.show(memory, model);
+        self.look(memory, model);
     }
 
     pub(super) fn is_moving(&self) -> bool {
         self.motion.velocity.abs() > 0.0
     }
 
-    /// Present Position was set from outside: somebody turned the shaft.
-    pub(super) fn turned(&mut self, memory: &mut Memory, model: &Model) {
-        if let Some(row) = model.roles.present_position {
-            let offset = memory.get(model.roles.homing_offset).unwrap_or_default();
+    /// A register was set from outside. If it is a measurement, somebody turned or warmed the device.
+    pub(super) fn preset(&mut self, memory: &mut Memory, model: &Model, address: u16) {
+        let roles = &model.roles;
+        if let Some(row) = roles.present_position.filter(|row| row.address == address) {
+            let offset = memory.get(roles.homing_offset).unwrap_or_default();
             self.motion.position = real(memory.value(row) - offset);
+            self.goal_here(memory, model);
+        }
+        if let Some(row) = roles.present_temperature.filter(|row| row.address == address) {
+            self.temperature = memory.physical(Some(row)).map_or(COOL, |(degrees, _)| degrees);
         }
         self.told(memory, model);
     }
@@ -118,18 +137,24 @@ impl Shaft {
     /// A host has written registers.
     pub(super) fn told(&mut self, memory: &mut Memory, model: &Model) {
         let asked = Asked::of(memory, model);
-        let is_new = |what: fn(&Asked) -> bool| what(&asked) && !what(&self.before);
+        let before = self.before;
+        if asked.reverse != before.reverse {
+            self.motion.position = -self.motion.position;
+        }
+        let is_new = |what: fn(&Asked) -> bool| what(&asked) && !what(&before);
         let enters = is_new(|asked| asked.mode == mode::POSITION) || is_new(|asked| asked.torque);
         if asked.mode == mode::POSITION && enters {
             self.clear_turns(memory, model);
         }
-        if asked.goal != self.before.goal {
+        if asked.goal != before.goal || is_new(|asked| asked.torque) {
             let way = real(asked.goal - present(self.motion.position, memory, model));
-            let time = memory.physical(model.roles.profile_velocity);
-            let time = time.filter(|(time, unit)| *unit == "ms" && *time > 0.0);
-            self.pace = time.map(|(time, _)| way.abs() * 1000.0 / time);
+            self.pace = pace(way.abs(), self.is_moving(), memory, model);
+        }
+        if !asked.torque {
+            self.motion.velocity = 0.0;
         }
         self.before = asked;
+        self.look(memory, model);
     }
 
     /// Moves on to `now`.
@@ -142,10 +167,15 @@ impl Shaft {
         let limit = limit(memory, model);
         let (task, bounds) = self.task(memory, model, limit);
         self.motion.advance(time, task, bounds);
-        let load = (self.motion.velocity / limit).abs().min(1.0);
+        let load = share(self.motion.velocity, limit).abs().min(1.0);
         let target = COOL + WARMING * load;
         self.temperature =
             target + (self.temperature - target) * (-time.as_secs_f64() / WARM_UP).exp();
+        self.look(memory, model);
+    }
+
+    /// Shows what is, and sets the alarms that follow from it.
+    fn look(&self, memory: &mut Memory, model: &Model) {
         self.show(memory, model);
         for watch in &model.alarms {
             watch.look(memory, model);
@@ -154,54 +184,55 @@ impl Shaft {
 
     fn task(&self, memory: &Memory, model: &Model, limit: f64) -> (Task, Bounds) {
         let roles = &model.roles;
-        let velocity = |row| velocity(memory, model, row).filter(|velocity| *velocity > 0.0);
-        let acceleration = memory.physical(roles.profile_acceleration);
-        let acceleration = acceleration.filter(|(value, unit)| *unit == "rev/min²" && *value > 0.0);
+        let asked = Asked::of(memory, model);
+        let without = |row| known(memory, row) == Some(0);
+        if !asked.torque || without(roles.pwm_limit) || without(roles.current_limit) {
+            return (Task::Hold, Bounds { velocity: 0.0, acceleration: f64::INFINITY });
+        }
+        let of_limit = |goal, limit| {
+            let (goal, limit) = (memory.get(goal)?, memory.get(limit)?);
+            Some(share(real(goal), real(limit)))
+        };
+        let current = of_limit(roles.goal_current, roles.current_limit);
+        // A goal of 0 that bounds something else bounds nothing.
+        let bounding = |bound: f64| Some(bound.abs()).filter(|bound| *bound > 0.0);
+        let slowest = |others: [Option<f64>; 2]| {
+            let by_current = current.and_then(bounding).map(|share| share * limit);
+            others.into_iter().flatten().chain(by_current).fold(limit, f64::min)
+        };
         let profile = profile(memory, model);
-        let bounds = Bounds {
-            velocity: limit,
-            acceleration: acceleration
-                .filter(|_| profile)
-                .map_or(f64::INFINITY, |(value, _)| value * model.counts_per_turn / 3600.0),
-        };
-        let share = |goal, limit| {
-            let (goal, limit) = (memory.get(goal)?, memory.get(limit).filter(|limit| *limit > 0)?);
-            Some(real(goal) / real(limit))
-        };
-        let asked = self.before;
-        let task = match asked.mode {
-            _ if !asked.torque => Task::Hold,
-            mode::CURRENT => Task::Turn(
-                share(roles.goal_current, roles.current_limit).unwrap_or_default() * limit,
-            ),
+        let bounds = Bounds { velocity: limit, acceleration: profile.acceleration };
+        match asked.mode {
+            mode::CURRENT => (Task::Turn(current.unwrap_or_default() * limit), bounds),
             mode::PWM => {
-                Task::Turn(share(roles.goal_pwm, roles.pwm_limit).unwrap_or_default() * limit)
+                let share = of_limit(roles.goal_pwm, roles.pwm_limit).unwrap_or_default();
+                (Task::Turn(share * limit), bounds)
             }
             mode::VELOCITY => {
-                Task::Turn(self::velocity(memory, model, roles.goal_velocity).unwrap_or_default())
+                let goal = velocity(memory, model, roles.goal_velocity).unwrap_or_default();
+                (Task::Turn(goal), Bounds { velocity: slowest([None, None]), ..bounds })
             }
-            mode::POSITION | mode::EXTENDED_POSITION | mode::CURRENT_BASED_POSITION => {
+            _ if asked.goes() => {
                 let offset = memory.get(roles.homing_offset).unwrap_or_default();
-                let slowest = [
-                    self.pace.or_else(|| velocity(roles.profile_velocity)).filter(|_| profile),
-                    velocity(roles.goal_velocity),
-                ];
-                let velocity = slowest.into_iter().flatten().fold(limit, f64::min);
-                return (Task::GoTo(real(asked.goal - offset)), Bounds { velocity, ..bounds });
+                let Bounds { velocity, acceleration } = self.pace.unwrap_or(profile);
+                let goal = self::velocity(memory, model, roles.goal_velocity).and_then(bounding);
+                let velocity = slowest([Some(velocity), goal]);
+                (Task::GoTo(real(asked.goal - offset)), Bounds { velocity, acceleration })
             }
-            _ => Task::Hold,
-        };
-        (task, bounds)
+            _ => (Task::Hold, bounds),
+        }
     }
 
     /// Shows in the registers what is.
     fn show(&self, memory: &mut Memory, model: &Model) {
         let roles = &model.roles;
         let Motion { position, velocity } = self.motion;
-        let share = velocity / limit(memory, model);
+        let share = share(velocity, limit(memory, model));
         let shown = present(position, memory, model);
         memory.set(roles.present_position, shown);
-        memory.set(roles.position_trajectory, shown);
+        if self.before.goes() {
+            memory.set(roles.position_trajectory, shown);
+        }
         for row in [roles.present_velocity, roles.velocity_trajectory] {
             if let Some(scale) = row.and_then(|row| scale(row.unit?.symbol, model)) {
                 memory.put_physical(row, velocity / scale);
@@ -224,21 +255,13 @@ impl Shaft {
 
     /// Moving Status: whether the goal is reached, and the profile on the way to it.
     fn status(&self, row: &Row, memory: &Memory, model: &Model, shown: i64) -> i64 {
-        let is_set = |row| memory.get(row).is_some_and(|value| value != 0);
-        let roles = &model.roles;
-        let profile = match (
-            profile(memory, model) && is_set(roles.profile_velocity),
-            is_set(roles.profile_acceleration),
-        ) {
+        let profile = self.pace.unwrap_or_else(|| profile(memory, model));
+        let profile = match (profile.velocity.is_finite(), profile.acceleration.is_finite()) {
             (false, _) => 0,
             (true, false) => 1,
             (true, true) => 3,
         };
-        let goes = matches!(
-            self.before.mode,
-            mode::POSITION | mode::EXTENDED_POSITION | mode::CURRENT_BASED_POSITION
-        );
-        let arrived = goes && shown == self.before.goal;
+        let arrived = self.before.goes() && shown == self.before.goal;
         let bits = |name: &str, value: i64| {
             let bits = row.bits.iter().find(|bits| bits.name == name);
             bits.and_then(|bits| value.checked_shl(bits.lowest.into())).unwrap_or_default()
@@ -254,8 +277,7 @@ impl Watch {
         let value = memory.value(self.watched);
         let passes = memory.get(self.below).is_some_and(|least| value < least)
             || memory.get(self.above).is_some_and(|most| value > most);
-        let holds =
-            self.when.as_ref().is_none_or(|(row, values)| values.contains(&memory.value(row)));
+        let holds = self.when.as_ref().is_none_or(|when| when.holds(memory.value(when.row)));
         if !passes || !holds {
             return;
         }
@@ -283,8 +305,20 @@ fn present(position: f64, memory: &Memory, model: &Model) -> i64 {
 
 /// The velocity that nothing goes beyond, in counts a second.
 fn limit(memory: &Memory, model: &Model) -> f64 {
-    let limit = velocity(memory, model, model.roles.velocity_limit);
+    let row = model.roles.velocity_limit;
+    let limit = known(memory, row).and_then(|_| velocity(memory, model, row));
     limit.unwrap_or(FREE_VELOCITY * model.counts_per_turn)
+}
+
+/// What a limit holds; `None` if there is none, or nobody has told it.
+fn known(memory: &Memory, row: Option<&'static Row>) -> Option<i64> {
+    let row = row?;
+    Some(memory.value(row)).filter(|value| *value != 0 || row.initial.is_some())
+}
+
+/// A part of a whole; 0 of nothing.
+fn share(part: f64, whole: f64) -> f64 {
+    if whole > 0.0 { part / whole } else { 0.0 }
 }
 
 /// A velocity in counts a second.
@@ -303,10 +337,48 @@ fn scale(unit: &str, model: &Model) -> Option<f64> {
 }
 
 /// Whether movements follow a profile.
-fn profile(memory: &Memory, model: &Model) -> bool {
-    let row = model.roles.drive_mode;
-    let bits = row.and_then(|row| row.bits.iter().find(|bits| bits.name == "Disable Profile"));
-    bits.zip(memory.get(row)).is_none_or(|(bits, value)| bits.of(value) == 0)
+fn has_profile(memory: &Memory, model: &Model) -> bool {
+    let bit = |name| bits(memory, model.roles.drive_mode, name);
+    bit("Disable Profile").unwrap_or(0) == 0 && bit("Enable Profile").unwrap_or(1) == 1
+}
+
+/// The bounds of a profile that states velocity and acceleration; 0 states none, and without a
+/// velocity the acceleration does not count (JA40 document, §2.4.20).
+fn profile(memory: &Memory, model: &Model) -> Bounds {
+    let roles = &model.roles;
+    let is_used = |bound: &f64| *bound > 0.0 && has_profile(memory, model);
+    let velocity = velocity(memory, model, roles.profile_velocity).filter(is_used);
+    let acceleration = memory.physical(roles.profile_acceleration).and_then(|(value, unit)| {
+        (unit == "rev/min²").then_some(value * model.counts_per_turn / 3600.0)
+    });
+    let acceleration = acceleration.filter(is_used).filter(|_| velocity.is_some());
+    Bounds {
+        velocity: velocity.unwrap_or(f64::INFINITY),
+        acceleration: acceleration.unwrap_or(f64::INFINITY),
+    }
+}
+
+/// The bounds with which some way takes the time that a register states: that of the whole movement,
+/// and that of the acceleration, which is at most half of it (JA40 document, §2.4.20 and §2.4.21) and
+/// counts at rest.
+fn pace(way: f64, is_moving: bool, memory: &Memory, model: &Model) -> Option<Bounds> {
+    let roles = &model.roles;
+    let seconds = |row| {
+        let time = memory.physical(row).filter(|(_, unit)| *unit == "ms");
+        time.map(|(time, _)| time / 1000.0).filter(|time| *time > 0.0)
+    };
+    let whole = seconds(roles.profile_velocity).or_else(|| seconds(roles.movement_duration))?;
+    let start = seconds(roles.profile_acceleration).filter(|_| !is_moving).unwrap_or(0.0);
+    let start = start.min(whole / 2.0);
+    let velocity = way / (whole - start);
+    let is_used = way > 0.0 && has_profile(memory, model);
+    is_used.then_some(Bounds { velocity, acceleration: velocity / start })
+}
+
+/// A bit field of a register that the device has.
+fn bits(memory: &Memory, row: Option<&'static Row>, name: &str) -> Option<i64> {
+    let bits = row?.bits.iter().find(|bits| bits.name == name)?;
+    Some(bits.of(memory.value(row?)))
 }
 
 #[allow(clippy::cast_precision_loss)] // registers have no more than 32 bits
