@@ -44,9 +44,11 @@ pub struct Checks {
 pub enum Cover {
     /// Nothing yet.
     Nothing,
+    /// Nothing can: packets don't show whether a device obeys.
+    Unseen,
     /// Checks of the suite that record the answer and judge none.
     Record,
-    /// A test of this repository, which tests only the built-in codec.
+    /// A test of this repository, which tests only the built-in codec or the virtual device.
     Test,
     /// A check of the suite that judges the answer, which any subject can be asked.
     Check,
@@ -65,12 +67,13 @@ impl Row<'_> {
     /// codec shows nothing about a device.
     #[must_use]
     pub fn cover(&self, role: Role) -> Cover {
-        let tested = role == Role::Codec && !self.requirement.tests.is_empty();
+        let unseen = role == Role::Device && self.requirement.unseen.is_some();
         match self.checks.get(&role) {
             _ if !self.requirement.binds.contains(&role) => Cover::Nothing,
             Some(checks) if !checks.only_record() => Cover::Check,
-            _ if tested => Cover::Test,
+            _ if self.requirement.is_tested(role) => Cover::Test,
             Some(_) => Cover::Record,
+            None if unseen => Cover::Unseen,
             None => Cover::Nothing,
         }
     }
@@ -121,13 +124,15 @@ pub struct Total {
     pub recorded: usize,
     /// Requirements with only a test of this repository.
     pub tested: usize,
+    /// Requirements that packets can't show.
+    pub unseen: usize,
 }
 
 impl Total {
     /// Requirements that nothing checks.
     #[must_use]
     pub const fn unchecked(&self) -> usize {
-        self.requirements - self.checked - self.recorded - self.tested
+        self.requirements - self.checked - self.recorded - self.tested - self.unseen
     }
 }
 
@@ -145,6 +150,7 @@ pub fn total(rows: &[Row<'_>], role: Role, level: Level) -> Total {
             Cover::Check => total.checked += 1,
             Cover::Record => total.recorded += 1,
             Cover::Test => total.tested += 1,
+            Cover::Unseen => total.unseen += 1,
             Cover::Nothing => {}
         }
     }

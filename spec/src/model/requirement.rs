@@ -31,8 +31,9 @@ pub struct Requirement {
     pub errata: Vec<String>,
     /// The roles that it binds.
     pub binds: Vec<Role>,
-    /// Tests of this repository that check the built-in codec, in addition to the suite's checks,
-    /// which any codec can be asked: `FILE::TEST`.
+    /// Tests of this repository, in addition to the suite's checks, which any codec can be asked.
+    /// `FILE::TEST` checks the built-in codec. `FILE.txt` is a conversation, which checks the virtual
+    /// device.
     #[serde(default)]
     pub tests: Vec<String>,
     /// What else checks it; given if neither a vector nor a test names it.
@@ -40,6 +41,20 @@ pub struct Requirement {
     /// A requirement of another document that requires the same, so that its checks count for this
     /// one too.
     pub checked_with: Option<String>,
+    /// Why packets can't show whether a device obeys; absent if they can.
+    pub unseen: Option<String>,
+}
+
+impl Requirement {
+    /// Whether a test of this repository checks it for this role.
+    #[must_use]
+    pub fn is_tested(&self, role: Role) -> bool {
+        self.tests.iter().any(|test| match role {
+            Role::Codec => test.contains("::"),
+            Role::Host => false,
+            Role::Device => !test.contains("::"),
+        })
+    }
 }
 
 /// What checks a requirement that neither a vector nor a test names.

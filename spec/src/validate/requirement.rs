@@ -1,10 +1,11 @@
 //! Rule: a vector or a test names each requirement, or its row says what else checks it. A
 //! requirement that is checked with another one is not stricter than that one, and binds no role
-//! that the other does not bind.
+//! that the other does not bind. A reason why packets can't show what a device does is given only
+//! where a device is bound and no conversation shows it.
 
 use std::collections::BTreeSet;
 
-use crate::model::{CheckedBy, Requirement};
+use crate::model::{CheckedBy, Requirement, Role};
 use crate::{Diagnostic, Spec};
 
 pub(super) fn check(spec: &Spec) -> Vec<Diagnostic> {
@@ -17,6 +18,13 @@ pub(super) fn check(spec: &Spec) -> Vec<Diagnostic> {
                 && let Some(message) = not_with(spec, row, other)
             {
                 let node = format!("requirements[{index}].checked_with");
+                defects.push(file.diagnostic(&node, format!("{} {message}", row.id)));
+            }
+            if row.unseen.is_some()
+                && (row.is_tested(Role::Device) || !row.binds.contains(&Role::Device))
+            {
+                let node = format!("requirements[{index}].unseen");
+                let message = "binds no device, or a conversation shows it; leave `unseen` out";
                 defects.push(file.diagnostic(&node, format!("{} {message}", row.id)));
             }
             let used = named.contains(row.id.as_str())

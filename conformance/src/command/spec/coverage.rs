@@ -44,6 +44,7 @@ const ROLES: [(Role, &str, &str); 3] = [
 ];
 
 const NOTHING: &str = "nothing yet";
+const UNSEEN: &str = "not in packets";
 
 /// The matrix, document by document, and its totals.
 pub(super) fn text(spec: &Spec, options: &Coverage) -> Result<String, Failure> {
@@ -125,12 +126,14 @@ fn checked_by(row: &Row<'_>) -> String {
         });
     }
     parts.extend(row.requirement.tests.iter().map(|test| format!("test {test}")));
+    parts.extend(row.requirement.unseen.iter().map(|reason| format!("{UNSEEN}: {reason}")));
     if parts.is_empty() { NOTHING.to_owned() } else { parts.join("; ") }
 }
 
 /// The totals of one role, or of each role.
 fn totals(rows: &[Row<'_>], only: Option<Role>) -> String {
-    let head = ["role", "level", "requirements", "checked", "recorded", "tested here", NOTHING];
+    let head =
+        ["role", "level", "requirements", "checked", "recorded", "tested here", UNSEEN, NOTHING];
     let mut cells = vec![head.map(str::to_owned)];
     for role in Role::ALL.into_iter().filter(|role| only.is_none_or(|only| only == *role)) {
         for level in Level::ALL {
@@ -143,9 +146,11 @@ fn totals(rows: &[Row<'_>], only: Option<Role>) -> String {
                 total.checked,
                 total.recorded,
                 total.tested,
+                total.unseen,
                 total.unchecked(),
             ];
-            let [all, checked, recorded, tested, unchecked] = counts.map(|count| count.to_string());
+            let [all, checked, recorded, tested, unseen, unchecked] =
+                counts.map(|count| count.to_string());
             cells.push([
                 role.to_string(),
                 level.to_string(),
@@ -153,6 +158,7 @@ fn totals(rows: &[Row<'_>], only: Option<Role>) -> String {
                 checked,
                 recorded,
                 tested,
+                unseen,
                 unchecked,
             ]);
         }

@@ -189,6 +189,7 @@ fn requirement(spec: &Spec, row: &Requirement) -> String {
     let own = vectors.filter(|vector| vector.requirement.as_ref() == Some(&row.id));
     block.lines("vectors", own.map(|vector| vector.id.clone()));
     block.lines("tests", row.tests.iter().cloned());
+    block.lines("not in packets", row.unseen.iter().cloned());
     block.line("checked with", row.checked_with.as_deref().unwrap_or_default());
     block.0
 }
