@@ -1,0 +1,74 @@
+//! Virtual devices: conversations by the requirements, and what holds of every conversation.
+
+#![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
+
+mod conversation;
+mod property;
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+use actucheck_spec::Spec;
+
+const FOLDER: &str = "tests/bus/conversations";
+
+/// The conversations by their names, in a set order.
+fn conversations() -> Vec<(String, String)> {
+    let files = fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(FOLDER)).unwrap();
+    let mut paths: Vec<_> = files.map(|file| file.unwrap().path()).collect();
+    paths.sort();
+    let name = |path: &Path| path.file_name().unwrap().to_str().unwrap().to_owned();
+    paths.iter().map(|path| (name(path), fs::read_to_string(path).unwrap())).collect()
+}
+
+#[test]
+fn devices_answer_as_the_conversations_say() {
+    let spec = Spec::embedded().unwrap();
+    let mut failures = Vec::new();
+    for (name, text) in conversations() {
+        if let Err(failure) = conversation::play(&spec, &text) {
+            failures.push(format!("{FOLDER}/{name}:{failure}"));
+        }
+    }
+    assert!(failures.is_empty(), "\n{}", failures.join("\n\n"));
+}
+
+/// The other direction is a test of the spec: what a requirement names is there.
+#[test]
+fn requirements_name_the_conversations_that_show_them() {
+    let spec = Spec::embedded().unwrap();
+    let mut cited = BTreeSet::new();
+    for (name, text) in conversations() {
+        for id in conversation::shown(&text) {
+            let row = spec.requirement(id);
+            assert!(row.is_some(), "{name}: there is no requirement `{id}`");
+            let path = format!("conformance/{FOLDER}/{name}");
+            assert!(row.unwrap().tests.contains(&path), "{id} does not name {path}");
+            cited.insert(id.to_owned());
+        }
+    }
+    assert!(!cited.is_empty(), "no conversation names a requirement");
+}
+
+/// A wrong answer, a missing one, and one too many are told with file and line.
+#[test]
+fn a_conversation_can_fail() {
+    let spec = Spec::embedded().unwrap();
+    let play = |text: &str| conversation::play(&spec, &format!("bus ja40@1\n{text}"));
+    assert_eq!(play("> ping --id 1\n< status --id 1 params=5A1400\n> ping --id 2\n"), Ok(()));
+    for (text, line, words) in [
+        ("> ping --id 1\n< status --id 1 params=5A1401\n", 3, "5a 14 00"),
+        ("> ping --id 2\n< status --id 2 params=5A1400\n", 3, "nothing came"),
+        ("> ping --id 1\nwait 1 ms\n", 3, "that no line tells"),
+        ("> ping --id 1\n", 3, "that no line tells"),
+        ("> pong --id 1\n", 2, "pong"),
+        ("> ping --id 1 --reading x\n", 2, "--reading"),
+        ("wait 1 h\n", 2, "wait"),
+        ("hello\n", 2, "hello"),
+    ] {
+        let failure = play(text).unwrap_err();
+        assert!(failure.starts_with(&format!("{line}: ")), "{text}: {failure}");
+        assert!(failure.contains(words), "{text}: {failure}");
+    }
+}
