@@ -4,6 +4,7 @@ import sys
 import time
 
 from dynamixel_sdk import (
+    BROADCAST_ID,
     COMM_SUCCESS,
     DXL_HIBYTE,
     DXL_HIWORD,
@@ -15,6 +16,10 @@ from dynamixel_sdk import (
     PacketHandler,
     PortHandler,
 )
+from dynamixel_sdk import port_handler
+
+# A busy machine may wake the bus late; in ms.
+port_handler.LATENCY_TIMER = 500
 
 # Registers of the JA40: document §2.2 and §2.3.
 TORQUE_ENABLE = 512
@@ -102,7 +107,9 @@ def main():
     position = 116
     done(packets.regWriteTxRx(port, 3, position, 4, four(2048)))
     assert done(packets.read4ByteTxRx(port, 3, position)) != 2048
-    assert packets.action(port, 3) == COMM_SUCCESS
+    # To all devices, as the SDK does not read the answer to an Action: the next call takes it for its
+    # own (protocol2_packet_handler.py, txRxPacket: "no need to wait"; port_handler.py, clearPort).
+    assert packets.action(port, BROADCAST_ID) == COMM_SUCCESS
     assert done(packets.read4ByteTxRx(port, 3, position)) == 2048
     refused(packets.regWriteTxRx(port, 1, GOAL_POSITION, 4, four(0)), INSTRUCTION_ERROR)
     bulk = GroupBulkRead(port, packets)

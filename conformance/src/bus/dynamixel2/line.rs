@@ -65,7 +65,8 @@ impl Devices for Line {
 
     fn restart(&mut self, now: Duration) {
         for device in &mut self.devices {
-            device.reboot(now);
+            device.advance(now);
+            device.reboot();
         }
     }
 
