@@ -8,6 +8,7 @@
 mod folder;
 
 use std::fs;
+use std::path::Path;
 
 use actucheck_spec::Spec;
 
@@ -51,6 +52,13 @@ fn sentences(text: &str) -> Vec<Sentence> {
     }
     found.retain(|(_, text)| text.chars().any(char::is_alphanumeric));
     found
+}
+
+/// The documents that have a file, with its text.
+fn documents(spec: &Spec, folder: &Path) -> Vec<(String, String)> {
+    let documents = &spec.documents.content.documents;
+    let read = |file| fs::read_to_string(folder.join(file)).unwrap();
+    documents.iter().filter_map(|row| Some((row.id.clone(), read(row.file.as_ref()?)))).collect()
 }
 
 fn is_heading(line: &str) -> bool {
@@ -123,21 +131,20 @@ fn every_sentence_is_written_down_and_nothing_else() {
     let spec = Spec::embedded().unwrap();
     let Some(folder) = folder::documents() else { return };
     let mut faults = Vec::new();
-    for document in &spec.documents.content.documents {
-        let text = fs::read_to_string(folder.join(&document.file)).unwrap();
-        let file = spec.sentences_of(&document.id).unwrap();
+    for (document, text) in documents(&spec, &folder) {
+        let file = spec.sentences_of(&document).unwrap();
         let written: Vec<_> = file.sentences().map(|(_, row)| (row.line, row.hash)).collect();
         let printed: Vec<_> =
             sentences(&text).iter().map(|(line, text)| (*line, hash(text))).collect();
         let missing = printed.iter().filter(|row| !written.contains(row));
         faults.extend(missing.map(|(line, hash)| {
-            format!("{} line {line}: a sentence with hash {hash:#010x} is not there", document.id)
+            format!("{document} line {line}: a sentence with hash {hash:#010x} is not there")
         }));
         let extra = written.iter().filter(|row| !printed.contains(row));
         faults.extend(extra.map(|(line, hash)| {
-            format!("{} line {line}: no sentence has hash {hash:#010x}", document.id)
+            format!("{document} line {line}: no sentence has hash {hash:#010x}")
         }));
-        assert_eq!(written.len(), printed.len(), "{}", document.id);
+        assert_eq!(written.len(), printed.len(), "{document}");
     }
     assert!(faults.is_empty(), "\n{}", faults.join("\n"));
 }
@@ -146,10 +153,9 @@ fn every_sentence_is_written_down_and_nothing_else() {
 fn every_section_begins_on_its_line() {
     let spec = Spec::embedded().unwrap();
     let Some(folder) = folder::documents() else { return };
-    for document in &spec.documents.content.documents {
-        let text = fs::read_to_string(folder.join(&document.file)).unwrap();
+    for (document, text) in documents(&spec, &folder) {
         let lines: Vec<_> = text.lines().collect();
-        for section in &spec.sentences_of(&document.id).unwrap().sections {
+        for section in &spec.sentences_of(&document).unwrap().sections {
             // A heading that is not in English is followed by its meaning.
             let name = match section.section.rsplit_once(" (") {
                 Some((name, _)) if !name.is_ascii() => name,
@@ -157,7 +163,7 @@ fn every_section_begins_on_its_line() {
             };
             let line = lines[section.line - 1].replace(['*', '['], "");
             let is_first = section.line == 1 && section.level == 1;
-            assert!(line.contains(name) || is_first, "{} line {}", document.id, section.line);
+            assert!(line.contains(name) || is_first, "{document} line {}", section.line);
         }
     }
 }

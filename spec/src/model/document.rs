@@ -19,11 +19,19 @@ pub struct Document {
     pub title: String,
     /// The language that it is written in.
     pub language: String,
-    /// Name of its file.
-    pub file: String,
+    /// Name of its file, if the document was given to this project. `sentences/` has all of it then.
+    pub file: Option<String>,
+    /// Where it is public, if it is. Only facts are taken from it.
+    pub url: Option<String>,
 }
 
 impl Document {
+    /// Where it is: its file, or where it is public.
+    #[must_use]
+    pub fn place(&self) -> &str {
+        self.file.as_deref().or(self.url.as_deref()).unwrap_or_default()
+    }
+
     /// One of which nothing is known but what citations call it.
     #[must_use]
     pub(crate) fn own(id: &str) -> Self {
@@ -31,7 +39,8 @@ impl Document {
             id: id.to_owned(),
             title: id.to_owned(),
             language: String::new(),
-            file: String::new(),
+            file: None,
+            url: None,
         }
     }
 }

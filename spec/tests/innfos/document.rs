@@ -9,7 +9,8 @@ pub(crate) type Table = Vec<Vec<String>>;
 
 /// The document; if it is not available, prints a note and returns `None`.
 pub(crate) fn read(spec: &actucheck_spec::Spec) -> Option<String> {
-    let file = &spec.document("innfos").expect("no such document").file;
+    let document = spec.document("innfos").expect("no such document");
+    let file = document.file.as_ref().expect("the document has a file");
     let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/documents");
     let path = env::var_os("ACTUCHECK_DOCUMENTS").map_or_else(beside, PathBuf::from).join(file);
     let text = fs::read_to_string(&path).ok();

@@ -77,7 +77,8 @@ fn heading(line: &str) -> Option<(usize, String)> {
 pub(crate) fn read(spec: &Spec, ids: &[&str]) -> Option<Vec<Document>> {
     let folder = folder::documents()?;
     let documents = ids.iter().map(|id| {
-        let file = &spec.document(id).expect("documents.yaml has it").file;
+        let document = spec.document(id).expect("documents.yaml has it");
+        let file = document.file.as_ref().expect("the document has a file");
         let text = fs::read_to_string(folder.join(file)).expect("the document is there");
         Document::parse(id, &text)
     });

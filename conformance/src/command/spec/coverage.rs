@@ -93,7 +93,7 @@ fn matrix(spec: &Spec, rows: &[Row<'_>]) -> String {
             continue;
         }
         // Writing to a string can't fail.
-        let _ = writeln!(text, "{BOLD}{}{BOLD:#} ({})", document.title, document.file);
+        let _ = writeln!(text, "{BOLD}{}{BOLD:#} ({})", document.title, document.place());
         for (index, line) in table::lines("  ", &cells).iter().enumerate() {
             let _ = match index {
                 0 => writeln!(text, "{DIM}{line}{DIM:#}"),

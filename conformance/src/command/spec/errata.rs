@@ -78,7 +78,7 @@ fn place(spec: &Spec, row: &Erratum) -> String {
     if let (Some(document), false) = (spec.document(&row.source.document), lines.is_empty()) {
         let word = if lines.len() == 1 { "line" } else { "lines" };
         // Writing to a string can't fail.
-        let _ = write!(place, " ({} {word} {})", document.file, lines.join(", "));
+        let _ = write!(place, " ({} {word} {})", document.place(), lines.join(", "));
     }
     place
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use actucheck::names::similar;
 use actucheck_spec::Spec;
 use actucheck_spec::model::{
-    Citation, Device, Erratum, Register, Requirement, Vector, VectorsFile,
+    Citation, Device, Document, Erratum, Register, Requirement, Vector, VectorsFile,
 };
 use actucheck_spec::rests;
 use actucheck_spec::wire::{Ask, Wire};
@@ -119,7 +119,7 @@ impl Block {
         let files = spec.sentences.iter().map(|file| &file.content);
         let lines = files.flat_map(|file| {
             let own = file.sentences().filter(|(_, row)| row.of.iter().any(|of| of == id));
-            let name = spec.document(&file.document).map_or("", |document| &document.file);
+            let name = spec.document(&file.document).map_or("", Document::place);
             own.map(move |(_, row)| format!("{name} line {}: {} …", row.line, row.words))
         });
         self.lines("sentences", lines);
@@ -157,7 +157,7 @@ fn place(spec: &Spec, citation: &Citation) -> String {
         sections.and_then(|sections| sections.iter().find(|row| row.section == citation.section));
     let title = section.and_then(|row| row.title.as_ref());
     let title = title.map_or_else(String::new, |title| format!(" {title}"));
-    let file = spec.document(&citation.document).map_or("", |document| &document.file);
+    let file = spec.document(&citation.document).map_or("", Document::place);
     let line = section.map_or_else(String::new, |row| format!(" line {}", row.line));
     format!("{}{title} ({file}{line})", spec.place(citation))
 }
