@@ -7,7 +7,7 @@
 //!
 //! | to | see |
 //! |---|---|
-//! | read or set a register of a known device | [`ja40`], [`ja_variant`], [`xm430_w210`] |
+//! | read or set a register of a known device | [`ja40`], [`ja_variant`], [`xl330_m288`], [`xm430_w210`] |
 //! | do so with a device of your own | [`register`], and `codec/examples/own-device` |
 //! | read one packet, or find packets in a stream | [`dynamixel2::Frame`], [`dynamixel2::stream::Parser`] |
 //! | build an instruction, or answer one | [`dynamixel2::instruction`], [`dynamixel2::status`] |

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use std::sync::LazyLock;
 
 use actucheck_codec::register::{Access, Area, Device, Kind, RegisterError, Row};
-use actucheck_codec::{ja_variant, ja40, xm430_w210};
+use actucheck_codec::{ja_variant, ja40, xl330_m288, xm430_w210};
 use actucheck_spec::Spec;
 use actucheck_spec::model::{self, Type};
 use proptest::prelude::*;
@@ -17,8 +17,8 @@ type Held = HashMap<u16, i64>;
 static SPEC: LazyLock<Spec> = LazyLock::new(|| Spec::embedded().unwrap());
 
 /// Each device in the YAML, and as generated.
-fn devices() -> [(&'static model::Device, &'static Device); 3] {
-    [&ja40::DEVICE, &ja_variant::DEVICE, &xm430_w210::DEVICE]
+fn devices() -> [(&'static model::Device, &'static Device); 4] {
+    [&ja40::DEVICE, &ja_variant::DEVICE, &xl330_m288::DEVICE, &xm430_w210::DEVICE]
         .map(|device| (SPEC.device(device.id).unwrap(), device))
 }
 

@@ -135,7 +135,7 @@ fn every_instruction_has_words() {
             0x06 | 0x20 => "--id 1 option=1",
             0x82 | 0x8A => "--id 1,2 address=116 length=4",
             0x83 | 0x8B => "address=116 length=4 1:data=00000005 2:data=00000006",
-            0x92 => "--device xm430-w210 1:goal-position 2:present-voltage",
+            0x92 => "--device xm430-w210 1:goal-position 2:present-input-voltage",
             0x93 => "--device xm430-w210 1:goal-position=5 2:goal-velocity=1",
             code => panic!("no words for {code:#04X}"),
         };

@@ -262,6 +262,6 @@ fn wrong_usage_is_one_line_and_status_2() {
     }
     assert_eq!(
         spec(&["diff", "ja40", "nobody"]).2,
-        "actucheck: unknown device `nobody`; known are ja-variant, ja40, xm430-w210\n"
+        "actucheck: unknown device `nobody`; known are ja-variant, ja40, xl330-m288, xm430-w210\n"
     );
 }

@@ -11,13 +11,14 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use actucheck_codec::register::Device;
-use actucheck_codec::{ja_variant, ja40, xm430_w210};
+use actucheck_codec::{ja_variant, ja40, xl330_m288, xm430_w210};
 use actucheck_spec::{Spec, model};
 
 pub use self::choice::DeviceError;
 
 /// The devices of the spec.
-pub const KNOWN: [&Device; 3] = [&ja40::DEVICE, &ja_variant::DEVICE, &xm430_w210::DEVICE];
+pub const KNOWN: [&Device; 4] =
+    [&ja40::DEVICE, &ja_variant::DEVICE, &xl330_m288::DEVICE, &xm430_w210::DEVICE];
 
 /// A table without registers, for users who want none named.
 pub const NONE: Device = Device {

@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use actucheck_codec::dynamixel2::ErrorNumber;
 use actucheck_codec::dynamixel2::instruction::Read;
 use actucheck_codec::register::{self, Device, RegisterBlock, RegisterError, Row, Value};
-use actucheck_codec::{ja_variant, ja40, xm430_w210};
+use actucheck_codec::{ja_variant, ja40, xl330_m288, xm430_w210};
 use actucheck_spec::model::{
     self, Access, Bound, Condition, ErrataFile, Range, Register, Status, Type,
 };
@@ -16,8 +16,9 @@ use arbitrary::{Result, Unstructured};
 use crate::targets::shown;
 use crate::yaml;
 
-const DEVICES: [Device; 3] = [ja40::DEVICE, ja_variant::DEVICE, xm430_w210::DEVICE];
-static SAID: LazyLock<[model::Device; 3]> =
+const DEVICES: [Device; 4] =
+    [ja40::DEVICE, ja_variant::DEVICE, xl330_m288::DEVICE, xm430_w210::DEVICE];
+static SAID: LazyLock<[model::Device; 4]> =
     LazyLock::new(|| DEVICES.map(|device| yaml::read(&format!("devices/{}.yaml", device.id))));
 
 /// Ids of the open errata.

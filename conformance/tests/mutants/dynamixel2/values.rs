@@ -108,7 +108,7 @@ pub(super) static NUMBERS: [Mutant; 10] = [
                 _ => register_number(register, bytes),
             })
         }),
-        found_by: "xm430-w210.value.temperature-limit.255/read",
+        found_by: "xm430-w210.value.secondary-shadow-id.255/read",
         found_by_documents: false,
     },
 ];
