@@ -55,7 +55,10 @@ fn main() -> Result<()> {
     }
 
     let goals = [(1, 3000_u32), (2, 1500)];
-    bus.sync_write_u32(GOAL_POSITION, goals.map(|(motor_id, data)| SyncWriteData { motor_id, data }))?;
+    bus.sync_write_u32(
+        GOAL_POSITION,
+        goals.map(|(motor_id, data)| SyncWriteData { motor_id, data }),
+    )?;
     let read = bus.sync_read_u32(&[2, 1], GOAL_POSITION)?;
     let read: Vec<_> = read.iter().map(|response| (response.motor_id, response.data)).collect();
     check(read == [(2, 1500), (1, 3000)], "Sync Read")?;
