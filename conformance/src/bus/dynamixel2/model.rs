@@ -98,6 +98,8 @@ roles! {
     operating_mode: "Operating Mode",
     drive_mode: "Drive Mode",
     homing_offset: "Homing Offset",
+    max_voltage_limit: "Max Voltage Limit",
+    min_voltage_limit: "Min Voltage Limit",
     min_position_limit: "Min Position Limit",
     current_limit: "Current Limit",
     velocity_limit: "Velocity Limit",
@@ -118,6 +120,7 @@ roles! {
     present_position: "Present Position",
     velocity_trajectory: "Velocity Trajectory",
     position_trajectory: "Position Trajectory",
+    present_input_voltage: "Present Input Voltage",
     present_temperature: "Present Temperature",
 }
 

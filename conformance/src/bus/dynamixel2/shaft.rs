@@ -2,7 +2,7 @@
 //!
 //! The rules are those of the documents' control tables, by the registers' names. What no document
 //! tells is simple: temperature goes to 30 °C, and to 20 °C more at the velocity limit, within a few
-//! minutes.
+//! minutes. The voltage is in the middle of the limits.
 
 use std::time::Duration;
 
@@ -75,6 +75,7 @@ impl Asked {
 impl Shaft {
     /// A shaft at position 0.
     pub(super) fn new(memory: &mut Memory, model: &Model) -> Self {
+        supply(memory, model);
         let mut shaft = Self {
             motion: Motion::default(),
             now: Duration::ZERO,
@@ -292,6 +293,15 @@ pub(super) fn raise(memory: &mut Memory, model: &Model, bit: i64) {
     memory.set(roles.hardware_error_status, status);
     if memory.get(roles.shutdown).unwrap_or_default() & bit != 0 {
         memory.set(roles.torque_enable, 0);
+    }
+}
+
+/// Shows the voltage of the supply.
+fn supply(memory: &mut Memory, model: &Model) {
+    let roles = &model.roles;
+    let limits = memory.get(roles.min_voltage_limit).zip(memory.get(roles.max_voltage_limit));
+    if let Some((least, most)) = limits {
+        memory.set(roles.present_input_voltage, least.midpoint(most));
     }
 }
 
