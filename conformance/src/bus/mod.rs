@@ -60,6 +60,10 @@ trait Devices: Send {
 
     /// Whether bytes that were heard may be the beginning of a packet.
     fn is_within_packet(&self) -> bool;
+
+    /// How many of these bytes are one packet, if they are the next that are heard. A packet that has
+    /// begun, or what is none, comes byte by byte.
+    fn first(&self, bytes: &[u8]) -> usize;
 }
 
 /// No packet goes on after so long a pause.
@@ -169,6 +173,12 @@ impl VirtualBus {
     #[must_use]
     pub fn is_within_packet(&self) -> bool {
         self.devices.is_within_packet()
+    }
+
+    /// How many of some bytes to send next, so that no packet is sent together with what comes after it.
+    #[must_use]
+    pub fn first(&self, bytes: &[u8]) -> usize {
+        self.devices.first(bytes).min(bytes.len())
     }
 }
 

@@ -7,6 +7,7 @@ use std::os::fd::AsFd as _;
 use std::os::unix::net::UnixStream;
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::time::Duration;
 
 use actucheck::adapter::Wire;
 use actucheck::bus::{Fault, Place, Readings, Setup, VirtualBus};
@@ -178,11 +179,11 @@ fn watcher(options: &Bus) -> Result<Watcher, Failure> {
     let sink: Box<dyn Sink> = if options.json {
         Box::new(Lines { out, wire, show })
     } else {
-        Box::new(Text { out, wire, show, begin: None })
+        Box::new(Text { out, wire, show, begin: Some(Duration::ZERO) })
     };
     let wrong = is_quiet.then(|| {
         let out: Box<dyn Write> = Box::new(anstream::stderr());
-        Wrong::new(Text { out, wire, show: Show::Lines, begin: None })
+        Wrong::new(Text { out, wire, show: Show::Lines, begin: Some(Duration::ZERO) })
     });
     Watcher::new(wire, tables, Told::new(sink), wrong)
         .ok_or_else(|| Failure::usage(format!("streams of {wire} are not followed")))

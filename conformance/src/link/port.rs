@@ -4,7 +4,7 @@ use std::net::{SocketAddr, TcpListener};
 use std::path::Path;
 
 use super::LinkError;
-use super::channel::Channel;
+use super::channel::{Channel, Read};
 use super::net::{self, Udp};
 use super::pty::Pty;
 use super::stdio::Stdio;
@@ -34,6 +34,40 @@ pub(super) struct Host {
     /// No two have the same.
     pub(super) number: u64,
     pub(super) channel: Box<dyn Channel>,
+    /// What was read, and how much of it the bus has heard.
+    read: Vec<u8>,
+    heard: usize,
+}
+
+impl Host {
+    /// What the bus has not heard yet.
+    pub(super) fn waiting(&self) -> &[u8] {
+        self.read.get(self.heard..).unwrap_or_default()
+    }
+
+    /// Reads if nothing waits. Returns whether there may be more to come.
+    pub(super) fn fill(&mut self, buffer: &mut [u8]) -> bool {
+        if !self.waiting().is_empty() {
+            return true;
+        }
+        self.read.clear();
+        self.heard = 0;
+        match self.channel.read(buffer) {
+            Read::Bytes(count) => {
+                self.read.extend_from_slice(buffer.get(..count).unwrap_or_default());
+                true
+            }
+            Read::Nothing => true,
+            Read::End => false,
+        }
+    }
+
+    /// The next bytes that wait, so many.
+    pub(super) fn next(&mut self, count: usize) -> &[u8] {
+        let start = self.heard;
+        self.heard += count;
+        self.read.get(start..self.heard).unwrap_or_default()
+    }
 }
 
 /// Ports that lead to one line.
@@ -93,15 +127,13 @@ impl Links {
         }
     }
 
-    /// Writes what a host takes. The rest is lost, and counted.
-    pub(super) fn write(&mut self, host: Option<u64>, bytes: &[u8]) -> u64 {
-        let asker = self.hosts.iter_mut().find(|other| Some(other.number) == host);
-        let taken = asker.map_or(0, |asker| asker.channel.write(bytes));
-        bytes.len().saturating_sub(taken) as u64
+    pub(super) fn host(&mut self, number: u64) -> Option<&mut Host> {
+        self.hosts.iter_mut().find(|host| host.number == number)
     }
 
     fn join(&mut self, channel: Box<dyn Channel>) {
-        self.hosts.push(Host { number: self.count, channel });
+        let (read, heard) = (Vec::new(), 0);
+        self.hosts.push(Host { number: self.count, channel, read, heard });
         self.count += 1;
     }
 }

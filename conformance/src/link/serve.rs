@@ -1,14 +1,14 @@
 //! The loop.
 
-use std::os::fd::BorrowedFd;
-use std::time::Instant;
+use std::iter;
+use std::os::fd::{AsFd, BorrowedFd};
+use std::time::{Duration, Instant};
 
 use actucheck_spec::wire::Direction;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::io::Errno;
 
-use super::channel::Read;
-use super::port::Links;
+use super::port::{Host, Links};
 use super::turn::Turn;
 use super::{LinkError, Watch};
 use crate::bus::VirtualBus;
@@ -58,8 +58,7 @@ struct Line<'a> {
 struct Ready {
     stop: bool,
     listeners: Vec<usize>,
-    /// Their places.
-    hosts: Vec<usize>,
+    hosts: Vec<u64>,
 }
 
 impl Line<'_> {
@@ -67,80 +66,98 @@ impl Line<'_> {
     fn wait(&mut self, stop: BorrowedFd<'_>) -> Result<Ready, LinkError> {
         let now = self.start.elapsed();
         let free = Some(self.bus.free()).filter(|free| *free > now);
-        let wake = [free, self.bus.next(), self.turn.end].into_iter().flatten().min();
-        let limit = wake.and_then(|wake| Timespec::try_from(wake.saturating_sub(now)).ok());
         let Links { listeners, hosts, .. } = &self.links;
-        let is_heard = |place: &usize| {
-            let host = hosts.get(*place);
-            free.is_none() && host.is_some_and(|host| self.turn.admits(host.number))
-        };
-        let heard: Vec<_> = (0..hosts.len()).filter(is_heard).collect();
-        let sources = heard.iter().filter_map(|place| hosts.get(*place));
-        let mut polled: Vec<_> = [PollFd::from_borrowed_fd(stop, PollFlags::IN)]
-            .into_iter()
-            .chain(listeners.iter().map(|listener| PollFd::new(listener, PollFlags::IN)))
-            .chain(
-                sources.map(|host| PollFd::from_borrowed_fd(host.channel.source(), PollFlags::IN)),
-            )
+        let is_heard = |host: &&Host| free.is_none() && self.turn.admits(host.number);
+        let heard: Vec<_> = hosts.iter().filter(is_heard).collect();
+        let waits = |host: &&Host| !host.waiting().is_empty();
+        let at_once = heard.iter().any(waits).then_some(now);
+        let wake = [at_once, free, self.bus.next(), self.turn.end].into_iter().flatten().min();
+        let limit = wake.and_then(|wake| Timespec::try_from(wake.saturating_sub(now)).ok());
+        let sources = heard.iter().map(|host| host.channel.source());
+        let sources = listeners.iter().map(AsFd::as_fd).chain(sources);
+        let mut polled: Vec<_> = iter::once(stop)
+            .chain(sources)
+            .map(|it| PollFd::from_borrowed_fd(it, PollFlags::IN))
             .collect();
         match poll(&mut polled, limit.as_ref()) {
-            Ok(0) | Err(Errno::INTR) => return Ok(Ready::default()),
-            Ok(_) => {}
+            Ok(_) | Err(Errno::INTR) => {}
             Err(error) => return Err(LinkError::Wait(error.into())),
         }
-        let mut is_ready = polled.iter().map(|polled| !polled.revents().is_empty());
+        let mut polled = polled.iter().map(|polled| !polled.revents().is_empty());
+        let mut is_ready = || polled.next() == Some(true);
         Ok(Ready {
-            stop: is_ready.next().unwrap_or_default(),
-            listeners: (0..listeners.len()).filter(|_| is_ready.next() == Some(true)).collect(),
-            hosts: heard.into_iter().filter(|_| is_ready.next() == Some(true)).collect(),
+            stop: is_ready(),
+            listeners: (0..listeners.len()).filter(|_| is_ready()).collect(),
+            hosts: heard
+                .iter()
+                .filter(|host| is_ready() || waits(host))
+                .map(|host| host.number)
+                .collect(),
         })
     }
 
     /// Lets the bus hear hosts, and hands on what it has to say. Returns whether the bus goes on.
-    fn hear(&mut self, mut ready: Vec<usize>) -> bool {
-        self.answer();
+    fn hear(&mut self, mut ready: Vec<u64>) -> bool {
+        self.answer(&[], Duration::ZERO);
         if self.turn.expire(self.start.elapsed()) {
             self.watch.quiet();
         }
         // Who comes after the host that was heard last is first: so each comes to its turn.
         let last = self.turn.host;
-        ready.sort_by_key(|place| self.links.hosts.get(*place).map(|host| host.number) <= last);
-        let mut gone = Vec::new();
-        for place in ready {
-            let others = self.links.hosts.len() > 1;
-            let Some(host) = self.links.hosts.get_mut(place) else { continue };
-            let now = self.start.elapsed();
-            if self.bus.free() > now || !self.turn.admits(host.number) {
+        ready.sort_by_key(|number| Some(*number) <= last);
+        for number in ready {
+            if self.bus.free() > self.start.elapsed() || !self.turn.admits(number) {
                 continue;
             }
-            let may_split = host.channel.may_split();
-            // Others wait for the end of this packet, so nothing is read that comes after it.
-            let is_last = may_split && others && self.turn.end.is_some();
-            let length = if is_last { 1 } else { LONGEST };
-            let buffer = self.buffer.get_mut(..length).unwrap_or_default();
-            match host.channel.read(buffer) {
-                Read::Bytes(count) => {
-                    self.turn.heard(host.number, may_split, now);
-                    let bytes = self.buffer.get(..count).unwrap_or_default();
-                    self.bus.send(bytes, now);
-                    self.watch.passed(Direction::Request, bytes, now);
-                    self.answer();
+            let Some(host) = self.links.host(number) else { continue };
+            if !host.fill(&mut self.buffer) {
+                if host.channel.ends_the_bus() {
+                    return false;
                 }
-                Read::Nothing => {}
-                Read::End if host.channel.ends_the_bus() => return false,
-                Read::End => gone.push(host.number),
+                self.links.hosts.retain(|host| host.number != number);
+                continue;
             }
+            self.hear_host(number);
         }
-        self.links.hosts.retain(|host| !gone.contains(&host.number));
         true
     }
 
-    /// Hands on what devices have sent by now.
-    fn answer(&mut self) {
+    /// Lets the bus hear what a host has sent, packet by packet while the line is free. If others wait for
+    /// the end of a packet, what comes after it waits for them.
+    fn hear_host(&mut self, number: u64) {
+        let was_within_packet = self.turn.end.is_some();
+        loop {
+            let now = self.start.elapsed();
+            let Some(host) = self.links.host(number) else { return };
+            let count = self.bus.first(host.waiting());
+            if count == 0 || self.bus.free() > now {
+                return;
+            }
+            let (bytes, may_split) = (host.next(count).to_vec(), host.channel.may_split());
+            self.turn.heard(number, may_split, now);
+            self.bus.send(&bytes, now);
+            self.answer(&bytes, now);
+            if was_within_packet && self.turn.end.is_none() {
+                return;
+            }
+        }
+    }
+
+    /// Hands on what devices have sent by now. Only then is told what passed: what was `asked`, and the
+    /// answer.
+    fn answer(&mut self, asked: &[u8], then: Duration) {
         let bytes = self.bus.receive(self.start.elapsed());
         if !bytes.is_empty() {
-            self.lost += self.links.write(self.turn.host, &bytes);
-            self.watch.passed(Direction::Reply, &bytes, self.start.elapsed());
+            let host = self.turn.host.and_then(|number| self.links.host(number));
+            let taken = host.map_or(0, |host| host.channel.write(&bytes));
+            self.lost += bytes.len().saturating_sub(taken) as u64;
+        }
+        let at = self.start.elapsed();
+        if !asked.is_empty() {
+            self.watch.passed(Direction::Request, asked, then);
+        }
+        if !bytes.is_empty() {
+            self.watch.passed(Direction::Reply, &bytes, at);
         }
         self.turn.settle(self.bus);
     }

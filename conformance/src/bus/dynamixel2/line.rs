@@ -2,8 +2,9 @@
 
 use std::time::Duration;
 
+use actucheck_codec::dynamixel2::HEADER;
 use actucheck_codec::dynamixel2::stream::{Event, Parser};
-use actucheck_spec::wire::dynamixel2::reference::{HEADER, repair};
+use actucheck_spec::wire::dynamixel2::reference::repair;
 
 use super::super::{Chunk, Devices, QUIET};
 use super::device::VirtualDevice;
@@ -90,6 +91,17 @@ impl Devices for Line {
 
     fn is_within_packet(&self) -> bool {
         self.parser.pending() > 0
+    }
+
+    fn first(&self, bytes: &[u8]) -> usize {
+        let rest = bytes.strip_prefix(&HEADER).filter(|_| !self.is_within_packet());
+        match rest {
+            Some([_, low, high, ..]) => {
+                let length = u16::from_le_bytes([*low, *high]);
+                HEADER.len() + 3 + usize::from(length)
+            }
+            _ => 1,
+        }
     }
 }
 
