@@ -3,7 +3,8 @@
 //! [`suite`] makes [`suite::check::Check`]s from the spec. [`run`] asks them of a [`subject`] and
 //! judges the answers, and [`report`] writes the results for people and programs. [`blackbox`]
 //! looks for failures that no check foresees, and [`suite::saved`] keeps its findings.
-//! [`adapter::lint`] checks an adapter itself, before its library is checked.
+//! [`adapter::lint`] checks an adapter itself, before its library is checked. [`bus`] has virtual
+//! devices, and `link` the ports through which programs come to them.
 
 #![forbid(unsafe_code)]
 

@@ -39,6 +39,7 @@ fn run() -> Result<ExitCode, Failure> {
         Command::Fuzz(options) => command::fuzz::run(options),
         Command::Decode(options) => command::decode::run(options),
         Command::Encode(options) => command::encode::run(options),
+        #[cfg(unix)]
         Command::Bus(options) => command::bus::run(options),
         Command::List(options) => command::list::run(options),
         Command::Show(options) => command::show::run(options),

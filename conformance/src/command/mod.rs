@@ -1,6 +1,7 @@
 //! The command line: a file for each subcommand, with its options and what it does.
 
 pub(crate) mod adapter;
+#[cfg(unix)]
 pub(crate) mod bus;
 pub(crate) mod codec;
 pub(crate) mod completions;
@@ -36,6 +37,7 @@ pub(crate) enum Command {
     Fuzz(fuzz::Fuzz),
     Decode(decode::Decode),
     Encode(encode::Encode),
+    #[cfg(unix)]
     Bus(bus::Bus),
     List(list::List),
     Show(show::Show),

@@ -6,6 +6,7 @@
 mod hosts;
 mod line;
 mod ports;
+mod readme;
 mod refused;
 mod told;
 
