@@ -15,11 +15,12 @@ fn packet(id: u8, instruction_and_params: &[u8]) -> Vec<u8> {
 #[test]
 fn the_readme_shows_a_bus_as_it_is() {
     let readme = text(Path::new(env!("CARGO_MANIFEST_DIR")).join("../README.md"));
-    let line = readme.lines().find_map(|line| line.strip_prefix("$ actucheck bus ")).unwrap();
+    let begin = "$ actucheck bus ";
+    let words = readme.lines().find_map(|line| line.strip_prefix(begin)).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let link = folder.path().join("servos");
-    let line = line.replace("/tmp/servos", link.to_str().unwrap());
-    let mut bus = Bus::start(&line.split(' ').collect::<Vec<_>>());
+    let words = words.replace("/tmp/servos", link.to_str().unwrap());
+    let mut bus = Bus::start(&words.split(' ').collect::<Vec<_>>());
     let mut first = String::new();
     bus.out.read_line(&mut first).unwrap();
     let (path, rest) = first.trim_end().split_once(" (link ").unwrap();
