@@ -64,6 +64,26 @@ trait Devices: Send {
     /// How many of these bytes are one packet, if they are the next that are heard. A packet that has
     /// begun, or what is none, comes byte by byte.
     fn first(&self, bytes: &[u8]) -> usize;
+
+    /// What the devices do.
+    fn states(&mut self, now: Duration) -> Vec<DeviceState>;
+}
+
+/// What a device does, for who looks on. What it has no register for is `None`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DeviceState {
+    /// Its ID.
+    pub id: u8,
+    /// What it is.
+    pub name: &'static str,
+    /// Its position.
+    pub position: Option<i64>,
+    /// Where it is to go.
+    pub goal: Option<i64>,
+    /// Whether torque is on.
+    pub torque: Option<bool>,
+    /// Its hardware error status, 0 for none.
+    pub error: Option<i64>,
 }
 
 /// No packet goes on after so long a pause.
@@ -173,6 +193,12 @@ impl VirtualBus {
     #[must_use]
     pub fn is_within_packet(&self) -> bool {
         self.devices.is_within_packet()
+    }
+
+    /// What the devices do.
+    #[must_use]
+    pub fn devices(&mut self, now: Duration) -> Vec<DeviceState> {
+        self.devices.states(now)
     }
 
     /// How many of some bytes to send next, so that no packet is sent together with what comes after it.

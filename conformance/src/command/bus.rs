@@ -1,8 +1,9 @@
 //! `actucheck bus`.
 
+mod view;
 mod watcher;
 
-use std::io::{BufWriter, Write};
+use std::io::{BufWriter, IsTerminal as _, Write};
 use std::os::fd::AsFd as _;
 use std::os::unix::net::UnixStream;
 use std::path::PathBuf;
@@ -17,6 +18,7 @@ use clap::Args;
 
 use super::shared::stream::{Fitted, Lines, Show, Sink, Text, Told, width};
 use super::shared::{self, Failure};
+use view::View;
 use watcher::{Watcher, Wrong};
 
 const EXAMPLES: &str = "\
@@ -38,7 +40,8 @@ its port is full.
 
 The first lines of the output are the ports, one each: what it is, and its path or address. At Ctrl-C
 comes what passed in numbers, as of `actucheck decode --show summary`. What a host sends that no
-document allows is told at once on standard error, the first times that it happens.
+document allows is told at once on standard error, the first times that it happens. On a terminal,
+the devices are shown there as they are.
 
 Exit status: 0 ended by Ctrl-C or by the end of standard input, 2 wrong usage, 3 the output could not
 be written, 4 a port could not be opened.";
@@ -185,7 +188,8 @@ fn watcher(options: &Bus) -> Result<Watcher, Failure> {
         let out: Box<dyn Write> = Box::new(anstream::stderr());
         Wrong::new(Text { out, wire, show: Show::Lines, begin: Some(Duration::ZERO) })
     });
-    Watcher::new(wire, tables, Told::new(sink), wrong)
+    let view = (is_quiet && std::io::stderr().is_terminal()).then(View::default);
+    Watcher::new(wire, tables, Told::new(sink), wrong, view)
         .ok_or_else(|| Failure::usage(format!("streams of {wire} are not followed")))
 }
 

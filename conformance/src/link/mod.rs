@@ -14,11 +14,14 @@ mod stdio;
 mod turn;
 
 use std::io;
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::time::Duration;
 
 use actucheck_spec::wire::Direction;
 use thiserror::Error;
+
+use crate::bus::VirtualBus;
 
 pub use self::net::{Reach, address};
 pub use self::port::{Links, Port};
@@ -31,8 +34,10 @@ pub trait Watch {
     /// No packet goes on after the bytes that passed.
     fn quiet(&mut self);
 
-    /// Nothing passes until something else happens. Returns whether the bus goes on.
-    fn settled(&mut self) -> bool;
+    /// Nothing passes until something else happens. Returns when it wants to look again at the latest, if
+    /// it does, or that the bus ends.
+    fn settled(&mut self, bus: &mut VirtualBus, now: Duration)
+    -> ControlFlow<(), Option<Duration>>;
 }
 
 /// Why a port can't be opened, or is no more.

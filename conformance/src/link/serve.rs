@@ -1,6 +1,7 @@
 //! The loop.
 
 use std::iter;
+use std::ops::ControlFlow;
 use std::os::fd::{AsFd, BorrowedFd};
 use std::time::{Duration, Instant};
 
@@ -30,8 +31,8 @@ impl Links {
     ) -> Result<u64, LinkError> {
         let (start, turn, buffer) = (Instant::now(), Turn::default(), vec![0; LONGEST]);
         let mut line = Line { links: self, bus, watch, start, turn, buffer, lost: 0 };
-        while line.watch.settled() {
-            let ready = line.wait(stop)?;
+        while let ControlFlow::Continue(look) = line.watch.settled(line.bus, start.elapsed()) {
+            let ready = line.wait(stop, look)?;
             if ready.stop || !line.hear(ready.hosts) {
                 break;
             }
@@ -63,7 +64,7 @@ struct Ready {
 
 impl Line<'_> {
     /// Waits until a host that may be heard sends something, or it is time for something.
-    fn wait(&mut self, stop: BorrowedFd<'_>) -> Result<Ready, LinkError> {
+    fn wait(&mut self, stop: BorrowedFd<'_>, look: Option<Duration>) -> Result<Ready, LinkError> {
         let now = self.start.elapsed();
         let free = Some(self.bus.free()).filter(|free| *free > now);
         let Links { listeners, hosts, .. } = &self.links;
@@ -71,7 +72,8 @@ impl Line<'_> {
         let heard: Vec<_> = hosts.iter().filter(is_heard).collect();
         let waits = |host: &&Host| !host.waiting().is_empty();
         let at_once = heard.iter().any(waits).then_some(now);
-        let wake = [at_once, free, self.bus.next(), self.turn.end].into_iter().flatten().min();
+        let wake =
+            [at_once, free, look, self.bus.next(), self.turn.end].into_iter().flatten().min();
         let limit = wake.and_then(|wake| Timespec::try_from(wake.saturating_sub(now)).ok());
         let sources = heard.iter().map(|host| host.channel.source());
         let sources = listeners.iter().map(AsFd::as_fd).chain(sources);

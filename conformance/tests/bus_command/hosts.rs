@@ -24,8 +24,8 @@ fn a_host_may_close_its_port_and_come_back() {
 #[test]
 fn a_host_that_never_reads_stops_no_other() {
     let mut bus = Bus::start(&[ONE, TWO, "--pty", "--tcp", "0", "--tcp", "0"]);
-    let mut pty = bus.pty();
-    let [mut flooder, mut other] = ["tcp", "tcp"].map(|kind| connect(&bus.port(kind)));
+    let mut flooder = bus.pty();
+    let [mut one, mut other] = ["tcp", "tcp"].map(|kind| connect(&bus.port(kind)));
     let before = memory(&bus);
     let flooding = std::thread::spawn(move || {
         // As fast as it can, in pieces that cut packets anywhere.
@@ -36,7 +36,7 @@ fn a_host_that_never_reads_stops_no_other() {
         sent
     });
     for _ in 0..30 {
-        assert_eq!(ask(&mut pty, READ_2, STATUS_2.len()), STATUS_2);
+        assert_eq!(ask(&mut one, READ_2, STATUS_2.len()), STATUS_2);
         assert_eq!(ask(&mut other, READ, STATUS.len()), STATUS);
         sleep(Duration::from_millis(10));
     }
@@ -44,7 +44,7 @@ fn a_host_that_never_reads_stops_no_other() {
     assert!(grown < 8 << 10, "{grown} KiB more");
     let ended = bus.end();
     let sent = flooding.join().unwrap();
-    assert!(sent > 1 << 20, "{sent} bytes were sent");
+    assert!(sent > 100 << 10, "{sent} bytes were sent");
     // At most the packet that the end has cut.
     let skipped = ended.out.lines().filter(|line| line.starts_with("skipped")).count();
     assert!(skipped <= 1, "{}", ended.out);

@@ -9,6 +9,7 @@ mod ports;
 mod readme;
 mod refused;
 mod told;
+mod view;
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{BufRead as _, BufReader, Read, Write};
@@ -18,6 +19,7 @@ use std::path::Path;
 use std::process::{Child, ChildStdout, Command, Stdio};
 use std::time::{Duration, Instant};
 
+use actucheck_codec::crc;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::process::{Pid, Signal, kill_process};
 
@@ -136,6 +138,14 @@ fn answer(host: &mut (impl Read + AsFd), length: usize) -> Vec<u8> {
         read += host.read(&mut bytes[read..]).unwrap();
     }
     bytes
+}
+
+/// An instruction packet whose parameters need no stuffing.
+fn packet(id: u8, instruction_and_params: &[u8]) -> Vec<u8> {
+    let length = u16::try_from(instruction_and_params.len() + 2).unwrap().to_le_bytes();
+    let mut packet = [b"\xFF\xFF\xFD\x00", &[id][..], &length, instruction_and_params].concat();
+    packet.extend(crc::umts(&packet).to_le_bytes());
+    packet
 }
 
 /// Whether there is something to read within a time.

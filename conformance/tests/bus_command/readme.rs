@@ -1,16 +1,6 @@
 //! The README's example.
 
-use actucheck_codec::crc;
-
 use super::*;
-
-/// What the SDK sends for a call.
-fn packet(id: u8, instruction_and_params: &[u8]) -> Vec<u8> {
-    let length = u16::try_from(instruction_and_params.len() + 2).unwrap().to_le_bytes();
-    let mut packet = [b"\xFF\xFF\xFD\x00", &[id][..], &length, instruction_and_params].concat();
-    packet.extend(crc::umts(&packet).to_le_bytes());
-    packet
-}
 
 #[test]
 fn the_readme_shows_a_bus_as_it_is() {

@@ -1,16 +1,8 @@
 //! What is told of what passes.
 
-use actucheck_codec::crc;
 use serde_json::Value;
 
 use super::*;
-
-/// A Sync Read whose ID is a device's.
-fn to_one_device() -> Vec<u8> {
-    let mut packet = b"\xFF\xFF\xFD\x00\x01\x08\x00\x82\x84\x00\x04\x00\x01".to_vec();
-    packet.extend(crc::umts(&packet).to_le_bytes());
-    packet
-}
 
 #[test]
 fn what_no_document_allows_is_told_at_once_and_counted_later() {
@@ -22,8 +14,10 @@ fn what_no_document_allows_is_told_at_once_and_counted_later() {
         err.read_line(&mut line).unwrap();
         line
     };
+    // A Sync Read whose ID is a device's.
+    let sync_read = packet(1, b"\x82\x84\x00\x04\x00\x01");
     for _ in 0..5 {
-        ask(&mut host, &to_one_device(), 11);
+        ask(&mut host, &sync_read, 11);
     }
     for _ in 0..3 {
         assert!(line().contains("  instruction packet: Sync Read to device 1"));

@@ -10,6 +10,7 @@ use actucheck_codec::dynamixel2::{
 };
 use actucheck_codec::register::{Area, Row};
 
+use super::super::DeviceState;
 use super::memory::Memory;
 use super::model::Model;
 use super::readings::{BackupUnderTorque, OtherOptions, Readings, RegWriteAgain, Restore};
@@ -52,6 +53,20 @@ impl VirtualDevice {
     /// Whether it has a hardware error.
     pub(super) fn alert(&self) -> bool {
         self.memory.get(self.model.roles.hardware_error_status).is_some_and(|status| status != 0)
+    }
+
+    /// What it does at `now`.
+    pub(super) fn state(&mut self, now: Duration) -> DeviceState {
+        self.advance(now);
+        let (roles, value) = (&self.model.roles, |row| self.memory.get(row));
+        DeviceState {
+            id: self.id(),
+            name: self.model.table.name,
+            position: value(roles.present_position),
+            goal: value(roles.goal_position),
+            torque: value(roles.torque_enable).map(|torque| torque != 0),
+            error: value(roles.hardware_error_status),
+        }
     }
 
     /// The error byte of its status packets.

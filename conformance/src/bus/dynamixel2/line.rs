@@ -6,7 +6,7 @@ use actucheck_codec::dynamixel2::HEADER;
 use actucheck_codec::dynamixel2::stream::{Event, Parser};
 use actucheck_spec::wire::dynamixel2::reference::repair;
 
-use super::super::{Chunk, Devices, QUIET};
+use super::super::{Chunk, DeviceState, Devices, QUIET};
 use super::device::VirtualDevice;
 use super::hearing::Hearing;
 use super::readings::Readings;
@@ -102,6 +102,10 @@ impl Devices for Line {
             }
             _ => 1,
         }
+    }
+
+    fn states(&mut self, now: Duration) -> Vec<DeviceState> {
+        self.devices.iter_mut().map(|device| device.state(now)).collect()
     }
 }
 

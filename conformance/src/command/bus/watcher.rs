@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
+use std::ops::ControlFlow;
 use std::time::Duration;
 
 use actucheck::adapter::Wire;
-use actucheck::bus::QUIET;
+use actucheck::bus::{QUIET, VirtualBus};
 use actucheck::device::Tables;
 use actucheck::explain::stream::{Event, Follower};
 use actucheck::link::{Port, Watch};
@@ -13,27 +14,30 @@ use actucheck_spec::wire::Direction;
 
 use super::super::shared::Failure;
 use super::super::shared::stream::{Sink as _, Text, Told};
+use super::view::View;
 
 /// Hands on what passes, as packets.
 pub(super) struct Watcher {
     follower: Follower,
     told: Told,
     wrong: Option<Wrong>,
+    view: Option<View>,
     /// When bytes passed last.
     last: Duration,
 }
 
 impl Watcher {
-    /// Tells everything, and besides at once what is `wrong`. `None` for a wire whose streams are not
+    /// Tells everything, and besides at once what is `wrong`, and shows the devices. `None` for a wire whose streams are not
     /// followed.
     pub(super) fn new(
         wire: Wire,
         tables: Tables,
         told: Told,
         wrong: Option<Wrong>,
+        view: Option<View>,
     ) -> Option<Self> {
         let follower = Follower::new(wire, tables)?;
-        Some(Self { follower, told, wrong, last: Duration::ZERO })
+        Some(Self { follower, told, wrong, view, last: Duration::ZERO })
     }
 
     pub(super) fn begin(&mut self, ports: &[Port]) {
@@ -45,6 +49,9 @@ impl Watcher {
 
     pub(super) fn end(mut self, lost: u64) -> Result<(), Failure> {
         self.follow(|follower, take| follower.end(take));
+        if let Some(view) = &mut self.view {
+            view.erase();
+        }
         self.told.end()?;
         if lost > 0 {
             let s = if lost == 1 { "" } else { "s" };
@@ -54,11 +61,16 @@ impl Watcher {
     }
 
     fn follow(&mut self, act: impl FnOnce(&mut Follower, &mut dyn FnMut(Event<'_>))) {
-        let Self { follower, told, wrong, .. } = self;
+        let Self { follower, told, wrong, view, .. } = self;
         act(follower, &mut |event| {
             told.event(&event);
-            if let Some(wrong) = wrong {
-                wrong.event(&event);
+            if let Some(wrong) = wrong
+                && wrong.is_news(&event)
+            {
+                if let Some(view) = view {
+                    view.erase();
+                }
+                wrong.tell(&event);
             }
         });
     }
@@ -79,9 +91,19 @@ impl Watch for Watcher {
         self.follow(|follower, take| follower.pause(take));
     }
 
-    fn settled(&mut self) -> bool {
+    fn settled(
+        &mut self,
+        bus: &mut VirtualBus,
+        now: Duration,
+    ) -> ControlFlow<(), Option<Duration>> {
         self.told.write(|sink| sink.flush());
-        self.told.written.is_ok()
+        if self.told.written.is_err() {
+            return ControlFlow::Break(());
+        }
+        if let Some(view) = self.view.as_mut().filter(|view| view.next() <= now) {
+            view.show(&bus.devices(now), self.told.summary.total(), now);
+        }
+        ControlFlow::Continue(self.view.as_ref().map(View::next))
     }
 }
 
@@ -102,7 +124,7 @@ impl Wrong {
         Self { out, told: BTreeMap::new() }
     }
 
-    fn event(&mut self, event: &Event<'_>) {
+    fn is_news(&mut self, event: &Event<'_>) -> bool {
         let kinds: Vec<_> = match event {
             Event::Packet(_, turn) => {
                 turn.warnings.iter().map(|warning| warning.requirement).collect()
@@ -110,13 +132,16 @@ impl Wrong {
             Event::Skipped(skipped) => skipped.reason.split(": ").take(1).collect(),
             Event::Silent(_) => Vec::new(),
         };
-        if kinds.iter().filter(|kind| self.is_news(kind)).count() > 0 {
-            // Nobody is left to be told that nobody can be told.
-            let _: io::Result<()> = self.out.event(event);
-        }
+        // All of them are counted.
+        kinds.iter().filter(|kind| self.is_new(kind)).count() > 0
     }
 
-    fn is_news(&mut self, kind: &str) -> bool {
+    fn tell(&mut self, event: &Event<'_>) {
+        // Nobody is left to be told that nobody can be told.
+        let _: io::Result<()> = self.out.event(event);
+    }
+
+    fn is_new(&mut self, kind: &str) -> bool {
         if !self.told.contains_key(kind) && self.told.len() >= KINDS {
             return false;
         }
