@@ -35,16 +35,16 @@ Examples:
       one answer in a hundred has a wrong bit, and the fifth comes too late
   printf '\\xFF\\xFF\\xFD\\x00\\x01\\x03\\x00\\x01\\x19\\x4E' | actucheck bus ja40@1 --stdio | xxd
 
-All ports lead to one line. A host's answers go to that host; what it does not read is lost as soon as
-its port is full.
+All ports lead to one line. A host's answers go to that host; what it does not read is lost as
+soon as its port is full.
 
-The first lines of the output are the ports, one each: what it is, and its path or address. At Ctrl-C
-comes what passed in numbers, as of `actucheck decode --show summary`. What a host sends that no
-document allows is told at once on standard error, the first times that it happens. On a terminal,
-the devices are shown there as they are.
+The first lines of the output are the ports, one each: what it is, and its path or address. At
+Ctrl-C comes what passed in numbers, as of `actucheck decode --show summary`. What a host sends
+that no document allows is told at once on standard error, the first times that it happens. On a
+terminal, the devices are shown there as they are.
 
-Exit status: 0 ended by Ctrl-C or by the end of standard input, 2 wrong usage, 3 the output could not
-be written, 4 a port could not be opened.";
+Exit status: 0 ended by Ctrl-C or by the end of standard input, 2 wrong usage, 3 the output could
+not be written, 4 a port could not be opened.";
 
 /// Puts virtual devices on a bus that programs open as they open a serial port
 #[derive(Debug, Args)]

@@ -19,7 +19,7 @@ impl Failure {
     const USAGE: u8 = 2;
     /// Something could not be done.
     const INCOMPLETE: u8 = 3;
-    /// The adapter could not be started.
+    /// The adapter could not be started, or a port not be opened.
     pub(crate) const NOT_STARTED: u8 = 4;
 
     // Each takes one sentence that says what the user can do.
@@ -39,7 +39,7 @@ impl Failure {
         Self::new(Self::INCOMPLETE, &message)
     }
 
-    /// The adapter could not be started.
+    /// The adapter could not be started, or a port not be opened.
     pub(crate) fn not_started(message: impl Display) -> Self {
         Self::new(Self::NOT_STARTED, &message)
     }
