@@ -1,4 +1,4 @@
-//! What the documents leave open about devices, and the reading that is chosen.
+//! What the documents leave unspecified about devices, and the reading that is chosen.
 
 use std::str::FromStr;
 
