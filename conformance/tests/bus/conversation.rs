@@ -13,6 +13,7 @@
 //! Neither side is from the bus: both are composed from the spec.
 
 use std::collections::BTreeMap;
+use std::error::Error;
 use std::time::Duration;
 
 use actucheck::bus::{Place, Setup, VirtualBus};
@@ -200,6 +201,6 @@ fn time(text: &str) -> Option<Duration> {
     }
 }
 
-fn text(error: impl ToString) -> String {
-    error.to_string()
+fn text(error: impl Into<Box<dyn Error>>) -> String {
+    error.into().to_string()
 }

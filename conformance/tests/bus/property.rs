@@ -98,7 +98,7 @@ fn step() -> impl Strategy<Value = Step> {
 }
 
 /// A register that hosts may write, but no ID.
-fn writable<'s>(device: &'s Device, index: &Index) -> &'s Register {
+fn writable(device: &Device, index: Index) -> &Register {
     let is_meant = |row: &&Register| row.access == Access::Rw && row.name != "ID";
     let rows: Vec<_> = device.registers.iter().filter(is_meant).collect();
     rows[index.index(rows.len())]
@@ -113,14 +113,14 @@ fn bytes(spec: &Spec, step: &Step) -> Vec<u8> {
         Step::Packet { id, instruction, params } => packet(*id, *instruction, params.clone()),
         Step::Write { device, register, value, id } => {
             let device = spec.device(device.get::<&str>(&DEVICES)).unwrap();
-            let register = writable(device, register);
+            let register = writable(device, *register);
             let data = register_bytes(register, *value);
             packet(*id, 3, [&register.address.to_le_bytes()[..], &data].concat())
         }
         Step::FastWrite { register, value, ids } => {
-            let register = writable(spec.device("ja40").unwrap(), register);
+            let register = writable(spec.device("ja40").unwrap(), *register);
             let data = register_bytes(register, *value);
-            let length = u16::from(register.kind.size()).to_le_bytes();
+            let length = register.kind.size().to_le_bytes();
             let blocks = ids.iter().flat_map(|id| [&[*id], data.as_slice()].concat());
             let head = [register.address.to_le_bytes(), length].concat();
             packet(254, 0x8B, head.into_iter().chain(blocks).collect())
@@ -178,15 +178,20 @@ fn registers<'s>(
 ) -> BTreeMap<&'s str, i64> {
     let hold = |register: &'s Register| {
         let size = register.kind.size();
-        let params = [register.address.to_le_bytes(), u16::from(size).to_le_bytes()].concat();
+        let params = [register.address.to_le_bytes(), size.to_le_bytes()].concat();
         let read = Packet::Instruction { id, instruction: 2, params: HexBytes(params) };
         bus.send(&reference::encode(&read).unwrap(), now);
-        match reference::decode(&bus.receive(now)) {
-            Ok(Packet::Status { id: found, error, params }) if found == id && error & 0x7F == 0 => {
-                (register.name.as_str(), register_number(register, &params))
+        let answer = reference::decode(&bus.receive(now)).unwrap();
+        let params = match &answer {
+            Packet::Status { id: found, error, params }
+                if *found == id && matches!(error, 0 | 0x80) =>
+            {
+                Some(params)
             }
-            other => panic!("{} of device {id}: {other:?}", register.name),
-        }
+            _ => None,
+        };
+        assert!(params.is_some(), "{} of device {id}: {answer:?}", register.name);
+        (register.name.as_str(), register_number(register, params.unwrap()))
     };
     device.registers.iter().map(hold).collect()
 }

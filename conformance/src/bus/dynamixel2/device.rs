@@ -13,7 +13,7 @@ use actucheck_codec::register::{Area, Row};
 use super::super::DeviceState;
 use super::memory::Memory;
 use super::model::Model;
-use super::readings::{BackupUnderTorque, OtherOptions, Readings, RegWriteAgain, Restore};
+use super::readings::{BackupUnderTorque, OtherOptions, RegWriteAgain, Restore};
 use super::shaft::{self, Shaft};
 
 /// What an instruction came to: data for the status packet, or an error number.
@@ -31,16 +31,15 @@ pub struct VirtualDevice {
     registered: Option<(u16, Vec<u8>)>,
     /// The control table as Control Table Backup stored it.
     stored: Option<Memory>,
-    readings: Readings,
 }
 
 impl VirtualDevice {
     /// A device that has just got power, with its initial values.
-    pub(super) fn new(model: Arc<Model>, id: u8, readings: Readings) -> Self {
+    pub(super) fn new(model: Arc<Model>, id: u8) -> Self {
         let mut memory = Memory::new(Arc::clone(&model));
         memory.set(model.roles.id, id.into());
         let shaft = Shaft::new(&mut memory, &model);
-        Self { model, id, memory, shaft, registered: None, stored: None, readings }
+        Self { model, id, memory, shaft, registered: None, stored: None }
     }
 
     /// Its ID.
@@ -160,7 +159,8 @@ impl VirtualDevice {
     }
 
     fn register(&mut self, address: u16, data: &[u8]) -> Outcome {
-        if self.registered.is_some() && self.readings.reg_write_again == RegWriteAgain::Refuse {
+        if self.registered.is_some() && self.model.readings.reg_write_again == RegWriteAgain::Refuse
+        {
             return Err(ErrorNumber::ResultFail);
         }
         self.memory.check(address, data)?;
@@ -231,7 +231,7 @@ impl VirtualDevice {
 
     fn back_up(&mut self, backup: ControlTableBackup) -> Outcome {
         if self.memory.get(self.model.roles.torque_enable).unwrap_or_default() != 0 {
-            return Err(match self.readings.backup_under_torque {
+            return Err(match self.model.readings.backup_under_torque {
                 BackupUnderTorque::ResultFail => ErrorNumber::ResultFail,
                 BackupUnderTorque::AccessError => ErrorNumber::AccessError,
             });
@@ -244,7 +244,7 @@ impl VirtualDevice {
             }
             ControlTableBackupOption::Restore => {
                 let stored = self.stored.as_ref().ok_or(ErrorNumber::ResultFail)?;
-                let gains = self.readings.restore == Restore::All;
+                let gains = self.model.readings.restore == Restore::All;
                 let is_stored = |row: &Row| {
                     row.area == Area::Eeprom
                         || gains
@@ -262,7 +262,7 @@ impl VirtualDevice {
     }
 
     fn other_option(&self) -> Outcome {
-        match self.readings.other_options {
+        match self.model.readings.other_options {
             OtherOptions::DataRangeError => Err(ErrorNumber::DataRangeError),
             OtherOptions::NoError => Ok(Vec::new()),
         }

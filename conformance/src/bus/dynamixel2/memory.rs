@@ -7,6 +7,7 @@ use actucheck_codec::dynamixel2::ErrorNumber;
 use actucheck_codec::register::{Access, Area, Bound, Range as Limits, Row};
 
 use super::model::{self, Model};
+use super::readings::{LimitRange, OpenRanges};
 
 /// A control table with values.
 #[derive(Clone, Debug)]
@@ -155,11 +156,20 @@ impl Memory {
     }
 
     /// Whether a register may have the value that it has. If the documents don't settle its range, it
-    /// may have each value that they name, or all bits that they name.
+    /// may have each value that they name, or all bits that they name, or only what is printed.
     fn judge(&self, row: &Row) -> Result<(), ErrorNumber> {
         let value = self.value(row);
-        if row.settled {
-            row.check(value, |address| self.at(address)).map_err(|error| error.number())
+        let readings = self.model.readings;
+        if row.settled || readings.open_ranges == OpenRanges::Printed {
+            row.check(value, |address| self.at(address)).map_err(|error| match error.number() {
+                ErrorNumber::DataRangeError
+                    if row.name.ends_with("Limit")
+                        && readings.limit_range == LimitRange::DataLimitError =>
+                {
+                    ErrorNumber::DataLimitError
+                }
+                number => number,
+            })
         } else if row.value_name(value).is_some()
             || row.values.is_empty() && (row.bits.is_empty() || value & !named(row) == 0)
         {

@@ -32,11 +32,11 @@ pub(super) fn line(spec: &Spec, places: &[Place], setup: &Setup) -> Result<Line,
             let tables: Tables = place.device.parse()?;
             let known = tables.of(place.id).zip(tables.written(place.id, spec));
             let (table, written) = known.ok_or(PlaceError::None)?;
-            let model = Arc::new(Model::new(table, written));
+            let model = Arc::new(Model::new(table, written, setup.readings));
             models.insert(&place.device, (model, tables));
         }
         let Some((model, tables)) = models.get(&place.device) else { continue };
-        let mut device = VirtualDevice::new(Arc::clone(model), place.id, setup.readings);
+        let mut device = VirtualDevice::new(Arc::clone(model), place.id);
         if let Some(written) = tables.written(place.id, spec) {
             for word in &place.registers {
                 let (address, data) = compose::register(written, word)?;

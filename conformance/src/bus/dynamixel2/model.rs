@@ -5,6 +5,8 @@ use std::ops;
 use actucheck_codec::register::{Access, Bound, Device, Range, Row};
 use actucheck_spec::model;
 
+use super::readings::Readings;
+
 /// Counts in a turn of a device whose file does not tell them.
 const COUNTS_PER_TURN: u32 = 4096;
 
@@ -12,6 +14,8 @@ const COUNTS_PER_TURN: u32 = 4096;
 #[derive(Debug)]
 pub(super) struct Model {
     pub(super) table: &'static Device,
+    /// What is done where the documents leave something unspecified.
+    pub(super) readings: Readings,
     /// Counts of the position registers in a turn.
     pub(super) counts_per_turn: f64,
     /// The registers of the RAM area that a backup has.
@@ -105,6 +109,7 @@ roles! {
     velocity_limit: "Velocity Limit",
     pwm_limit: "PWM Limit",
     movement_duration: "Movement Duration",
+    profile_time: "Profile Time",
     profile_acceleration: "Profile Acceleration",
     profile_velocity: "Profile Velocity",
     goal_pwm: "Goal PWM",
@@ -126,7 +131,7 @@ roles! {
 
 impl Model {
     /// The device with this table, which `written` has as the spec or the user's file has it.
-    pub(super) fn new(table: &'static Device, written: &model::Device) -> Self {
+    pub(super) fn new(table: &'static Device, written: &model::Device, readings: Readings) -> Self {
         let named = |name: &String| table.register_named(name);
         let watch = |alarm: &model::Alarm| {
             let status = table.register_named("Hardware Error Status")?;
@@ -151,6 +156,7 @@ impl Model {
         }
         Self {
             table,
+            readings,
             counts_per_turn: written.counts_per_turn.unwrap_or(COUNTS_PER_TURN).into(),
             backup: written.backup.iter().filter_map(named).collect(),
             alarms: written.alarms.iter().filter_map(watch).collect(),

@@ -131,7 +131,7 @@ mod tests {
     #[test]
     fn without_a_bound_the_goal_is_reached_at_once() {
         let free = Bounds { velocity: f64::INFINITY, acceleration: f64::INFINITY };
-        assert_eq!(after(Task::GoTo(-9.0), free, 1e-6).position, -9.0);
+        assert_eq!(after(Task::GoTo(-9.0), free, 1e-6), Motion { position: -9.0, velocity: 0.0 });
         let fast = Bounds { velocity: 100.0, ..free };
         assert!(is_near(after(Task::GoTo(-50.0), fast, 0.2), -20.0, -100.0));
         assert!(is_near(after(Task::GoTo(-50.0), fast, 0.6), -50.0, 0.0));

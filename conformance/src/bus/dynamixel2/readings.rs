@@ -80,6 +80,38 @@ readings! {
         /// The EEPROM area.
         Eeprom: "eeprom",
     },
+    /// Which values a register takes whose range and description differ.
+    open_ranges: "open-ranges", "ja40.operating-mode.range", OpenRanges {
+        /// Those that are printed or described.
+        #[default]
+        Described: "described",
+        /// Those that are printed in the table.
+        Printed: "printed",
+    },
+    /// What answers a limit outside its own range.
+    limit_range: "limit-range", "ja40.invalid-value.error", LimitRange {
+        /// Data Range Error.
+        #[default]
+        DataRangeError: "data-range-error",
+        /// Data Limit Error.
+        DataLimitError: "data-limit-error",
+    },
+    /// What torque does on overheating if no register says it.
+    overheated: "overheated", "ja40.shutdown.effect", Overheated {
+        /// It stays on.
+        #[default]
+        TorqueOn: "torque-on",
+        /// It goes off.
+        TorqueOff: "torque-off",
+    },
+    /// The register that states the time of a movement with a time-based profile.
+    movement_time: "movement-time", "ja40.profile.time", MovementTime {
+        /// Profile Velocity.
+        #[default]
+        ProfileVelocity: "profile-velocity",
+        /// Profile Time.
+        ProfileTime: "profile-time",
+    },
     /// What answers an option that no document lists.
     other_options: "other-options", "dynamixel2.options.others", OtherOptions {
         /// Data Range Error.

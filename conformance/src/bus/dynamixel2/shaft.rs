@@ -9,8 +9,9 @@ use std::time::Duration;
 use actucheck_codec::register::Row;
 
 use super::memory::Memory;
-use super::model::{Model, Watch};
+use super::model::{Model, Watch, mask};
 use super::motion::{Bounds, Motion, Task};
+use super::readings::{MovementTime, Overheated};
 
 /// Values of Operating Mode.
 mod mode {
@@ -30,7 +31,7 @@ const COOL: f64 = 30.0;
 const WARMING: f64 = 20.0;
 /// Seconds in which the temperature goes most of the way.
 const WARM_UP: f64 = 60.0;
-/// Realtime Tick goes from 32,767 to 0 (JA40 document, §2.4.37).
+/// Realtime Tick goes from 32,767 to 0 (JA40 document, §2.4.23).
 const TICKS: u128 = 32_768;
 
 /// A shaft, as far as registers don't hold it.
@@ -286,12 +287,20 @@ impl Watch {
     }
 }
 
-/// Sets a bit of Hardware Error Status, and turns torque off if Shutdown says so.
+/// Sets a bit of Hardware Error Status, and turns torque off if Shutdown says so, or a reading where
+/// there is no Shutdown.
 pub(super) fn raise(memory: &mut Memory, model: &Model, bit: i64) {
     let roles = &model.roles;
     let status = memory.get(roles.hardware_error_status).unwrap_or_default() | bit;
     memory.set(roles.hardware_error_status, status);
-    if memory.get(roles.shutdown).unwrap_or_default() & bit != 0 {
+    let names = |name| {
+        roles.hardware_error_status.is_some_and(|row| {
+            row.bits.iter().any(|bits| bits.name == name && mask(bits.lowest, bits.width) == bit)
+        })
+    };
+    let overheated =
+        || model.readings.overheated == Overheated::TorqueOff && names("Overheating Error");
+    if memory.get(roles.shutdown).map_or_else(overheated, |bits| bits & bit != 0) {
         memory.set(roles.torque_enable, 0);
     }
 }
@@ -377,7 +386,13 @@ fn pace(way: f64, is_moving: bool, memory: &Memory, model: &Model) -> Option<Bou
         let time = memory.physical(row).filter(|(_, unit)| *unit == "ms");
         time.map(|(time, _)| time / 1000.0).filter(|time| *time > 0.0)
     };
-    let whole = seconds(roles.profile_velocity).or_else(|| seconds(roles.movement_duration))?;
+    let whole = match seconds(roles.profile_velocity) {
+        Some(_) if model.readings.movement_time == MovementTime::ProfileTime => {
+            seconds(roles.profile_time)?
+        }
+        Some(seconds) => seconds,
+        None => seconds(roles.movement_duration)?,
+    };
     let start = seconds(roles.profile_acceleration).filter(|_| !is_moving).unwrap_or(0.0);
     let start = start.min(whole / 2.0);
     let velocity = way / (whole - start);
