@@ -16,6 +16,9 @@ const LONGEST_YAML: u64 = 16 << 20;
 /// The most bytes of a report. Version 3 had every check in it.
 const LONGEST_JSON: u64 = 64 << 20;
 
+/// The most bytes of a `.model` file: twenty times those of the longest one that its maker has.
+const LONGEST_MODEL: u64 = 1 << 20;
+
 /// Why a file can't be read.
 #[derive(Debug, Error)]
 pub enum InputError {
@@ -49,6 +52,14 @@ pub enum InputError {
 /// If it can't be read.
 pub fn yaml_text(path: &Path) -> Result<String, InputError> {
     text(path, LONGEST_YAML)
+}
+
+/// The text of a `.model` file of a device.
+///
+/// # Errors
+/// If it can't be read.
+pub fn model_text(path: &Path) -> Result<String, InputError> {
+    text(path, LONGEST_MODEL)
 }
 
 /// The text of a JSON file.

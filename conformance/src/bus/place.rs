@@ -11,7 +11,7 @@ use crate::legible::{LONGEST_NAME, legible};
 /// A device on a bus, in words: `ja40@2:present-position=2000,torque-enable=1`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Place {
-    /// A device of the spec, or a YAML file like the spec's.
+    /// A device of the spec, a YAML file like the spec's, or a `.model` file.
     pub device: String,
     /// Its ID.
     pub id: u8,

@@ -27,6 +27,7 @@ Examples:
   actucheck decode --fast 4:1,2 fffffd00fe11005500 01d0070000 0c83 00 02 09000000 1140
       the packet that answers a Fast Sync Read of 4 bytes from devices 1 and 2
   actucheck decode --device 1=ja40,2=my-servo.yaml bus.log
+  actucheck decode --device xl430_w250.model bus.log
       registers have the names of these control tables; without --device, of the model that a
       device answers to Ping
   actucheck decode --wire innfos --direction request ee 06 0a 00 04 01 00 00 00 01 d8 ed

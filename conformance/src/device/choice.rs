@@ -1,16 +1,17 @@
 //! The words with which a user chooses control tables.
 
 use std::collections::BTreeMap;
+use std::fmt::Display;
 use std::path::Path;
 use std::rc::Rc;
 use std::str::FromStr;
 
 use actucheck_codec::register::Device;
-use actucheck_spec::{Diagnostic, Spec};
+use actucheck_spec::{Spec, model};
 use thiserror::Error;
 
 use super::table::{self, Absent};
-use super::{Bus, Chosen, KNOWN, NONE, Tables};
+use super::{Bus, Chosen, KNOWN, NONE, Tables, model_file};
 use crate::input::{self, InputError};
 use crate::legible::{LONGEST_TEXT, first_hidden, legible};
 use crate::names::nearest;
@@ -43,7 +44,7 @@ pub enum DeviceError {
     Defects(String),
 }
 
-/// `ja40`, `1=ja40,2=my-servo.yaml`, or `none`. A file is read once, and kept to the program's end.
+/// `ja40`, `1=ja40,2=my-servo.yaml,3=xl430_w250.model`, or `none`. A file is read once, and kept to the program's end.
 impl FromStr for Tables {
     type Err = DeviceError;
 
@@ -95,38 +96,63 @@ fn names() -> impl Iterator<Item = &'static Device> {
 
 fn is_file(name: &str) -> bool {
     let ending = Path::new(name).extension();
-    ending.is_some_and(|ending| ending == "yaml" || ending == "yml")
+    ending.is_some_and(|ending| ending == "yaml" || ending == "yml") || is_model_file(name)
+}
+
+fn is_model_file(name: &str) -> bool {
+    Path::new(name).extension().is_some_and(|ending| ending == "model")
 }
 
 fn unknown(name: &str) -> DeviceError {
     let ids = || names().map(|device| device.id.to_owned());
     let all = || {
-        format!("there are {}, and files that end in .yaml", ids().collect::<Vec<_>>().join(", "))
+        let ids = ids().collect::<Vec<_>>().join(", ");
+        format!("there are {ids}, and files that end in .yaml or .model")
     };
     let hint = nearest(name, ids()).map_or_else(all, |meant| format!("did you mean `{meant}`?"));
     DeviceError::Unknown { name: legible(name, LONGEST_TEXT), hint }
 }
 
-/// Reads a user's file, with the rules that the spec's own files keep.
+/// Reads a user's file.
 fn read(path: &str) -> Result<Chosen, DeviceError> {
-    let text = input::yaml_text(Path::new(path))?;
-    let spec = Spec::with_own_device(path, &text).map_err(|defects| told(&defects))?;
-    let absent = |Absent(name): Absent| DeviceError::Defects(format!("{path} has no {name}"));
-    let file = spec.devices.first().ok_or_else(|| absent(Absent("device".to_owned())))?;
-    let texts = serde_json::to_value(&file.content)
+    let (device, table) = if is_model_file(path) { model_file(path)? } else { yaml_file(path)? };
+    let texts = serde_json::to_value(&device)
         .map_err(|error| DeviceError::Defects(format!("{path}: {error}")))?;
     if let Some(text) = first_hidden(&texts, LONGEST_TEXT) {
         let message = format!("{path}: `{text}` is too long, or has characters that do not show");
         return Err(DeviceError::Defects(message));
     }
-    let table = table::of(&spec, &file.content).map_err(absent)?;
-    let file = Box::leak(Box::new(file.content.clone()));
-    Ok(Chosen { table: Box::leak(Box::new(table)), file: Some(file) })
+    let absent = |Absent(name)| DeviceError::Defects(format!("{path} has no {name}"));
+    let table = table.map_err(absent)?;
+    Ok(Chosen { table: Box::leak(Box::new(table)), file: Some(Box::leak(Box::new(device))) })
+}
+
+type File = (model::Device, Result<Device, Absent>);
+
+/// With the rules that the spec's own files keep.
+fn yaml_file(path: &str) -> Result<File, DeviceError> {
+    let text = input::yaml_text(Path::new(path))?;
+    let spec = Spec::with_own_device(path, &text).map_err(|defects| told(&defects))?;
+    let none = || DeviceError::Defects(format!("{path} has no device"));
+    let device = spec.devices.first().ok_or_else(none)?.content.clone();
+    let table = table::of(&|range| spec.settles(range), &device);
+    Ok((device, table))
+}
+
+fn model_file(path: &str) -> Result<File, DeviceError> {
+    let text = input::model_text(Path::new(path))?;
+    let id = Path::new(path).file_stem().map_or(path.into(), |stem| stem.to_string_lossy());
+    let line = |(line, message): model_file::Defect| format!("{path}:{line}: {message}");
+    let device = model_file::read(&id, &text)
+        .map_err(|defects| told(&defects.into_iter().map(line).collect::<Vec<_>>()))?;
+    // It has no ranges.
+    let table = table::of(&|_| true, &device);
+    Ok((device, table))
 }
 
 /// The first defects, a line each with its place.
-fn told(defects: &[Diagnostic]) -> DeviceError {
-    let line = |defect: &Diagnostic| legible(&defect.to_string(), LONGEST_TEXT);
+fn told<D: Display>(defects: &[D]) -> DeviceError {
+    let line = |defect: &D| legible(&defect.to_string(), LONGEST_TEXT);
     let mut lines: Vec<_> = defects.iter().take(TOLD).map(line).collect();
     if defects.len() > TOLD {
         lines.push(format!("and {} more", defects.len() - TOLD));

@@ -1,10 +1,12 @@
 //! The control tables that give registers their names: those of the spec, and users' own.
 //!
-//! A user chooses them with words: `ja40` for all devices, `1=ja40,2=my-servo.yaml` by ID, or `none`.
+//! A user chooses them with words: `ja40` for all devices, `1=ja40,2=my-servo.yaml` by ID, or `none`. A file
+//! is YAML as in the spec, or a `.model` file of the ROS 2 hardware interface for DYNAMIXEL devices.
 //! [`Tables`] know what was chosen, and beside that what devices answered to Ping. Nothing takes a
 //! register's name from a table that neither of them tells.
 
 mod choice;
+mod model_file;
 mod table;
 
 use std::collections::BTreeMap;

@@ -8,6 +8,10 @@ use actucheck_codec::register::{Access, Area, Bound, Range as Limits, Row};
 
 use super::model::{self, Model};
 use super::readings::{LimitRange, OpenRanges};
+use super::shaft::mode;
+
+/// The Status Return Level of devices that answer every instruction.
+const ANSWERS_ALL: i64 = 2;
 
 /// A control table with values.
 #[derive(Clone, Debug)]
@@ -42,12 +46,19 @@ impl Memory {
         }
     }
 
-    /// The initial value of a register for which the documents state none.
+    /// The initial value of a register for which the documents state none. A device that answers
+    /// nothing, or is in a mode that is not told, is no use to anybody.
     fn unstated(&self, row: &Row) -> i64 {
         let (min, max) = row.bounds(|address| self.at(address));
         let is_both_ways =
             matches!(row.range, Limits::Between { min: Bound::Register { negated: true, .. }, .. });
-        if row.name.starts_with("Goal") && is_both_ways { max } else { 0.clamp(min, max.max(min)) }
+        let value = match row.name {
+            "Status Return Level" => ANSWERS_ALL,
+            "Operating Mode" => mode::POSITION,
+            name if name.starts_with("Goal") && is_both_ways => max,
+            _ => 0,
+        };
+        value.clamp(min, max.max(min))
     }
 
     /// What a register holds.

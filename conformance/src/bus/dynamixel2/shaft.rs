@@ -4,6 +4,7 @@
 //! tells is simple: temperature goes to 30 °C, and to 20 °C more at the velocity limit, within a few
 //! minutes. The voltage is in the middle of the limits.
 
+use std::f64::consts::TAU;
 use std::time::Duration;
 
 use actucheck_codec::register::Row;
@@ -14,13 +15,13 @@ use super::motion::{Bounds, Motion, Task};
 use super::readings::{MovementTime, Overheated};
 
 /// Values of Operating Mode.
-mod mode {
-    pub(super) const CURRENT: i64 = 0;
-    pub(super) const VELOCITY: i64 = 1;
-    pub(super) const POSITION: i64 = 3;
-    pub(super) const EXTENDED_POSITION: i64 = 4;
-    pub(super) const CURRENT_BASED_POSITION: i64 = 5;
-    pub(super) const PWM: i64 = 16;
+pub(super) mod mode {
+    pub(in super::super) const CURRENT: i64 = 0;
+    pub(in super::super) const VELOCITY: i64 = 1;
+    pub(in super::super) const POSITION: i64 = 3;
+    pub(in super::super) const EXTENDED_POSITION: i64 = 4;
+    pub(in super::super) const CURRENT_BASED_POSITION: i64 = 5;
+    pub(in super::super) const PWM: i64 = 16;
 }
 
 /// Turns a second of a device whose table has no velocity limit.
@@ -350,6 +351,7 @@ fn velocity(memory: &Memory, model: &Model, row: Option<&'static Row>) -> Option
 fn scale(unit: &str, model: &Model) -> Option<f64> {
     match unit {
         "rev/min" => Some(model.counts_per_turn / 60.0),
+        "rad/s" => Some(model.counts_per_turn / TAU),
         "count/100 us" => Some(1e4),
         _ => None,
     }
