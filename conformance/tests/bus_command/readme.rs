@@ -30,6 +30,6 @@ fn the_readme_shows_a_bus_as_it_is() {
     assert!(readme.contains(&format!("# ({position}, 0, 0): Present Position")), "{position}");
     let ended = bus.end();
     let (summary, _) = ended.out.split_once("\ntime to answer: ").unwrap();
-    assert!(readme.contains(summary), "{summary}");
+    assert!(readme.contains(&format!("\n{summary}\ntime to answer: ")), "{summary}");
     assert_eq!(ended.err, "");
 }
