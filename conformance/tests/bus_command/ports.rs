@@ -3,7 +3,6 @@
 use std::fs;
 use std::net::UdpSocket;
 use std::os::unix::fs::symlink;
-use std::process::Stdio;
 
 use super::*;
 
@@ -42,19 +41,15 @@ fn several_ports_lead_to_the_same_devices() {
 
 #[test]
 fn standard_input_and_output_are_a_line_until_the_input_ends() {
-    let mut child = command(&[ONE, TWO, "--stdio", "--trace"]).spawn().unwrap();
-    let mut input = child.stdin.take().unwrap();
-    let mut output = child.stdout.take().unwrap();
+    let mut bus = Bus::start(&[ONE, TWO, "--stdio", "--trace"]);
+    let mut input = bus.child.stdin.take().unwrap();
     for _ in 0..2 {
         input.write_all(READ_2).unwrap();
-        assert_eq!(answer(&mut output, STATUS_2.len()), STATUS_2);
+        assert_eq!(answer(bus.out.get_mut(), STATUS_2.len()), STATUS_2);
     }
     drop(input);
-    assert_eq!(ended(&mut child), Some(0));
-    let (mut rest, mut err) = (Vec::new(), String::new());
-    output.read_to_end(&mut rest).unwrap();
-    child.stderr.take().unwrap().read_to_string(&mut err).unwrap();
-    assert_eq!(rest, b"");
+    let Ended { status, out, err } = bus.ended();
+    assert_eq!((status, out.as_str()), (Some(0), ""));
     assert!(err.contains("status packet of device 2: no error, answers the Read"), "{err}");
     assert!(err.contains("\n4 packets: 2 Read, 2 Status\n"), "{err}");
 }
@@ -62,15 +57,15 @@ fn standard_input_and_output_are_a_line_until_the_input_ends() {
 /// A pipe that is not read is full after 64 KiB.
 #[test]
 fn standard_output_that_nobody_reads_stops_nothing() {
-    let mut bus = command(&[ONE, "--stdio"]).stdin(Stdio::piped()).spawn().unwrap();
-    let mut input = bus.stdin.take().unwrap();
+    let mut bus = Bus::start(&[ONE, "--stdio"]);
+    let mut input = bus.child.stdin.take().unwrap();
     for _ in 0..100 {
         input.write_all(&READ.repeat(100)).unwrap();
     }
     drop(input);
-    assert_eq!(ended(&mut bus), Some(0));
+    assert_eq!(ended(&mut bus.child), Some(0));
     let mut err = String::new();
-    bus.stderr.take().unwrap().read_to_string(&mut err).unwrap();
+    bus.child.stderr.take().unwrap().read_to_string(&mut err).unwrap();
     assert!(err.contains("20000 packets: 10000 Read, 10000 Status\n"), "{err}");
     assert!(err.contains("lost: "), "{err}");
 }
