@@ -66,8 +66,17 @@ pub(super) enum OnDevice {
     OtherId,
     /// The devices lose their power and get it back; the answer is lost.
     Power,
-    /// The devices set a bit of Hardware Error Status after the answer.
-    Alarm(&'static str),
+    /// The devices have an alarm after the answer.
+    Alarm(Alarm),
+}
+
+/// What devices may have an alarm for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Alarm {
+    LowVoltage,
+    Overheating,
+    Overload,
+    Encoder,
 }
 
 /// The faults by name, in the order of the help.
@@ -94,22 +103,22 @@ const FAULTS: [(&str, What, &str); 16] = [
     ),
     (
         "low-voltage",
-        What::Device(OnDevice::Alarm("Input Voltage Error")),
+        What::Device(OnDevice::Alarm(Alarm::LowVoltage)),
         "after it the devices have this alarm, if they know it",
     ),
     (
         "overheating",
-        What::Device(OnDevice::Alarm("Overheating Error")),
+        What::Device(OnDevice::Alarm(Alarm::Overheating)),
         "after it the devices have this alarm, if they know it",
     ),
     (
         "overload",
-        What::Device(OnDevice::Alarm("Overload Error")),
+        What::Device(OnDevice::Alarm(Alarm::Overload)),
         "after it the devices have this alarm, if they know it",
     ),
     (
         "encoder",
-        What::Device(OnDevice::Alarm("Encoder Error")),
+        What::Device(OnDevice::Alarm(Alarm::Encoder)),
         "after it the devices have this alarm, if they know it",
     ),
 ];

@@ -19,18 +19,22 @@
 
 mod dynamixel2;
 mod fault;
+mod innfos;
+mod motion;
 mod place;
 
 use std::collections::VecDeque;
+use std::ops::RangeInclusive;
 use std::str::FromStr;
 use std::time::Duration;
 
 use actucheck_spec::Spec;
+use actucheck_spec::wire::{self, Wire};
 
 pub use self::dynamixel2::{ReadingError, Readings, VirtualDevice};
+use self::fault::{Alarm, Faults, OnDevice, What};
 pub use self::fault::{Fault, FaultError};
-use self::fault::{Faults, OnDevice, What};
-pub use self::place::{Place, PlaceError};
+pub use self::place::{Place, PlaceError, tables};
 
 /// Bytes that devices send, and when the first of them is there.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -50,7 +54,7 @@ trait Devices: Send {
     fn restart(&mut self, now: Duration);
 
     /// The devices that know this alarm have it from now on.
-    fn alarm(&mut self, name: &str);
+    fn alarm(&mut self, alarm: Alarm);
 
     /// Makes the answer one of another device, which is right in itself.
     fn rename(&self, answer: &mut [u8]);
@@ -69,28 +73,62 @@ trait Devices: Send {
     fn states(&mut self, now: Duration) -> Vec<DeviceState>;
 }
 
-/// What a device does, for who looks on. What it has no register for is `None`.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// What a device does, for who looks on. What it does not tell is `None`.
+#[derive(Clone, Debug, PartialEq)]
 pub struct DeviceState {
-    /// Its ID.
+    /// Its ID, or its address.
     pub id: u8,
     /// What it is.
     pub name: &'static str,
-    /// Its position.
-    pub position: Option<i64>,
-    /// Where it is to go.
-    pub goal: Option<i64>,
+    /// Its position, in counts or in turns as its wire has them.
+    pub position: Option<f64>,
+    /// Where it is to go, in the same.
+    pub goal: Option<f64>,
     /// Whether torque is on.
     pub torque: Option<bool>,
-    /// Its hardware error status, 0 for none.
+    /// Its hardware error status or its alarms, 0 for none.
     pub error: Option<i64>,
 }
+
+/// What a wire has for a bus.
+struct Own {
+    wire: Wire,
+    /// The IDs that its devices may have.
+    ids: RangeInclusive<u8>,
+    /// Whether its devices have control tables, which users may write themselves.
+    has_tables: bool,
+    /// Whether a device of this name is on it.
+    knows: fn(&str) -> bool,
+    /// Puts devices on it, at least one.
+    connect: Connect,
+}
+
+type Connect = fn(&Spec, &[Place], &Setup) -> Result<Box<dyn Devices>, PlaceError>;
+
+/// The wires whose devices there are. The last has all names that no other knows.
+static WIRES: [Own; 2] = [
+    Own {
+        wire: wire::innfos::WIRE,
+        ids: innfos::ADDRESSES,
+        has_tables: false,
+        knows: innfos::knows,
+        connect: innfos::board,
+    },
+    Own {
+        wire: wire::dynamixel2::WIRE,
+        ids: 0..=dynamixel2::LARGEST_ID,
+        has_tables: true,
+        knows: |_| true,
+        connect: dynamixel2::line,
+    },
+];
 
 /// No packet goes on after so long a pause.
 pub const QUIET: Duration = Duration::from_millis(100);
 
 /// Devices on a bus.
 pub struct VirtualBus {
+    wire: Wire,
     devices: Box<dyn Devices>,
     echo: bool,
     faults: Faults,
@@ -103,7 +141,7 @@ pub struct VirtualBus {
 pub struct Setup {
     /// What is done where the documents leave something open.
     pub readings: Readings,
-    /// The rate of the line in bit/s; bytes take no time if it is `None`.
+    /// The rate of the line in bit/s; bytes take no time if it is `None`. A network has none.
     pub rate: Option<u32>,
     /// Whether a host hears what it sends, as with most adapters for a line of one wire.
     pub echo: bool,
@@ -117,12 +155,19 @@ impl VirtualBus {
     /// A bus with these devices, which have just got power.
     ///
     /// # Errors
-    /// If a device or a register is not known, or there is none.
+    /// If a device or a register is not known, there is no device, or they are of two wires.
     pub fn new(spec: &Spec, places: &[Place], setup: Setup) -> Result<Self, PlaceError> {
-        let devices = Box::new(dynamixel2::line(spec, places, &setup)?);
+        let own = place::wire(places)?;
+        let (wire, devices) = (own.wire, (own.connect)(spec, places, &setup)?);
         let Setup { echo, faults, seed, .. } = setup;
         let (faults, coming) = (Faults::new(faults, seed), VecDeque::new());
-        Ok(Self { devices, echo, faults, coming })
+        Ok(Self { wire, devices, echo, faults, coming })
+    }
+
+    /// The wire of its devices.
+    #[must_use]
+    pub const fn wire(&self) -> Wire {
+        self.wire
     }
 
     /// Takes what a host sends.
@@ -146,13 +191,15 @@ impl VirtualBus {
             match fault {
                 What::Line(fault) => self.faults.strike(fault, &mut pieces),
                 What::Device(OnDevice::OtherId) => {
-                    pieces.iter_mut().for_each(|piece| self.devices.rename(&mut piece.bytes));
+                    for piece in &mut pieces {
+                        self.devices.rename(&mut piece.bytes);
+                    }
                 }
                 What::Device(OnDevice::Power) => {
                     pieces.clear();
                     self.devices.restart(now);
                 }
-                What::Device(OnDevice::Alarm(name)) => self.devices.alarm(name),
+                What::Device(OnDevice::Alarm(alarm)) => self.devices.alarm(alarm),
             }
         }
         pieces

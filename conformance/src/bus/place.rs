@@ -4,18 +4,19 @@ use std::str::FromStr;
 
 use thiserror::Error;
 
+use super::{Own, WIRES};
 use crate::compose::{ComposeError, Word};
-use crate::device::DeviceError;
+use crate::device::{DeviceError, Tables};
 use crate::legible::{LONGEST_NAME, legible};
 
-/// A device on a bus, in words: `ja40@2:present-position=2000,torque-enable=1`.
+/// A device on a bus, in words: `ja40@2:present-position=2000,torque-enable=1`, `dd-6010@6`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Place {
-    /// A device of the spec, a YAML file like the spec's, or a `.model` file.
+    /// A device of the spec, a YAML file like the spec's, a `.model` file, or a model of actuator.
     pub device: String,
-    /// Its ID.
+    /// Its ID, or its address.
     pub id: u8,
-    /// What registers hold at the beginning.
+    /// What registers hold at the beginning, or what commands read.
     pub registers: Vec<Word>,
 }
 
@@ -26,8 +27,21 @@ pub enum PlaceError {
     #[error("`{0}` is no device with its ID; write it as ja40@1 or ja40@1:goal-position=2000")]
     Form(String),
     /// No device may have the ID.
-    #[error("`{0}` has no ID from 0 to 252 after the @")]
-    Id(String),
+    #[error("`{text}` has no ID from {min} to {max} after the @")]
+    Id {
+        /// The words.
+        text: String,
+        /// The smallest ID.
+        min: u8,
+        /// The largest ID.
+        max: u8,
+    },
+    /// Two devices can't be on one bus.
+    #[error("`{0}` and `{1}` are not of one wire; give each a bus of its own")]
+    Wires(String, String),
+    /// The wire has no rate.
+    #[error("a board is on a network, which has no such rate; take --realtime away")]
+    Rate,
     /// There is no device.
     #[error("a bus needs a device; write it as ja40@1")]
     None,
@@ -52,8 +66,10 @@ impl FromStr for Place {
             Some((id, registers)) => (id, registers.split(',').collect()),
             None => (rest, Vec::new()),
         };
-        let id = id.parse().ok().filter(|id| *id <= LARGEST_ID);
-        let id = id.ok_or_else(|| PlaceError::Id(shown()))?;
+        let ids = &own(device).ids;
+        let (min, max) = (*ids.start(), *ids.end());
+        let id = id.parse().ok().filter(|id| ids.contains(id));
+        let id = id.ok_or_else(|| PlaceError::Id { text: shown(), min, max })?;
         let word = |text: &str| {
             let Ok(word) = text.parse::<Word>();
             let is_whole = word.value.is_some() && word.id.is_none();
@@ -64,5 +80,31 @@ impl FromStr for Place {
     }
 }
 
-/// The largest ID of a device.
-const LARGEST_ID: u8 = 252;
+/// The wire on which there are devices of this name.
+fn own(device: &str) -> &'static Own {
+    let [.., last] = &WIRES;
+    WIRES.iter().find(|own| (own.knows)(device)).unwrap_or(last)
+}
+
+/// The one wire of devices.
+pub(super) fn wire(places: &[Place]) -> Result<&'static Own, PlaceError> {
+    let first = places.first().ok_or(PlaceError::None)?;
+    let wire = own(&first.device);
+    match places.iter().find(|place| own(&place.device).wire != wire.wire) {
+        None => Ok(wire),
+        Some(other) => Err(PlaceError::Wires(first.device.clone(), other.device.clone())),
+    }
+}
+
+/// The control tables of the devices that have one, by ID. Of two with the same ID, the first.
+///
+/// # Errors
+/// If a device is not known.
+pub fn tables(places: &[Place]) -> Result<Tables, DeviceError> {
+    let mut places: Vec<_> = places.iter().filter(|place| own(&place.device).has_tables).collect();
+    places.sort_by_key(|place| place.id);
+    places.dedup_by_key(|place| place.id);
+    let words = places.iter().map(|Place { id, device, .. }| format!("{id}={device}"));
+    let words: Vec<_> = words.collect();
+    if words.is_empty() { Ok(Tables::default()) } else { words.join(",").parse() }
+}

@@ -11,8 +11,7 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use actucheck::adapter::Wire;
-use actucheck::bus::{Fault, Place, Readings, Setup, VirtualBus};
-use actucheck::device::Tables;
+use actucheck::bus::{Fault, Place, Readings, Setup, VirtualBus, tables};
 use actucheck::link::{LinkError, Links, Port, Reach, address};
 use clap::Args;
 
@@ -29,6 +28,8 @@ Examples:
       two devices, one of which stands elsewhere, behind a path that is always the same
   actucheck bus my-servo.yaml@7 --tcp 7777 --udp 127.0.0.1:0 --trace
       a device of your own behind two sockets, and a line for each packet that passes
+  actucheck bus qdd-3510-36@6 dd-6010@7 --udp 2000
+      two actuators with their addresses, behind a board that answers as the vendor's does
   actucheck bus ja40@1 --realtime --baud 57600
       bytes take as long as on a line of that rate
   actucheck bus ja40@1 --echo --fault flip:0.01 --fault late=200ms#5 --seed 7
@@ -51,7 +52,8 @@ not be written, 4 a port could not be opened.";
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Bus {
     /// The devices, each with its ID and, if they are to begin with others than the document's, values
-    /// of registers. A device is one that `actucheck decode --device` knows, or a YAML file
+    /// of registers. A device is one that `actucheck decode --device` knows, a YAML file, or a model that
+    /// `actucheck encode --actuator` knows
     #[arg(required = true, value_name = "DEVICE@ID[:REGISTER=VALUE,…]")]
     devices: Vec<Place>,
     #[command(flatten)]
@@ -157,21 +159,15 @@ pub(crate) fn run(options: &Bus) -> Result<ExitCode, Failure> {
     })?;
     let mut links = Links::default();
     let ports = options.ports.open(&mut links).map_err(failure)?;
-    let mut watcher = watcher(options)?;
+    let mut watcher = watcher(options, bus.wire())?;
     watcher.begin(&ports);
     let lost = links.serve(&mut bus, stopped.as_fd(), &mut watcher).map_err(failure)?;
     watcher.end(lost)?;
     Ok(ExitCode::SUCCESS)
 }
 
-fn watcher(options: &Bus) -> Result<Watcher, Failure> {
-    let wire = Wire::default();
-    let mut ids: Vec<_> =
-        options.devices.iter().map(|place| (place.id, place.device.as_str())).collect();
-    ids.sort_unstable();
-    ids.dedup_by_key(|(id, _)| *id);
-    let words: Vec<_> = ids.iter().map(|(id, device)| format!("{id}={device}")).collect();
-    let tables: Tables = words.join(",").parse().map_err(Failure::usage)?;
+fn watcher(options: &Bus, wire: Wire) -> Result<Watcher, Failure> {
+    let tables = tables(&options.devices).map_err(Failure::usage)?;
     let out: Box<dyn Write> = if options.ports.stdio {
         Box::new(BufWriter::new(anstream::stderr()))
     } else {

@@ -14,7 +14,7 @@ use super::super::DeviceState;
 use super::memory::Memory;
 use super::model::Model;
 use super::readings::{BackupUnderTorque, OtherOptions, RegWriteAgain, Restore};
-use super::shaft::{self, Shaft};
+use super::shaft::{self, Shaft, real};
 
 /// What an instruction came to: data for the status packet, or an error number.
 pub(super) type Outcome = Result<Vec<u8>, ErrorNumber>;
@@ -61,8 +61,8 @@ impl VirtualDevice {
         DeviceState {
             id: self.id(),
             name: self.model.table.name,
-            position: value(roles.present_position),
-            goal: value(roles.goal_position),
+            position: value(roles.present_position).map(real),
+            goal: value(roles.goal_position).map(real),
             torque: value(roles.torque_enable).map(|torque| torque != 0),
             error: value(roles.hardware_error_status),
         }

@@ -6,13 +6,13 @@ use actucheck_codec::dynamixel2::HEADER;
 use actucheck_codec::dynamixel2::stream::{Event, Parser};
 use actucheck_spec::wire::dynamixel2::reference::repair;
 
+use super::super::fault::Alarm;
 use super::super::{Chunk, DeviceState, Devices, QUIET};
+use super::LARGEST_ID;
 use super::device::VirtualDevice;
 use super::hearing::Hearing;
 use super::readings::Readings;
 
-/// The largest ID of a device.
-const LARGEST_ID: u8 = 252;
 /// Bits of a byte on the line: a start bit, the byte, a stop bit.
 const BITS: u64 = 10;
 /// Blocks of 64 bytes: the longest packet that the length field can say.
@@ -71,7 +71,13 @@ impl Devices for Line {
         }
     }
 
-    fn alarm(&mut self, name: &str) {
+    fn alarm(&mut self, alarm: Alarm) {
+        let name = match alarm {
+            Alarm::LowVoltage => "Input Voltage Error",
+            Alarm::Overheating => "Overheating Error",
+            Alarm::Overload => "Overload Error",
+            Alarm::Encoder => "Encoder Error",
+        };
         for device in &mut self.devices {
             device.alarm(name);
         }

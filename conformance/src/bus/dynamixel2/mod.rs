@@ -5,7 +5,6 @@ mod hearing;
 mod line;
 mod memory;
 mod model;
-mod motion;
 mod readings;
 mod shaft;
 
@@ -14,7 +13,7 @@ use std::sync::Arc;
 
 use actucheck_spec::Spec;
 
-use super::{Place, PlaceError, Setup};
+use super::{Devices, Place, PlaceError, Setup};
 use crate::compose;
 use crate::device::Tables;
 use line::Line;
@@ -23,8 +22,15 @@ use model::Model;
 pub use device::VirtualDevice;
 pub use readings::{ReadingError, Readings};
 
+/// The largest ID of a device.
+pub(super) const LARGEST_ID: u8 = 252;
+
 /// A line with devices.
-pub(super) fn line(spec: &Spec, places: &[Place], setup: &Setup) -> Result<Line, PlaceError> {
+pub(super) fn line(
+    spec: &Spec,
+    places: &[Place],
+    setup: &Setup,
+) -> Result<Box<dyn Devices>, PlaceError> {
     let mut models = BTreeMap::new();
     let mut devices = Vec::new();
     for place in places {
@@ -45,8 +51,5 @@ pub(super) fn line(spec: &Spec, places: &[Place], setup: &Setup) -> Result<Line,
         }
         devices.push(device);
     }
-    if devices.is_empty() {
-        return Err(PlaceError::None);
-    }
-    Ok(Line::new(devices, setup.readings, setup.rate))
+    Ok(Box::new(Line::new(devices, setup.readings, setup.rate)))
 }

@@ -9,9 +9,9 @@ use std::time::Duration;
 
 use actucheck_codec::register::Row;
 
+use super::super::motion::{Bounds, Motion, Task};
 use super::memory::Memory;
 use super::model::{Model, Watch, mask};
-use super::motion::{Bounds, Motion, Task};
 use super::readings::{MovementTime, Overheated};
 
 /// Values of Operating Mode.
@@ -409,6 +409,6 @@ fn bits(memory: &Memory, row: Option<&'static Row>, name: &str) -> Option<i64> {
 }
 
 #[allow(clippy::cast_precision_loss)] // registers have no more than 32 bits
-fn real(value: i64) -> f64 {
+pub(super) fn real(value: i64) -> f64 {
     value as f64
 }

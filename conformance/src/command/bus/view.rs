@@ -64,7 +64,8 @@ impl View {
 fn lines(devices: &[DeviceState], rate: f64) -> Vec<String> {
     let head = ["ID", "device", "position", "goal", "torque", "hardware error"];
     let mut rows = vec![head.map(str::to_owned)];
-    let number = |value: Option<i64>| value.map_or("-".to_owned(), |value| value.to_string());
+    let number = |value: Option<f64>| value.map_or("-".to_owned(), |value| value.to_string());
+    let error = |error: Option<i64>| error.map_or("-".to_owned(), |error| error.to_string());
     rows.extend(devices.iter().take(SHOWN).map(|device| {
         let torque = device.torque.map_or("-", |torque| if torque { "on" } else { "off" });
         [
@@ -73,7 +74,7 @@ fn lines(devices: &[DeviceState], rate: f64) -> Vec<String> {
             number(device.position),
             number(device.goal),
             torque.to_owned(),
-            number(device.error),
+            error(device.error),
         ]
     }));
     let mut lines = table::lines("", &rows);

@@ -2,7 +2,8 @@
 //!
 //! The velocity goes towards what mode and goal ask for, by the profile's acceleration, and stays under
 //! the profile's velocity and the limits. Current and PWM are in proportion to the velocity: a device
-//! that turns at its velocity limit needs its current limit. Torque off holds the position.
+//! that turns at its velocity limit needs its current limit. Torque off holds the position. A count is
+//! what the device counts its position in.
 
 use std::time::Duration;
 
