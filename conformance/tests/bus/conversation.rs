@@ -10,20 +10,21 @@
 //! ```
 //!
 //! `--flip BYTE.BIT`, `--cut BYTE` and `--drop BYTE` damage a packet, as `actucheck encode` does.
-//! Neither side is from the bus: both are composed from the spec.
+//! Neither side is from the bus: both are composed from the spec. Where commands are read and written,
+//! values are fractions of the full scale of the actuator with that address.
 
 use std::collections::BTreeMap;
 use std::error::Error;
 use std::time::Duration;
 
-use actucheck::bus::{Place, Setup, VirtualBus};
+use actucheck::bus::{Place, Setup, VirtualBus, tables};
 use actucheck::compose::damage::Damage;
 use actucheck::compose::{Phrase, Word, compose};
 use actucheck::device::Tables;
 use actucheck::explain::{Asked, explain};
 use actucheck_spec::Spec;
 use actucheck_spec::model::HexBytes;
-use actucheck_spec::wire::{Context, Direction, dynamixel2};
+use actucheck_spec::wire::{Context, Direction};
 
 /// The requirements that a text's comments name.
 pub(crate) fn shown(text: &str) -> impl Iterator<Item = &str> {
@@ -64,6 +65,8 @@ pub(crate) fn play(spec: &Spec, text: &str) -> Result<(), String> {
 struct Scene {
     bus: VirtualBus,
     tables: Tables,
+    /// The devices that have no table, by their IDs.
+    models: BTreeMap<u8, String>,
     now: Duration,
     /// What came and is not yet accounted for.
     came: Vec<u8>,
@@ -78,26 +81,27 @@ impl Scene {
             let mut value = || words.next().unwrap_or_default();
             match word {
                 "--readings" => setup.readings = value().parse().map_err(text)?,
+                "--fault" => setup.faults.push(value().parse().map_err(text)?),
                 "--rate" => setup.rate = Some(value().parse().map_err(text)?),
                 place => places.push(place.parse().map_err(text)?),
             }
         }
-        let by_id: BTreeMap<_, _> = places.iter().map(|place| (place.id, &place.device)).collect();
-        let tables = by_id.iter().map(|(id, device)| format!("{id}={device}")).collect::<Vec<_>>();
-        let tables = tables.join(",").parse().map_err(text)?;
+        let tables = tables(&places).map_err(text)?;
+        let devices = places.iter().map(|place| (place.id, place.device.clone()));
+        let models = if tables.is_empty() { devices.collect() } else { BTreeMap::new() };
         let bus = VirtualBus::new(spec, &places, setup).map_err(text)?;
-        Ok(Self { bus, tables, now: Duration::ZERO, came: Vec::new() })
+        Ok(Self { bus, tables, models, now: Duration::ZERO, came: Vec::new() })
     }
 
     fn step(&mut self, spec: &Spec, verb: &str, words: &str) -> Result<(), String> {
         match verb {
             ">" => {
                 self.silent()?;
-                let bytes = self.packet(spec, words)?;
+                let bytes = self.packet(spec, Direction::Request, words)?;
                 self.bus.send(&bytes, self.now);
             }
             "<" => {
-                let expected = self.packet(spec, words)?;
+                let expected = self.packet(spec, Direction::Reply, words)?;
                 if !self.came.starts_with(&expected) {
                     return Err(format!("expected {}\n{}", self.told(&expected), self.rest()));
                 }
@@ -132,9 +136,9 @@ impl Scene {
 
     /// Bytes in hex, with their meaning if they are one packet.
     fn told(&self, bytes: &[u8]) -> String {
-        let asked =
-            Asked { bytes, context: Context::default(), tables: &self.tables, address: None };
-        let meaning = explain(dynamixel2::WIRE, &asked).map_or_else(
+        let context = Context { direction: Some(Direction::Reply), ..Context::default() };
+        let asked = Asked { bytes, context, tables: &self.tables, address: None };
+        let meaning = explain(self.bus.wire(), &asked).map_or_else(
             |invalid| format!("no single packet ({invalid})"),
             |explained| {
                 let rows = explained.rows.iter().map(|row| {
@@ -148,7 +152,7 @@ impl Scene {
     }
 
     /// The bytes that words say, damaged if they say so.
-    fn packet(&self, spec: &Spec, words: &str) -> Result<Vec<u8>, String> {
+    fn packet(&self, spec: &Spec, direction: Direction, words: &str) -> Result<Vec<u8>, String> {
         if let Some(hex) = words.strip_prefix("hex ") {
             return HexBytes::parse(hex).map(|bytes| bytes.0).map_err(text);
         }
@@ -175,16 +179,18 @@ impl Scene {
             }
         }
         let (verb, words) = others.split_first().ok_or("a packet has an instruction")?;
+        // Where devices have tables, the verb tells the direction.
+        let direction = if self.tables.is_empty() { direction } else { Direction::Request };
         let words: Vec<Word> = words.iter().map(|word| word.parse().unwrap()).collect();
         let phrase = Phrase {
             verb,
-            direction: Direction::Request,
+            direction,
             ids: &ids,
             tables: &tables,
-            actuator: None,
+            actuator: ids.first().and_then(|id| self.models.get(id)).map(String::as_str),
             words: &words,
         };
-        let composed = compose(spec, dynamixel2::WIRE, &phrase).map_err(text)?;
+        let composed = compose(spec, self.bus.wire(), &phrase).map_err(text)?;
         damage.apply(&composed.bytes).map_err(text)
     }
 }
