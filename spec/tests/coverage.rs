@@ -17,9 +17,10 @@ fn every_test_that_a_requirement_names_is_there() {
     for row in spec.requirements.iter().flat_map(|file| &file.content.requirements) {
         for test in &row.tests {
             let (file, name) = test.split_once("::").unwrap_or((test, &row.id));
-            let (role, line) = match test.contains("::") {
-                true => (Role::Codec, format!("fn {name}(")),
-                false => (Role::Device, name.to_owned()),
+            let (role, line) = if test.contains("::") {
+                (Role::Codec, format!("fn {name}("))
+            } else {
+                (Role::Device, name.to_owned())
             };
             let text = fs::read_to_string(root.join(file)).unwrap_or_default();
             assert!(text.contains(&line), "{}: no test {test}", row.id);

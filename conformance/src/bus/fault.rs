@@ -205,7 +205,7 @@ impl When {
 
 /// The faults of a bus, with the chance that decides.
 pub(super) struct Faults {
-    faults: Vec<Fault>,
+    list: Vec<Fault>,
     chance: TestRng,
     /// The answers so far.
     count: u64,
@@ -213,19 +213,19 @@ pub(super) struct Faults {
 
 impl Faults {
     pub(super) fn new(faults: Vec<Fault>, seed: u64) -> Self {
-        Self { faults, chance: runner(seed).rng().clone(), count: 0 }
+        Self { list: faults, chance: runner(seed).rng().clone(), count: 0 }
     }
 
     /// What is wrong with the next answer.
     pub(super) fn next(&mut self) -> Vec<What> {
         self.count += 1;
-        let Self { faults, chance, count } = self;
+        let Self { list, chance, count } = self;
         let hits = |fault: &&Fault| match fault.when {
             When::Always => true,
             When::Counted { first, last } => (first..=last).contains(count),
             When::Share(share) => chance.random_bool(share),
         };
-        faults.iter().filter(hits).map(|fault| fault.what).collect()
+        list.iter().filter(hits).map(|fault| fault.what).collect()
     }
 
     /// Makes of an answer what arrives of it.
@@ -317,7 +317,7 @@ mod tests {
                 let What::Line(fault) = what else { continue };
                 let answer = struck(fault, seed);
                 assert_eq!(answer, struck(fault, seed), "{name}");
-                assert_ne!(answer, [before.clone()], "{name}");
+                assert_ne!(answer, std::slice::from_ref(&before), "{name}");
                 let bytes = whole(&answer);
                 let (more, less) = (bytes.len() > 40, bytes.len() < 40);
                 let expected = match fault {

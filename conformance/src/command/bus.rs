@@ -68,20 +68,27 @@ pub(crate) struct Bus {
     /// What devices do where the documents leave something unspecified
     #[arg(long, value_name = "NAME=WAY,…")]
     readings: Option<Readings>,
-    /// Let each host hear what it sends, as most adapters for a line of one wire do
-    #[arg(long)]
-    echo: bool,
-    #[arg(long = "fault", value_name = "FAULT", help = "What goes wrong; may be given more than once", long_help = faults_help())]
-    faults: Vec<Fault>,
-    /// What the chance of faults begins with: the same seed and the same requests have the same faults
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    seed: u64,
+    #[command(flatten)]
+    faults: Faults,
     /// Print a line for each packet that passes
     #[arg(long)]
     trace: bool,
     /// Print an object for each packet that passes, on a line each
     #[arg(long)]
     json: bool,
+}
+
+/// What goes wrong on a bus.
+#[derive(Debug, Args)]
+struct Faults {
+    /// Let each host hear what it sends, as most adapters for a line of one wire do
+    #[arg(long)]
+    echo: bool,
+    #[arg(long = "fault", value_name = "FAULT", help = "What goes wrong; may be given more than once", long_help = faults_help())]
+    list: Vec<Fault>,
+    /// What the chance of faults begins with: the same seed and the same requests have the same faults
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
 }
 
 /// The ports of a bus: a pseudo-terminal if none is named.
@@ -146,9 +153,9 @@ pub(crate) fn run(options: &Bus) -> Result<ExitCode, Failure> {
     let setup = Setup {
         readings: options.readings.unwrap_or_default(),
         rate: options.realtime.then_some(options.baud),
-        echo: options.echo,
-        faults: options.faults.clone(),
-        seed: options.seed,
+        echo: options.faults.echo,
+        faults: options.faults.list.clone(),
+        seed: options.faults.seed,
     };
     let mut bus =
         VirtualBus::new(&shared::spec()?, &options.devices, setup).map_err(Failure::usage)?;
