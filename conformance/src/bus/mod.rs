@@ -97,6 +97,8 @@ struct Own {
     ids: RangeInclusive<u8>,
     /// Whether its devices have control tables, which users may write themselves.
     has_tables: bool,
+    /// Whether an answer is a datagram of its own.
+    has_datagrams: bool,
     /// Whether a device of this name is on it.
     knows: fn(&str) -> bool,
     /// Puts devices on it, at least one.
@@ -111,6 +113,7 @@ static WIRES: [Own; 2] = [
         wire: wire::innfos::WIRE,
         ids: innfos::ADDRESSES,
         has_tables: false,
+        has_datagrams: true,
         knows: innfos::knows,
         connect: innfos::board,
     },
@@ -118,6 +121,7 @@ static WIRES: [Own; 2] = [
         wire: wire::dynamixel2::WIRE,
         ids: 0..=dynamixel2::LARGEST_ID,
         has_tables: true,
+        has_datagrams: false,
         knows: |_| true,
         connect: dynamixel2::line,
     },
@@ -128,7 +132,7 @@ pub const QUIET: Duration = Duration::from_millis(100);
 
 /// Devices on a bus.
 pub struct VirtualBus {
-    wire: Wire,
+    own: &'static Own,
     devices: Box<dyn Devices>,
     echo: bool,
     faults: Faults,
@@ -158,16 +162,16 @@ impl VirtualBus {
     /// If a device or a register is not known, there is no device, or they are of two wires.
     pub fn new(spec: &Spec, places: &[Place], setup: Setup) -> Result<Self, PlaceError> {
         let own = place::wire(places)?;
-        let (wire, devices) = (own.wire, (own.connect)(spec, places, &setup)?);
+        let devices = (own.connect)(spec, places, &setup)?;
         let Setup { echo, faults, seed, .. } = setup;
         let (faults, coming) = (Faults::new(faults, seed), VecDeque::new());
-        Ok(Self { wire, devices, echo, faults, coming })
+        Ok(Self { own, devices, echo, faults, coming })
     }
 
     /// The wire of its devices.
     #[must_use]
     pub const fn wire(&self) -> Wire {
-        self.wire
+        self.own.wire
     }
 
     /// Takes what a host sends.
@@ -210,7 +214,8 @@ impl VirtualBus {
         self.coming.insert(place, chunk);
     }
 
-    /// The bytes that are there by now.
+    /// The bytes that are there by now. Where answers are datagrams, those of one: take them until there
+    /// are none.
     #[must_use]
     pub fn receive(&mut self, now: Duration) -> Vec<u8> {
         let mut bytes = Vec::new();
@@ -219,6 +224,9 @@ impl VirtualBus {
                 bytes = chunk.bytes;
             } else {
                 bytes.extend(chunk.bytes);
+            }
+            if self.own.has_datagrams {
+                break;
             }
         }
         bytes

@@ -148,17 +148,21 @@ impl Line<'_> {
     /// Hands on what devices have sent by now. Only then is told what passed: what was `asked`, and the
     /// answer.
     fn answer(&mut self, asked: &[u8], then: Duration) {
-        let bytes = self.bus.receive(self.start.elapsed());
-        if !bytes.is_empty() {
+        let mut answers = Vec::new();
+        loop {
+            let bytes = self.bus.receive(self.start.elapsed());
+            if bytes.is_empty() {
+                break;
+            }
             let host = self.turn.host.and_then(|number| self.links.host(number));
             let taken = host.map_or(0, |host| host.channel.write(&bytes));
             self.lost += bytes.len().saturating_sub(taken) as u64;
+            answers.push((bytes, self.start.elapsed()));
         }
-        let at = self.start.elapsed();
         if !asked.is_empty() {
             self.watch.passed(Direction::Request, asked, then);
         }
-        if !bytes.is_empty() {
+        for (bytes, at) in answers {
             self.watch.passed(Direction::Reply, &bytes, at);
         }
         self.turn.settle(self.bus);

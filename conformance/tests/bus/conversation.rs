@@ -113,7 +113,11 @@ impl Scene {
             }
             _ => return Err(format!("a line begins with >, <, wait or bus, not with `{verb}`")),
         }
-        self.came.extend(self.bus.receive(self.now));
+        while let bytes = self.bus.receive(self.now)
+            && !bytes.is_empty()
+        {
+            self.came.extend(bytes);
+        }
         Ok(())
     }
 

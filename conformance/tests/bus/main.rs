@@ -8,7 +8,9 @@ mod property;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
+use std::time::Duration;
 
+use actucheck::bus::VirtualBus;
 use actucheck_spec::Spec;
 
 const FOLDER: &str = "tests/bus/conversations";
@@ -70,5 +72,31 @@ fn a_conversation_can_fail() {
         let failure = play(text).unwrap_err();
         assert!(failure.starts_with(&format!("{line}: ")), "{text}: {failure}");
         assert!(failure.contains(words), "{text}: {failure}");
+    }
+}
+
+/// A host takes a datagram as one answer.
+#[test]
+fn each_actuator_answers_with_a_datagram_of_its_own() {
+    let mut bus: VirtualBus = "dd-6010@6 dd-6010@7".parse().unwrap();
+    bus.send(b"\xEE\x00\x55\x00\x00\xED", Duration::ZERO);
+    for address in [6, 7] {
+        let answer = bus.receive(Duration::ZERO);
+        assert_eq!(answer, [0xEE, address, 0x55, 0, 1, 1, 0xED]);
+    }
+    assert!(bus.receive(Duration::ZERO).is_empty());
+}
+
+#[test]
+fn a_bus_has_one_wire() {
+    let refused = |words: &str| words.parse::<VirtualBus>().err().unwrap().to_string();
+    for (words, told) in [
+        ("dd-6010@6 ja40@1", "`dd-6010` and `ja40` are not of one wire"),
+        ("dd-6010@0", "`dd-6010@0` has no ID from 1 to 255"),
+        ("ja40@253", "`ja40@253` has no ID from 0 to 252"),
+        ("dd-6010@1:position=200", "`200` is no value of Position"),
+        ("", "a bus needs a device"),
+    ] {
+        assert!(refused(words).starts_with(told), "{words}: {}", refused(words));
     }
 }
