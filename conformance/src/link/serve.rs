@@ -3,6 +3,7 @@
 use std::iter;
 use std::ops::ControlFlow;
 use std::os::fd::{AsFd, BorrowedFd};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use actucheck_spec::wire::Direction;
@@ -114,6 +115,7 @@ impl Line<'_> {
             let Some(host) = self.links.host(number) else { continue };
             if !host.fill(&mut self.buffer) {
                 if host.channel.ends_the_bus() {
+                    self.finish();
                     return false;
                 }
                 self.links.hosts.retain(|host| host.number != number);
@@ -122,6 +124,14 @@ impl Line<'_> {
             self.hear_host(number);
         }
         true
+    }
+
+    /// Hands on what is still on its way.
+    fn finish(&mut self) {
+        while let Some(next) = self.bus.next() {
+            thread::sleep(next.saturating_sub(self.start.elapsed()));
+            self.answer(&[], Duration::ZERO);
+        }
     }
 
     /// Lets the bus hear what a host has sent, packet by packet while the line is free. If others wait for

@@ -54,6 +54,14 @@ fn standard_input_and_output_are_a_line_until_the_input_ends() {
     assert!(err.contains("\n4 packets: 2 Read, 2 Status\n"), "{err}");
 }
 
+#[test]
+fn what_is_on_its_way_when_the_input_ends_still_comes() {
+    let mut bus = Bus::start(&[TWO, "--stdio", "--fault", "late=50ms"]);
+    bus.child.stdin.take().unwrap().write_all(READ_2).unwrap();
+    assert_eq!(answer(bus.out.get_mut(), STATUS_2.len()), STATUS_2);
+    assert_eq!(ended(&mut bus.child), Some(0));
+}
+
 /// A pipe that is not read is full after 64 KiB.
 #[test]
 fn standard_output_that_nobody_reads_stops_nothing() {
