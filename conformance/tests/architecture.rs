@@ -179,7 +179,7 @@ const NAMED: [(&str, &str); 27] = [
     ("codec/src/simd/", "searches for the pattern of byte stuffing, which one wire has"),
     ("codec/src/register/", "control tables are of one wire"),
     ("codec/examples/", "a program for a device is for one wire"),
-    ("conformance/src/device/table.rs", "control tables are of one wire"),
+    ("conformance/src/device/", "control tables are of one wire"),
     ("conformance/src/suite/codec/mod.rs", "registry"),
     ("conformance/src/subject/builtin/mod.rs", "registry"),
     ("conformance/src/bus/mod.rs", "registry"),

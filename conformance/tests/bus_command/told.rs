@@ -50,7 +50,7 @@ fn a_trace_has_a_line_for_each_packet_with_the_names_of_the_device() {
     assert!(line().ends_with("  instruction packet: Read to device 1\n"));
     let status = line();
     assert!(status.contains("  status packet of device 1: no error, answers the Read at byte 0"));
-    assert!(status.ends_with(": Present Position = 166\n"), "{status}");
+    assert!(status.ends_with(": Present Position = 166 (166 count)\n"), "{status}");
     let ended = bus.end();
     assert!(ended.out.contains("2 packets: 1 Read, 1 Status\n"), "{}", ended.out);
     assert_eq!(ended.err, "");

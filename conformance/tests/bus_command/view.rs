@@ -39,7 +39,7 @@ fn the_devices_are_shown_in_place_as_they_are() {
     let out = BufReader::new(child.stdout.take().unwrap());
     let mut bus = Bus { child, out };
     let mut host = bus.pty();
-    screen.shows("\n2   JA40    2000      0     off     0\r\n");
+    screen.shows("\n2   JA40    2000      2000  off     0\r\n");
     ask(&mut host, &packet(2, &[3, 0, 2, 1]), 11);
     ask(&mut host, &packet(2, &[3, 0x34, 2, 0xD1, 7, 0, 0]), 11);
     // The three lines are drawn again where they are.
