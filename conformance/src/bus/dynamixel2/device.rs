@@ -11,10 +11,11 @@ use actucheck_codec::dynamixel2::{
 use actucheck_codec::register::{Area, Row};
 
 use super::super::DeviceState;
+use super::alarm;
 use super::memory::Memory;
 use super::model::Model;
 use super::readings::{BackupUnderTorque, OtherOptions, RegWriteAgain, Restore};
-use super::shaft::{self, Shaft, real};
+use super::shaft::{Shaft, real};
 
 /// What an instruction came to: data for the status packet, or an error number.
 pub(super) type Outcome = Result<Vec<u8>, ErrorNumber>;
@@ -204,7 +205,7 @@ impl VirtualDevice {
         let Some(status) = roles.hardware_error_status else { return };
         let bit = status.bits.iter().find(|bits| bits.name == name);
         if let Some(bit) = bit.and_then(|bits| 1_i64.checked_shl(bits.lowest.into())) {
-            shaft::raise(&mut self.memory, &self.model, bit);
+            alarm::raise(&mut self.memory, &self.model, bit);
         }
     }
 

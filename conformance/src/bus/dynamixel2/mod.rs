@@ -1,5 +1,6 @@
 //! A half-duplex line with devices that have control tables (DYNAMIXEL Protocol 2.0; JA40 document).
 
+mod alarm;
 mod device;
 mod hearing;
 mod line;
