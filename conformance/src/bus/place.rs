@@ -42,6 +42,9 @@ pub enum PlaceError {
     /// The wire has no rate.
     #[error("a board is on a network, which has no such rate; take --realtime away")]
     Rate,
+    /// The wire has no such readings.
+    #[error("readings are for devices with a control table, not for a board; take --readings away")]
+    Readings,
     /// There is no device.
     #[error("a bus needs a device; write it as ja40@1")]
     None,

@@ -21,7 +21,7 @@ use actucheck_codec::innfos::{Direction as Way, Message};
 use actucheck_spec::Spec;
 use actucheck_spec::wire::{Direction, innfos};
 
-use super::{Devices, Place, PlaceError, Setup};
+use super::{Devices, Place, PlaceError, Readings, Setup};
 use crate::compose::{ComposeError, Phrase, Word, compose};
 use crate::device::Tables;
 use crate::names::as_word;
@@ -48,6 +48,9 @@ pub(super) fn board(
 ) -> Result<Box<dyn Devices>, PlaceError> {
     if setup.rate.is_some() {
         return Err(PlaceError::Rate);
+    }
+    if setup.readings != Readings::default() {
+        return Err(PlaceError::Readings);
     }
     let mut actuators = Vec::new();
     for (number, place) in (0_u32..).zip(places) {
