@@ -169,7 +169,7 @@ mod tests {
         let checks = [
             check("a", "ja40.packets"),
             check("b", "ja40.packets"),
-            check("c", "dynamixel2.bulk-read.status"),
+            check("c", "dynamixel2.bulk-read.no-repeat"),
         ];
         let rows = matrix(&spec, checks);
         let row = |id| rows.iter().find(|row| row.requirement.id == id).unwrap();
@@ -180,9 +180,9 @@ mod tests {
             Checks { count: 2, recorded: 0, example: "a".to_owned() }
         );
         assert_eq!(packets.cover(Role::Codec), Cover::Check);
-        assert_eq!(packets.cover(Role::Device), Cover::Nothing);
-        let of_devices = row("dynamixel2.bulk-read.status");
-        assert!(of_devices.is_uncovered() && of_devices.checks.contains_key(&Role::Codec));
+        assert_eq!(packets.cover(Role::Host), Cover::Nothing);
+        let of_hosts = row("dynamixel2.bulk-read.no-repeat");
+        assert!(of_hosts.is_uncovered() && of_hosts.checks.contains_key(&Role::Codec));
 
         let total = total(&rows, Role::Codec, Level::Must);
         assert_eq!(total.checked, 1);
