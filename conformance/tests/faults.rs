@@ -118,3 +118,43 @@ fn an_alarm_is_in_every_later_answer() {
     assert_eq!(error(&mut bus), (1, 0, vec![0]));
     assert_eq!(error(&mut bus), (1, 0x80, vec![0b100]));
 }
+
+#[test]
+fn every_device_has_the_alarms_that_its_table_names() {
+    let spec = Spec::embedded().unwrap();
+    let mut known = 0;
+    for (fault, name) in [
+        ("low-voltage", "Input Voltage Error"),
+        ("overheating", "Overheating Error"),
+        ("encoder", "Encoder Error"),
+        ("overload", "Overload Error"),
+    ] {
+        for device in &spec.devices {
+            let words = format!("{}@1", device.content.device);
+            let setup = Setup { faults: vec![fault.parse().unwrap()], ..Setup::default() };
+            let mut bus = VirtualBus::new(&spec, &[words.parse().unwrap()], setup).unwrap();
+            let ping = instruction(1, &[]);
+            assert_eq!(status(&ask(&mut bus, &ping)).1, 0);
+            let status_row = device.content.register("Hardware Error Status");
+            let has =
+                status_row.is_some_and(|row| row.bits.iter().any(|bits| bits.name.ends_with(name)));
+            assert_eq!(status(&ask(&mut bus, &ping)).1 == 0x80, has, "{fault} of {words}");
+            known += u32::from(has);
+        }
+    }
+    assert!(known >= 8, "{known}");
+}
+
+#[test]
+fn the_line_strikes_what_the_device_sends() {
+    let ping = instruction(1, &[]);
+    // Whatever the order of the words, the flipped bit is not mended.
+    for faults in [["flip", "other-id"], ["other-id", "flip"]] {
+        let answer = ask(&mut bus(&faults), &ping);
+        let context = Context { fast: None, direction: Some(Direction::Reply) };
+        assert!(WIRE.decode(&answer, &context).is_err(), "{faults:?}: {answer:02x?}");
+    }
+    for faults in [["split", "other-id"], ["other-id", "split"]] {
+        assert_eq!(status(&ask(&mut bus(&faults), &ping)).0, 2, "{faults:?}");
+    }
+}

@@ -248,11 +248,13 @@ impl Faults {
             OnLine::NoiseBefore => *bytes = [noise(chance), mem::take(bytes)].concat(),
             OnLine::NoiseAfter => bytes.extend(noise(chance)),
             OnLine::Babble => *bytes = noise(chance),
-            OnLine::Split => {
-                let rest = bytes.split_off(place);
+            // Neither piece is empty.
+            OnLine::Split if bytes.len() > 1 => {
+                let rest = bytes.split_off(chance.random_range(1..bytes.len()));
                 let at = chunk.at + PAUSE;
                 answer.insert(1, Chunk { at, bytes: rest });
             }
+            OnLine::Split => {}
             OnLine::Late(time) => answer.iter_mut().for_each(|chunk| chunk.at += time),
             OnLine::Lost => answer.clear(),
         }
@@ -318,6 +320,7 @@ mod tests {
                 let answer = struck(fault, seed);
                 assert_eq!(answer, struck(fault, seed), "{name}");
                 assert_ne!(answer, std::slice::from_ref(&before), "{name}");
+                assert!(answer.iter().all(|chunk| !chunk.bytes.is_empty()), "{name}");
                 let bytes = whole(&answer);
                 let (more, less) = (bytes.len() > 40, bytes.len() < 40);
                 let expected = match fault {

@@ -31,6 +31,8 @@ use std::time::Duration;
 use actucheck_spec::Spec;
 use actucheck_spec::wire::{self, Wire};
 
+use crate::device;
+
 pub use self::dynamixel2::{ReadingError, Readings, VirtualDevice};
 use self::fault::{Alarm, Faults, OnDevice, What};
 pub use self::fault::{Fault, FaultError};
@@ -101,13 +103,15 @@ struct Own {
     has_datagrams: bool,
     /// Whether a device of this name is on it.
     knows: fn(&str) -> bool,
+    /// The names of its devices.
+    names: fn() -> Vec<String>,
     /// Puts devices on it, at least one.
     connect: Connect,
 }
 
 type Connect = fn(&Spec, &[Place], &Setup) -> Result<Box<dyn Devices>, PlaceError>;
 
-/// The wires whose devices there are. The last has all names that no other knows.
+/// The wires whose devices there are.
 static WIRES: [Own; 2] = [
     Own {
         wire: wire::innfos::WIRE,
@@ -115,6 +119,7 @@ static WIRES: [Own; 2] = [
         has_tables: false,
         has_datagrams: true,
         knows: innfos::knows,
+        names: innfos::names,
         connect: innfos::board,
     },
     Own {
@@ -122,7 +127,8 @@ static WIRES: [Own; 2] = [
         ids: 0..=dynamixel2::LARGEST_ID,
         has_tables: true,
         has_datagrams: false,
-        knows: |_| true,
+        knows: device::knows,
+        names: dynamixel2::names,
         connect: dynamixel2::line,
     },
 ];
@@ -191,7 +197,10 @@ impl VirtualBus {
     /// What arrives of an answer.
     fn struck(&mut self, answer: Chunk, now: Duration) -> Vec<Chunk> {
         let mut pieces = vec![answer];
-        for fault in self.faults.next() {
+        let mut faults = self.faults.next();
+        // What a device does comes before what the line does to it.
+        faults.sort_by_key(|fault| matches!(fault, What::Line(_)));
+        for fault in faults {
             match fault {
                 What::Line(fault) => self.faults.strike(fault, &mut pieces),
                 What::Device(OnDevice::OtherId) => {

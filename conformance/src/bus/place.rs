@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use super::{Own, WIRES};
 use crate::compose::{ComposeError, Word};
-use crate::device::{DeviceError, Tables};
+use crate::device::{DeviceError, Tables, unknown};
 use crate::legible::{LONGEST_NAME, legible};
 
 /// A device on a bus, in words: `ja40@2:present-position=2000,torque-enable=1`, `dd-6010@6`.
@@ -45,6 +45,11 @@ pub enum PlaceError {
     /// The wire has no such readings.
     #[error("readings are for devices with a control table, not for a board; take --readings away")]
     Readings,
+    /// A register can't hold this at the beginning.
+    #[error(
+        "no device begins with `{0}`: it measures that itself, or its document does not allow it"
+    )]
+    Preset(String),
     /// There is no device.
     #[error("a bus needs a device; write it as ja40@1")]
     None,
@@ -69,7 +74,7 @@ impl FromStr for Place {
             Some((id, registers)) => (id, registers.split(',').collect()),
             None => (rest, Vec::new()),
         };
-        let ids = &own(device).ids;
+        let ids = &own(device)?.ids;
         let (min, max) = (*ids.start(), *ids.end());
         let id = id.parse().ok().filter(|id| ids.contains(id));
         let id = id.ok_or_else(|| PlaceError::Id { text: shown(), min, max })?;
@@ -84,30 +89,31 @@ impl FromStr for Place {
 }
 
 /// The wire on which there are devices of this name.
-fn own(device: &str) -> &'static Own {
-    let [.., last] = &WIRES;
-    WIRES.iter().find(|own| (own.knows)(device)).unwrap_or(last)
+fn own(device: &str) -> Result<&'static Own, PlaceError> {
+    let names = || WIRES.iter().flat_map(|own| (own.names)());
+    let found = WIRES.iter().find(|own| (own.knows)(device));
+    found.ok_or_else(|| PlaceError::Device(unknown(device, names)))
 }
 
 /// The one wire of devices.
 pub(super) fn wire(places: &[Place]) -> Result<&'static Own, PlaceError> {
     let first = places.first().ok_or(PlaceError::None)?;
-    let wire = own(&first.device);
-    match places.iter().find(|place| own(&place.device).wire != wire.wire) {
-        None => Ok(wire),
-        Some(other) => Err(PlaceError::Wires(first.device.clone(), other.device.clone())),
+    let wire = own(&first.device)?;
+    for other in places {
+        if own(&other.device)?.wire != wire.wire {
+            return Err(PlaceError::Wires(first.device.clone(), other.device.clone()));
+        }
     }
+    Ok(wire)
 }
 
-/// The control tables of the devices that have one, by ID. Of two with the same ID, the first.
+/// The control tables of devices, as far as their wire has any. If two have the same ID, the first
+/// counts.
 ///
 /// # Errors
 /// If a device is not known.
 pub fn tables(places: &[Place]) -> Result<Tables, DeviceError> {
-    let mut places: Vec<_> = places.iter().filter(|place| own(&place.device).has_tables).collect();
-    places.sort_by_key(|place| place.id);
-    places.dedup_by_key(|place| place.id);
-    let words = places.iter().map(|Place { id, device, .. }| format!("{id}={device}"));
-    let words: Vec<_> = words.collect();
-    if words.is_empty() { Ok(Tables::default()) } else { words.join(",").parse() }
+    let has_table = |place: &&Place| own(&place.device).is_ok_and(|own| own.has_tables);
+    let places = places.iter().filter(has_table);
+    Tables::of_each(places.map(|place| (place.id, place.device.as_str())))
 }

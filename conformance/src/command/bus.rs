@@ -66,12 +66,12 @@ pub(crate) struct Bus {
     #[arg(value_parser = clap::value_parser!(u32).range(1..))]
     baud: u32,
     /// What devices do where the documents leave something unspecified
-    #[arg(long, value_name = "NAME=WAY,…")]
+    #[arg(long, value_name = "NAME=WAY,…", long_help = readings_help())]
     readings: Option<Readings>,
     #[command(flatten)]
     faults: Faults,
     /// Print a line for each packet that passes
-    #[arg(long)]
+    #[arg(long, conflicts_with = "json")]
     trace: bool,
     /// Print an object for each packet that passes, on a line each
     #[arg(long)]
@@ -137,6 +137,18 @@ impl Ports {
         }
         Ok(ports)
     }
+}
+
+fn readings_help() -> String {
+    let line = |(name, ways, erratum): &(&str, &[&str], &str)| {
+        format!("- {name}={}, as to {erratum}", ways.join("|"))
+    };
+    let lines: Vec<_> = Readings::ALL.iter().map(line).collect();
+    format!(
+        "What devices do where the documents leave something unspecified. The first way of each is \
+         taken if none is named; `actucheck spec show ERRATUM` has what the documents say\n\n{}",
+        lines.join("\n")
+    )
 }
 
 fn faults_help() -> String {

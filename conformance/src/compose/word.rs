@@ -1,4 +1,5 @@
 use std::convert::Infallible;
+use std::fmt;
 use std::str::FromStr;
 
 /// A word of a packet: `ID:NAME=VALUE`, where ID and value may be missing.
@@ -24,6 +25,17 @@ impl FromStr for Word {
             left.split_once(':').and_then(|(id, name)| Some((id.trim().parse().ok()?, name)));
         let (id, name) = for_one.map_or((None, left), |(id, name)| (Some(id), name));
         Ok(Self { id, name: name.trim().to_owned(), value })
+    }
+}
+
+/// As it is written.
+impl fmt::Display for Word {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(id) = self.id {
+            write!(f, "{id}:")?;
+        }
+        f.write_str(&self.name)?;
+        self.value.as_ref().map_or(Ok(()), |value| write!(f, "={value}"))
     }
 }
 

@@ -53,15 +53,7 @@ impl FromStr for Tables {
         let mut files = BTreeMap::new();
         for word in text.split(',').map(str::trim) {
             let (id, name) = parts(word)?;
-            let chosen = match (known(name), files.get(name)) {
-                (Some(chosen), _) | (None, Some(&chosen)) => chosen,
-                (None, None) if is_file(name) => {
-                    let chosen = read(name)?;
-                    files.insert(name, chosen);
-                    chosen
-                }
-                (None, None) => return Err(unknown(name)),
-            };
+            let chosen = chosen(name, &mut files)?;
             let earlier = match id {
                 Some(id) => bus.chosen.insert(id, chosen),
                 None => bus.others.replace(chosen),
@@ -72,6 +64,46 @@ impl FromStr for Tables {
         }
         Ok(Self(Some(Rc::new(bus))))
     }
+}
+
+impl Tables {
+    /// The tables of devices that are named one by one. Of several with the same ID the first counts.
+    ///
+    /// # Errors
+    /// If a name is no device.
+    pub(crate) fn of_each<'a>(
+        devices: impl IntoIterator<Item = (u8, &'a str)>,
+    ) -> Result<Self, DeviceError> {
+        let mut bus = Bus::default();
+        let mut files = BTreeMap::new();
+        for (id, name) in devices {
+            let chosen = chosen(name, &mut files)?;
+            bus.chosen.entry(id).or_insert(chosen);
+        }
+        Ok(if bus.chosen.is_empty() { Self::default() } else { Self(Some(Rc::new(bus))) })
+    }
+}
+
+/// The table of this name. Each of the `files` is read once.
+fn chosen<'a>(name: &'a str, files: &mut BTreeMap<&'a str, Chosen>) -> Result<Chosen, DeviceError> {
+    match (known(name), files.get(name)) {
+        (Some(chosen), _) | (None, Some(&chosen)) => Ok(chosen),
+        (None, None) if is_file(name) => {
+            let chosen = read(name)?;
+            files.insert(name, chosen);
+            Ok(chosen)
+        }
+        (None, None) => Err(unknown(name, ids)),
+    }
+}
+
+/// Whether a device has this name, or it is that of a file.
+pub(crate) fn knows(name: &str) -> bool {
+    KNOWN.iter().any(|device| device.id == name) || is_file(name)
+}
+
+fn ids() -> impl Iterator<Item = String> {
+    KNOWN.into_iter().chain([&NONE]).map(|device| device.id.to_owned())
 }
 
 /// The ID, if the word begins with one, and the table's name.
@@ -103,13 +135,16 @@ fn is_model_file(name: &str) -> bool {
     Path::new(name).extension().is_some_and(|ending| ending == "model")
 }
 
-fn unknown(name: &str) -> DeviceError {
-    let ids = || names().map(|device| device.id.to_owned());
+/// No device has this name, but some have others.
+pub(crate) fn unknown<I: Iterator<Item = String>>(
+    name: &str,
+    others: impl Fn() -> I,
+) -> DeviceError {
     let all = || {
-        let ids = ids().collect::<Vec<_>>().join(", ");
+        let ids = others().collect::<Vec<_>>().join(", ");
         format!("there are {ids}, and files that end in .yaml or .model")
     };
-    let hint = nearest(name, ids()).map_or_else(all, |meant| format!("did you mean `{meant}`?"));
+    let hint = nearest(name, others()).map_or_else(all, |meant| format!("did you mean `{meant}`?"));
     DeviceError::Unknown { name: legible(name, LONGEST_TEXT), hint }
 }
 

@@ -17,6 +17,7 @@ use actucheck_codec::{ja_variant, ja40, xl330_m288, xm430_w210};
 use actucheck_spec::{Spec, model};
 
 pub use self::choice::DeviceError;
+pub(crate) use self::choice::{knows, unknown};
 
 /// The devices of the spec.
 pub const KNOWN: [&Device; 4] =

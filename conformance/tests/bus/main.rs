@@ -88,13 +88,19 @@ fn each_actuator_answers_with_a_datagram_of_its_own() {
 }
 
 #[test]
-fn a_bus_has_one_wire() {
+fn words_that_make_no_bus_are_told() {
     let refused = |words: &str| words.parse::<VirtualBus>().err().unwrap().to_string();
     for (words, told) in [
         ("dd-6010@6 ja40@1", "`dd-6010` and `ja40` are not of one wire"),
         ("dd-6010@0", "`dd-6010@0` has no ID from 1 to 255"),
         ("ja40@253", "`ja40@253` has no ID from 0 to 252"),
         ("dd-6010@1:position=200", "`200` is no value of Position"),
+        ("dd-6010@1:speed=0.5", "no device begins with `speed=0.5`"),
+        ("ja40@1:present-velocity=100", "no device begins with `present-velocity=100`"),
+        ("ja40@1:torque-enable=7", "no device begins with `torque-enable=7`"),
+        ("dd-6011@6", "no device is called `dd-6011`; did you mean `dd-6010`?"),
+        ("none@1", "no device is called `none`; there are "),
+        ("1=ja40@2", "no device is called `1=ja40`; "),
         ("", "a bus needs a device"),
     ] {
         assert!(refused(words).starts_with(told), "{words}: {}", refused(words));

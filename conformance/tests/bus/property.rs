@@ -19,7 +19,7 @@ use proptest::sample::{Index, select, subsequence};
 static SPEC: LazyLock<Spec> = LazyLock::new(|| Spec::embedded().unwrap());
 
 /// The devices, from ID 1 on.
-const DEVICES: [&str; 4] = ["ja40", "ja40", "ja-variant", "xm430-w210"];
+const DEVICES: [&str; 5] = ["ja40", "ja40", "ja-variant", "xm430-w210", "xl330-m288"];
 /// The longest packet.
 const LONGEST: usize = 7 + 0xFFFF;
 
@@ -49,7 +49,7 @@ enum Step {
 }
 
 fn step() -> impl Strategy<Value = Step> {
-    let id = || select(vec![1, 2, 3, 4, 5, 254]);
+    let id = || select(vec![1, 2, 3, 4, 5, 6, 254]);
     let byte = || prop_oneof![any::<u8>(), select(vec![0xFF, 0xFD, 0, 1, 2, 4])];
     let packet = |(id, instruction, params)| Step::Packet { id, instruction, params };
     // Neither gives a device the ID of another: their answers would meet.
@@ -215,7 +215,7 @@ proptest! {
             now += Duration::from_millis(u64::from(matches!(step, Step::Bytes(_))) * 200);
             for event in events(&bus.receive(now), true, LONGEST) {
                 let is_status = matches!(&event,
-                    Event::Packet(_, Packet::Status { id: 1..=4, .. }) | Event::FastStatus(_));
+                    Event::Packet(_, Packet::Status { id: 1..=5, .. }) | Event::FastStatus(_));
                 prop_assert!(is_status, "{event:?}");
             }
         }

@@ -13,8 +13,8 @@ use actucheck_codec::register::{Area, Row};
 use super::super::DeviceState;
 use super::alarm;
 use super::memory::Memory;
-use super::model::Model;
-use super::readings::{BackupUnderTorque, OtherOptions, RegWriteAgain, Restore};
+use super::model::{Model, mask};
+use super::readings::{BackupUnderTorque, ClearMeaning, OtherOptions, RegWriteAgain, Restore};
 use super::shaft::{Shaft, real};
 
 /// What an instruction came to: data for the status packet, or an error number.
@@ -111,6 +111,11 @@ impl VirtualDevice {
         self.shaft.preset(&mut self.memory, &self.model, address);
     }
 
+    /// Whether registers hold these bytes, and may.
+    pub(super) fn holds(&self, address: u16, data: &[u8]) -> bool {
+        self.memory.holds(address, data)
+    }
+
     /// Carries out an instruction that is for it, at `now`.
     pub(super) fn carry_out(&mut self, request: &Request<'_>, now: Duration) -> Outcome {
         self.advance(now);
@@ -199,35 +204,40 @@ impl VirtualDevice {
         self.shaft.restart(&mut self.memory, &self.model);
     }
 
-    /// Sets a bit of Hardware Error Status, if it has one of this name.
-    pub(super) fn alarm(&mut self, name: &str) {
-        let roles = &self.model.roles;
-        let Some(status) = roles.hardware_error_status else { return };
-        let bit = status.bits.iter().find(|bits| bits.name == name);
-        if let Some(bit) = bit.and_then(|bits| 1_i64.checked_shl(bits.lowest.into())) {
-            alarm::raise(&mut self.memory, &self.model, bit);
+    /// Sets a bit of Hardware Error Status, if it has one of these names.
+    pub(super) fn alarm(&mut self, names: &[&str]) {
+        let bits = self.model.roles.hardware_error_status.map_or(&[][..], |status| status.bits);
+        if let Some(bits) = bits.iter().find(|bits| names.contains(&bits.name)) {
+            alarm::raise(&mut self.memory, &self.model, mask(bits.lowest, bits.width));
         }
     }
 
-    /// Clear without parameters clears a fault, as in the JA40 document; with the option and the key it
-    /// clears turns, as in the DYNAMIXEL document.
+    /// Clear without parameters is that of the JA40 document, with an option and the key that of the
+    /// DYNAMIXEL document.
     fn clear(&mut self, clear: &Clear<'_>) -> Outcome {
-        match clear {
-            Clear::Bare => {
-                self.memory.set(self.model.roles.hardware_error_status, 0);
-                Ok(Vec::new())
-            }
-            Clear::Option { option: ClearOption::ClearMultiTurnInformation, key }
-                if **key == CLEAR_KEY =>
-            {
-                if self.shaft.is_moving() {
-                    return Err(ErrorNumber::ResultFail);
+        let has_option = match clear {
+            Clear::Bare => false,
+            Clear::Option { option: ClearOption::ClearMultiTurnInformation, key } => {
+                if **key != CLEAR_KEY {
+                    return self.other_option();
                 }
-                self.shaft.clear_turns(&mut self.memory, &self.model);
-                Ok(Vec::new())
+                true
             }
-            Clear::Option { .. } => self.other_option(),
+            Clear::Option { .. } => return self.other_option(),
+        };
+        let clears_turns = match self.model.readings.clear {
+            ClearMeaning::AsSent => has_option,
+            ClearMeaning::Fault => false,
+            ClearMeaning::Turns => true,
+        };
+        if !clears_turns {
+            self.memory.set(self.model.roles.hardware_error_status, 0);
+        } else if self.shaft.is_moving() {
+            return Err(ErrorNumber::ResultFail);
+        } else {
+            self.shaft.clear_turns(&mut self.memory, &self.model);
         }
+        Ok(Vec::new())
     }
 
     fn back_up(&mut self, backup: ControlTableBackup) -> Outcome {

@@ -146,7 +146,15 @@ impl Hearing<'_> {
         let mut answers = Vec::new();
         let mut present = None;
         let mut delay = Duration::ZERO;
+        let block = usize::from(length) + BLOCK_OVERHEAD;
         for (id, data) in blocks {
+            // Nothing is kept of an answer that is longer than a packet can be.
+            if answers.len() * block > usize::from(u16::MAX) {
+                if let Some(device) = self.knowing(id, instruction).next() {
+                    drop(carry_out(device, data));
+                }
+                continue;
+            }
             let device = self.knowing(id, instruction).next();
             let Some(device) = device.filter(|device| device.answers(instruction)) else {
                 present.get_or_insert(answers.len());
@@ -170,8 +178,7 @@ impl Hearing<'_> {
             return;
         };
         if let Some(missing) = blocks.len().checked_sub(present).filter(|missing| *missing > 0) {
-            let cut = missing * (usize::from(length) + BLOCK_OVERHEAD);
-            bytes.truncate(bytes.len().saturating_sub(cut));
+            bytes.truncate(bytes.len().saturating_sub(missing * block));
         }
         if present > 0 {
             self.clock.wait(delay, self.now);

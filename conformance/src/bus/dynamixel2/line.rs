@@ -72,14 +72,14 @@ impl Devices for Line {
     }
 
     fn alarm(&mut self, alarm: Alarm) {
-        let name = match alarm {
-            Alarm::LowVoltage => "Input Voltage Error",
-            Alarm::Overheating => "Overheating Error",
-            Alarm::Overload => "Overload Error",
-            Alarm::Encoder => "Encoder Error",
+        let names: &[_] = match alarm {
+            Alarm::LowVoltage => &["Input Voltage Error"],
+            Alarm::Overheating => &["Overheating Error"],
+            Alarm::Overload => &["Overload Error"],
+            Alarm::Encoder => &["Encoder Error", "Motor Encoder Error"],
         };
         for device in &mut self.devices {
-            device.alarm(name);
+            device.alarm(names);
         }
     }
 

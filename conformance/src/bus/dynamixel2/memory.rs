@@ -122,6 +122,13 @@ impl Memory {
         self.replace(place(address, data.len()), data);
     }
 
+    /// Whether registers hold these bytes, and hosts may have written them where they may write at all.
+    pub(super) fn holds(&self, address: u16, data: &[u8]) -> bool {
+        let place = place(address, data.len());
+        let may_hold = |row: &&Row| row.access == Access::ReadOnly || self.judge(row).is_ok();
+        self.bytes.get(place.clone()) == Some(data) && self.model.rows(&place).iter().all(may_hold)
+    }
+
     /// Writes whole registers, all of them or none. If several things are wrong, an address or the lock
     /// counts first, then the length, then the values in their order.
     pub(super) fn write(&mut self, address: u16, data: &[u8]) -> Result<(), ErrorNumber> {

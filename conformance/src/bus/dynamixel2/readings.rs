@@ -72,6 +72,16 @@ readings! {
         /// Access Error.
         AccessError: "access-error",
     },
+    /// What Clear clears.
+    clear: "clear", "ja40.clear.meaning", ClearMeaning {
+        /// A fault without parameters, the turns with the option for them.
+        #[default]
+        AsSent: "as-sent",
+        /// A fault, with the option too.
+        Fault: "fault",
+        /// The turns, without parameters too.
+        Turns: "turns",
+    },
     /// What a restore brings back.
     restore: "restore", "ja40.backup.restore-contents", Restore {
         /// The EEPROM area and the gains.

@@ -295,7 +295,8 @@ fn present(position: f64, memory: &Memory, model: &Model) -> i64 {
 fn limit(memory: &Memory, model: &Model) -> f64 {
     let row = model.roles.velocity_limit;
     let limit = known(memory, row).and_then(|_| velocity(memory, model, row));
-    limit.unwrap_or(FREE_VELOCITY * model.counts_per_turn)
+    // In a table that hosts may write as they like, a limit may be negative.
+    limit.map_or(FREE_VELOCITY * model.counts_per_turn, f64::abs)
 }
 
 /// What a limit holds; `None` if there is none, or nobody has told it.

@@ -56,15 +56,17 @@ impl Actuator {
         }
     }
 
-    /// Lets a command read this value at the beginning.
-    pub(super) fn preset(&mut self, command: Command, value: Value) {
+    /// Lets a command read this value at the beginning. Returns whether it does.
+    pub(super) fn preset(&mut self, command: Command, value: Value) -> bool {
         match (command, value) {
             (Command::ReadPosition, Value::Iq24(Iq24(position))) => {
                 self.shaft.turn_to(&mut self.values, position.into());
             }
             _ => self.values.set(command, value),
         }
+        self.shaft.advance(&mut self.values, Duration::ZERO);
         self.stored = self.values.clone();
+        self.values.get(command) == Some(value)
     }
 
     /// The value with which a request is answered; `None` if it is not.

@@ -36,6 +36,11 @@ pub(super) fn knows(name: &str) -> bool {
     model(name).is_some()
 }
 
+/// The names of the models.
+pub(super) fn names() -> Vec<String> {
+    ACTUATORS.iter().map(|model| as_word(model.name)).collect()
+}
+
 fn model(name: &str) -> Option<&'static Model> {
     ACTUATORS.iter().find(|model| as_word(model.name) == as_word(name))
 }
@@ -60,8 +65,9 @@ pub(super) fn board(
             let bytes = answer(spec, place, word)?;
             let frame = Frame::parse(Way::Reply, &bytes).ok();
             let message = frame.and_then(|frame| Message::parse(&frame).ok());
-            if let Some(Message { command, value: Some(value), .. }) = message {
-                actuator.preset(command, value);
+            let Some(Message { command, value: Some(value), .. }) = message else { continue };
+            if !actuator.preset(command, value) {
+                return Err(PlaceError::Preset(word.to_string()));
             }
         }
         actuators.push(actuator);

@@ -8,7 +8,7 @@ use std::time::Duration;
 use actucheck::adapter::Wire;
 use actucheck::bus::{QUIET, VirtualBus};
 use actucheck::device::Tables;
-use actucheck::explain::stream::{Event, Follower};
+use actucheck::explain::stream::{Event, Follower, Heard, Skipped};
 use actucheck::link::{Port, Watch};
 use actucheck_spec::wire::Direction;
 
@@ -126,11 +126,14 @@ impl Wrong {
 
     fn is_news(&mut self, event: &Event<'_>) -> bool {
         let kinds: Vec<_> = match event {
+            // What devices send is wrong where the user wants it to be.
+            Event::Packet(Heard { direction: Some(Direction::Reply), .. }, _)
+            | Event::Skipped(Skipped { direction: Some(Direction::Reply), .. })
+            | Event::Silent(_) => Vec::new(),
             Event::Packet(_, turn) => {
                 turn.warnings.iter().map(|warning| warning.requirement).collect()
             }
             Event::Skipped(skipped) => skipped.reason.split(": ").take(1).collect(),
-            Event::Silent(_) => Vec::new(),
         };
         // All of them are counted.
         kinds.iter().filter(|kind| self.is_new(kind)).count() > 0
