@@ -52,8 +52,8 @@ not be written, 4 a port could not be opened.";
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Bus {
     /// The devices, each with its ID and, if they are to begin with others than the document's, values
-    /// of registers. A device is one that `actucheck decode --device` knows, a YAML file, or a model that
-    /// `actucheck encode --actuator` knows
+    /// of registers. A device is one that `actucheck decode --device` knows, a YAML or .model file, or a
+    /// model that `actucheck encode --actuator` knows
     #[arg(required = true, value_name = "DEVICE@ID[:REGISTER=VALUE,…]")]
     devices: Vec<Place>,
     #[command(flatten)]

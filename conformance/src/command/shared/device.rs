@@ -16,7 +16,8 @@ fn help() -> String {
     let names: Vec<_> = KNOWN.into_iter().chain([&NONE]).map(|device| device.id).collect();
     let names = names.join(", ");
     format!(
-        "Whose registers are meant, of all devices or by ID: {names}, or a YAML file like the spec's"
+        "Whose registers are meant, of all devices or by ID: {names}, a YAML file like the spec's, or \
+         a .model file of DYNAMIXEL's maker"
     )
 }
 
