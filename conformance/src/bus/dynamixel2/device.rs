@@ -153,7 +153,7 @@ impl VirtualDevice {
     /// The bytes from an address on.
     pub(super) fn read(&mut self, address: u16, length: u16, now: Duration) -> Outcome {
         self.advance(now);
-        self.memory.read(address, length).map(<[u8]>::to_vec)
+        self.memory.read(address, length)
     }
 
     /// Writes whole registers.

@@ -111,10 +111,22 @@ impl Memory {
     }
 
     /// The bytes at addresses that all have a register.
-    pub(super) fn read(&self, address: u16, length: u16) -> Result<&[u8], ErrorNumber> {
-        let place = place(address, length.into());
-        let bytes = self.bytes.get(place.clone()).filter(|_| self.model.has(place));
-        bytes.ok_or(ErrorNumber::AccessError)
+    pub(super) fn read(&self, address: u16, length: u16) -> Result<Vec<u8>, ErrorNumber> {
+        let mut read = Vec::new();
+        for place in self.runs(address, length.into())? {
+            let bytes = self.bytes.get(place.clone()).filter(|_| self.model.has(place));
+            read.extend_from_slice(bytes.ok_or(ErrorNumber::AccessError)?);
+        }
+        Ok(read)
+    }
+
+    /// The addresses that addresses of the control table stand for.
+    fn runs(&self, address: u16, length: usize) -> Result<Vec<Range<usize>>, ErrorNumber> {
+        let place = place(address, length);
+        if place.end > self.model.size() {
+            return Err(ErrorNumber::AccessError);
+        }
+        Ok(self.model.indirect.runs(place, |row| self.value(row)))
     }
 
     /// Sets bytes, whoever may write them.
@@ -129,10 +141,27 @@ impl Memory {
         self.bytes.get(place.clone()) == Some(data) && self.model.rows(&place).iter().all(may_hold)
     }
 
-    /// Writes whole registers, all of them or none. If several things are wrong, an address or the lock
-    /// counts first, then the length, then the values in their order.
+    /// Writes whole registers, all of them or none.
     pub(super) fn write(&mut self, address: u16, data: &[u8]) -> Result<(), ErrorNumber> {
-        let place = place(address, data.len());
+        let runs = self.runs(address, data.len())?;
+        let before = (runs.len() > 1).then(|| self.bytes.clone());
+        let mut rest = data;
+        for run in runs {
+            let (these, others) = rest.split_at_checked(run.len()).unwrap_or_default();
+            rest = others;
+            if let Err(error) = self.write_run(run, these) {
+                if let Some(before) = before {
+                    self.bytes = before;
+                }
+                return Err(error);
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes registers that are next to each other. If several things are wrong, an address or the lock
+    /// counts first, then the length, then the values in their order.
+    fn write_run(&mut self, place: Range<usize>, data: &[u8]) -> Result<(), ErrorNumber> {
         let rows = self.model.rows(&place);
         let is_closed = |row: &&Row| row.access == Access::ReadOnly || self.is_locked(row);
         if !self.model.has(place.clone()) || rows.iter().any(is_closed) {

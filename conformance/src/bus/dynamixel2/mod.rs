@@ -3,6 +3,7 @@
 mod alarm;
 mod device;
 mod hearing;
+mod indirect;
 mod line;
 mod memory;
 mod model;

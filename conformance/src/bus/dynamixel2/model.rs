@@ -5,6 +5,7 @@ use std::ops;
 use actucheck_codec::register::{Access, Bound, Device, Range, Row};
 use actucheck_spec::model;
 
+use super::indirect::Indirect;
 use super::readings::Readings;
 
 /// Counts in a turn of a device whose file does not tell them.
@@ -25,6 +26,7 @@ pub(super) struct Model {
     pub(super) roles: Roles,
     /// The registers whose range depends on other registers.
     pub(super) bounded: Vec<&'static Row>,
+    pub(super) indirect: Indirect,
     /// Whether there is a register at an address.
     taken: Vec<bool>,
 }
@@ -162,6 +164,7 @@ impl Model {
             alarms: written.alarms.iter().filter_map(watch).collect(),
             roles: Roles::of(table),
             bounded: table.registers.iter().copied().filter(|row| is_bounded(row)).collect(),
+            indirect: Indirect::of(table),
             taken,
         }
     }
