@@ -107,6 +107,8 @@ table! {
     readers: TEXTS, 12000;
     #[cfg(feature = "suite")]
     forms: FORMS, 300;
+    #[cfg(feature = "suite")]
+    bus: DYNAMIXEL2, 400;
 }
 
 /// The `main` of a target's binary: libFuzzer's under cargo-fuzz, else a replay of the files that

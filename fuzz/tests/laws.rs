@@ -76,3 +76,14 @@ proptest! {
         (target.check)(&input);
     }
 }
+
+#[cfg(feature = "suite")]
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(300) })]
+
+    /// A conversation takes more bytes than other inputs.
+    #[test]
+    fn devices_pass_any_conversation(input in vec(any::<u8>(), 100..400)) {
+        actucheck_fuzz::targets::bus::check(&input);
+    }
+}

@@ -1,9 +1,8 @@
-//! Virtual devices: conversations by the requirements, and what holds of every conversation.
+//! Virtual devices: conversations by the requirements.
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
 mod conversation;
-mod property;
 
 use std::collections::BTreeSet;
 use std::fs;

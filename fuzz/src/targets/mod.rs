@@ -1,5 +1,7 @@
 //! The targets.
 
+#[cfg(feature = "suite")]
+pub mod bus;
 pub mod crc;
 pub mod fast_status;
 #[cfg(feature = "suite")]
