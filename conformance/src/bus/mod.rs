@@ -24,6 +24,7 @@ mod motion;
 mod place;
 
 use std::collections::VecDeque;
+use std::net::SocketAddr;
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 use std::time::Duration;
@@ -38,7 +39,7 @@ use self::fault::{Alarm, Faults, OnDevice, What};
 pub use self::fault::{Fault, FaultError};
 pub use self::place::{Place, PlaceError, tables};
 
-/// Bytes that devices send, and when the first of them is there.
+/// Bytes that devices send, and when the last of them is there.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Chunk {
     /// The time.
@@ -47,10 +48,20 @@ pub struct Chunk {
     pub bytes: Vec<u8>,
 }
 
+/// Who sends, and gets what answers it. The bus keeps it with the answers, and does not look at it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Sender {
+    /// The host's number.
+    pub host: u64,
+    /// Its address, if several send as this host.
+    pub peer: Option<SocketAddr>,
+}
+
 /// The devices of a wire, and the line that they are on.
 trait Devices: Send {
-    /// Takes the bytes of a host, and hands on what devices send, an answer at a time.
-    fn hear(&mut self, bytes: &[u8], now: Duration, send: &mut dyn FnMut(Chunk));
+    /// Takes the bytes of a host, and hands on what devices send, an answer at a time. Returns when the
+    /// last byte is there.
+    fn hear(&mut self, bytes: &[u8], now: Duration, send: &mut dyn FnMut(Chunk)) -> Duration;
 
     /// All devices lose their power and get it back.
     fn restart(&mut self, now: Duration);
@@ -66,6 +77,9 @@ trait Devices: Send {
 
     /// Whether bytes that were heard may be the beginning of a packet.
     fn is_within_packet(&self) -> bool;
+
+    /// Lets no packet go on after the bytes that were heard.
+    fn quiet(&mut self);
 
     /// How many of these bytes are one packet, if they are the next that are heard. A packet that has
     /// begun, or what is none, comes byte by byte.
@@ -136,14 +150,17 @@ static WIRES: [Own; 2] = [
 /// No packet goes on after so long a pause.
 pub const QUIET: Duration = Duration::from_millis(100);
 
+/// While so many answers are on their way, what is sent waits.
+const MOST: usize = 1024;
+
 /// Devices on a bus.
 pub struct VirtualBus {
     own: &'static Own,
     devices: Box<dyn Devices>,
     echo: bool,
     faults: Faults,
-    /// What is on its way, by time.
-    coming: VecDeque<Chunk>,
+    /// What is on its way, by time, and to whom.
+    coming: VecDeque<(Sender, Chunk)>,
 }
 
 /// What a bus is besides its devices.
@@ -180,18 +197,24 @@ impl VirtualBus {
         self.own.wire
     }
 
-    /// Takes what a host sends.
+    /// Takes what the only host sends.
     pub fn send(&mut self, bytes: &[u8], now: Duration) {
-        if self.echo {
-            self.put(Chunk { at: now, bytes: bytes.to_vec() });
-        }
+        self.send_from(Sender::default(), bytes, now);
+    }
+
+    /// Takes what one of several hosts sends. Returns when the last byte is there.
+    pub fn send_from(&mut self, sender: Sender, bytes: &[u8], now: Duration) -> Duration {
         let mut answers = Vec::new();
-        self.devices.hear(bytes, now, &mut |chunk| answers.push(chunk));
+        let heard = self.devices.hear(bytes, now, &mut |chunk| answers.push(chunk));
+        if self.echo && !bytes.is_empty() {
+            self.put(sender, Chunk { at: heard, bytes: bytes.to_vec() });
+        }
         for answer in answers {
             for piece in self.struck(answer, now) {
-                self.put(piece);
+                self.put(sender, piece);
             }
         }
+        heard
     }
 
     /// What arrives of an answer.
@@ -218,45 +241,62 @@ impl VirtualBus {
         pieces
     }
 
-    fn put(&mut self, chunk: Chunk) {
-        let place = self.coming.partition_point(|other| other.at <= chunk.at);
-        self.coming.insert(place, chunk);
+    fn put(&mut self, sender: Sender, chunk: Chunk) {
+        let place = self.coming.partition_point(|(_, other)| other.at <= chunk.at);
+        self.coming.insert(place, (sender, chunk));
     }
 
     /// The bytes that are there by now. Where answers are datagrams, those of one: take them until there
     /// are none.
     #[must_use]
     pub fn receive(&mut self, now: Duration) -> Vec<u8> {
-        let mut bytes = Vec::new();
-        while let Some(chunk) = self.coming.pop_front_if(|chunk| chunk.at <= now) {
-            if bytes.is_empty() {
-                bytes = chunk.bytes;
-            } else {
-                bytes.extend(chunk.bytes);
-            }
-            if self.own.has_datagrams {
-                break;
-            }
+        self.receive_for(now).map(|(_, bytes)| bytes).unwrap_or_default()
+    }
+
+    /// The same, and who has asked for them: take them until there are none.
+    pub fn receive_for(&mut self, now: Duration) -> Option<(Sender, Vec<u8>)> {
+        let (sender, Chunk { mut bytes, .. }) =
+            self.coming.pop_front_if(|(_, chunk)| chunk.at <= now)?;
+        let goes_on = |next: &mut (Sender, Chunk)| next.0 == sender && next.1.at <= now;
+        while !self.own.has_datagrams
+            && let Some((_, chunk)) = self.coming.pop_front_if(goes_on)
+        {
+            bytes.extend(chunk.bytes);
         }
-        bytes
+        Some((sender, bytes))
+    }
+
+    /// Whether something is on its way to a host.
+    #[must_use]
+    pub fn is_awaited(&self, host: u64) -> bool {
+        self.coming.iter().any(|(sender, _)| sender.host == host)
     }
 
     /// When the next bytes are there; `None` if none are on their way.
     #[must_use]
     pub fn next(&self) -> Option<Duration> {
-        self.coming.front().map(|chunk| chunk.at)
+        self.coming.front().map(|(_, chunk)| chunk.at)
     }
 
-    /// When the line has carried all that was sent on it. What is sent before then waits.
+    /// When the line has carried all that was sent on it, and not too many answers are on their way. What
+    /// is sent before then waits.
     #[must_use]
     pub fn free(&self) -> Duration {
-        self.devices.free()
+        let next = self.next().filter(|_| self.coming.len() >= MOST);
+        self.devices.free().max(next.unwrap_or_default())
     }
 
     /// Whether the last bytes that were sent may be the beginning of a packet.
     #[must_use]
     pub fn is_within_packet(&self) -> bool {
         self.devices.is_within_packet()
+    }
+
+    /// Lets no packet go on after the bytes that were sent last, and by whom. Packets after a false
+    /// beginning of one are heard now.
+    pub fn quiet(&mut self, sender: Sender, now: Duration) {
+        self.devices.quiet();
+        self.send_from(sender, &[], now);
     }
 
     /// What the devices do.

@@ -9,7 +9,7 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-use actucheck::bus::VirtualBus;
+use actucheck::bus::{Setup, VirtualBus};
 use actucheck_spec::Spec;
 
 const FOLDER: &str = "tests/bus/conversations";
@@ -84,6 +84,24 @@ fn each_actuator_answers_with_a_datagram_of_its_own() {
         assert_eq!(answer, [0xEE, address, 0x55, 0, 1, 1, 0xED]);
     }
     assert!(bus.receive(Duration::ZERO).is_empty());
+}
+
+/// Who asks while too many answers are on their way waits until the first is there.
+#[test]
+fn late_answers_do_not_pile_up() {
+    let late = Duration::from_mins(1);
+    let setup = Setup { faults: vec!["late=60000ms".parse().unwrap()], ..Setup::default() };
+    let spec = Spec::embedded().unwrap();
+    let mut bus = VirtualBus::new(&spec, &["ja40@1".parse().unwrap()], setup).unwrap();
+    let mut count = 0;
+    while bus.free() == Duration::ZERO {
+        bus.send(b"\xFF\xFF\xFD\x00\x01\x03\x00\x01\x19\x4E", Duration::ZERO);
+        count += 1;
+        assert!(count < 10_000);
+    }
+    assert_eq!(bus.free(), late);
+    assert_eq!(bus.receive(late).len(), count * 14);
+    assert_eq!(bus.free(), Duration::ZERO);
 }
 
 #[test]

@@ -28,6 +28,18 @@ fn bytes_take_their_time_and_answers_go_to_who_asked() {
     assert_eq!(ended.status, Some(0));
 }
 
+#[test]
+fn an_echo_takes_as_long_as_what_it_repeats() {
+    let mut bus = Bus::start(&[ONE, "--echo", "--realtime", "--baud", "2400", "--tcp", "0"]);
+    let mut host = connect(&bus.port("tcp"));
+    let start = Instant::now();
+    assert_eq!(ask(&mut host, READ, READ.len()), READ);
+    assert!(start.elapsed() >= transmission(READ.len(), 2400));
+    assert_eq!(answer(&mut host, STATUS.len()), STATUS);
+    let ended = bus.end();
+    assert!(ended.out.contains("\nechoes: 1\n"), "{}", ended.out);
+}
+
 /// Times of a process in clock ticks, of which a second has 100.
 #[cfg(target_os = "linux")]
 #[test]

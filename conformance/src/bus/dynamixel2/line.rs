@@ -48,13 +48,12 @@ impl Line {
 }
 
 impl Devices for Line {
-    fn hear(&mut self, bytes: &[u8], now: Duration, send: &mut dyn FnMut(Chunk)) {
+    fn hear(&mut self, bytes: &[u8], now: Duration, send: &mut dyn FnMut(Chunk)) -> Duration {
         let Self { parser, devices, readings, clock, scratch, .. } = self;
         if now.saturating_sub(self.heard) > QUIET {
             parser.idle();
         }
-        self.heard = now;
-        clock.carry(bytes.len(), now);
+        self.heard = clock.carry(bytes.len(), now);
         parser.feed(bytes, |event| {
             // Bytes that are no packet are for nobody.
             if let Event::Frame(frame) = event {
@@ -62,6 +61,7 @@ impl Devices for Line {
                 Hearing { devices, readings, clock, now, send }.hear(&frame, scratch);
             }
         });
+        self.heard
     }
 
     fn restart(&mut self, now: Duration) {
@@ -97,6 +97,10 @@ impl Devices for Line {
 
     fn is_within_packet(&self) -> bool {
         self.parser.pending() > 0
+    }
+
+    fn quiet(&mut self) {
+        self.parser.idle();
     }
 
     fn first(&self, bytes: &[u8]) -> usize {

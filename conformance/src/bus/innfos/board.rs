@@ -61,7 +61,7 @@ impl Board {
 impl Devices for Board {
     /// A datagram has whole frames. A stream may pause within one. After a damaged frame the next
     /// header counts.
-    fn hear(&mut self, bytes: &[u8], now: Duration, send: &mut dyn FnMut(Chunk)) {
+    fn hear(&mut self, bytes: &[u8], now: Duration, send: &mut dyn FnMut(Chunk)) -> Duration {
         let is_whole = Frame::first(Direction::Request, bytes).is_ok();
         if is_whole || now.saturating_sub(self.heard) > QUIET {
             self.begun.clear();
@@ -86,6 +86,7 @@ impl Devices for Board {
         let taken = all.len() - rest.len();
         all.drain(..taken);
         self.begun = all;
+        now
     }
 
     fn restart(&mut self, now: Duration) {
@@ -113,6 +114,10 @@ impl Devices for Board {
 
     fn is_within_packet(&self) -> bool {
         !self.begun.is_empty()
+    }
+
+    fn quiet(&mut self) {
+        self.begun.clear();
     }
 
     fn first(&self, bytes: &[u8]) -> usize {
