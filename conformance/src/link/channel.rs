@@ -1,6 +1,7 @@
 //! One host's way to the bus and back.
 
 use std::io::{self, ErrorKind};
+use std::net::SocketAddr;
 use std::os::fd::BorrowedFd;
 
 /// What a read came to.
@@ -35,15 +36,20 @@ pub(super) trait Channel {
     /// Reads what is there.
     fn read(&mut self, buffer: &mut [u8]) -> Read;
 
-    /// Writes what there is room for, and returns how many bytes that is.
-    fn write(&mut self, bytes: &[u8]) -> usize;
+    /// Who has sent what was read last, if several share the channel.
+    fn peer(&self) -> Option<SocketAddr> {
+        None
+    }
+
+    /// Writes to a peer what there is room for, and returns how many bytes that is.
+    fn write(&mut self, bytes: &[u8], peer: Option<SocketAddr>) -> usize;
 
     /// Whether a packet may go on with the next read.
     fn may_split(&self) -> bool {
         true
     }
 
-    /// Whether the bus ends with it.
+    /// Whether the bus ends when its host goes.
     fn ends_the_bus(&self) -> bool {
         false
     }

@@ -28,7 +28,7 @@ pub use self::port::{Links, Port};
 
 /// Who watches the line.
 pub trait Watch {
-    /// Bytes that pass, and when.
+    /// Bytes that pass, and when the last of them is there.
     fn passed(&mut self, direction: Direction, bytes: &[u8], at: Duration);
 
     /// No packet goes on after the bytes that passed.

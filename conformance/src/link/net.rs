@@ -68,7 +68,7 @@ impl Channel for TcpStream {
         Read::of((&*self).read(buffer))
     }
 
-    fn write(&mut self, bytes: &[u8]) -> usize {
+    fn write(&mut self, bytes: &[u8], _: Option<SocketAddr>) -> usize {
         written(bytes, |rest| (&*self).write(rest))
     }
 }
@@ -76,6 +76,7 @@ impl Channel for TcpStream {
 /// A socket for datagrams: what answers a datagram goes to where it came from.
 pub(super) struct Udp {
     socket: UdpSocket,
+    /// Where the last datagram came from.
     peer: Option<SocketAddr>,
 }
 
@@ -112,8 +113,12 @@ impl Channel for Udp {
         }
     }
 
-    fn write(&mut self, bytes: &[u8]) -> usize {
-        let Some(peer) = self.peer else { return 0 };
+    fn peer(&self) -> Option<SocketAddr> {
+        self.peer
+    }
+
+    fn write(&mut self, bytes: &[u8], peer: Option<SocketAddr>) -> usize {
+        let Some(peer) = peer else { return 0 };
         let sent = bytes.chunks(DATAGRAM).map_while(|part| self.socket.send_to(part, peer).ok());
         sent.sum()
     }

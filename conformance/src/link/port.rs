@@ -8,6 +8,7 @@ use super::channel::{Channel, Read};
 use super::net::{self, Udp};
 use super::pty::Pty;
 use super::stdio::Stdio;
+use crate::bus::Sender;
 
 /// Hosts that may be connected at once. More are turned away.
 const HOSTS: usize = 64;
@@ -37,6 +38,8 @@ pub(super) struct Host {
     /// What was read, and how much of it the bus has heard.
     read: Vec<u8>,
     heard: usize,
+    /// Whether it sends nothing more.
+    pub(super) has_ended: bool,
 }
 
 impl Host {
@@ -45,21 +48,26 @@ impl Host {
         self.read.get(self.heard..).unwrap_or_default()
     }
 
-    /// Reads if nothing waits. Returns whether there may be more to come.
-    pub(super) fn fill(&mut self, buffer: &mut [u8]) -> bool {
+    /// Reads if nothing waits.
+    pub(super) fn fill(&mut self, buffer: &mut [u8]) {
         if !self.waiting().is_empty() {
-            return true;
+            return;
         }
         self.read.clear();
         self.heard = 0;
         match self.channel.read(buffer) {
             Read::Bytes(count) => {
                 self.read.extend_from_slice(buffer.get(..count).unwrap_or_default());
-                true
             }
-            Read::Nothing => true,
-            Read::End => false,
+            Read::Nothing => {}
+            Read::End => self.has_ended = true,
         }
+    }
+
+    /// Who has sent what waits; `None` if nothing does.
+    pub(super) fn sender(&self) -> Option<Sender> {
+        let sender = || Sender { host: self.number, peer: self.channel.peer() };
+        (!self.waiting().is_empty()).then(sender)
     }
 
     /// The next bytes that wait, so many.
@@ -119,10 +127,17 @@ impl Links {
         self.join(Box::new(Stdio::open()));
     }
 
-    /// Lets in who has connected.
+    /// Lets in who has connected. If there are too many hosts, one that only waits for answers makes room.
     pub(super) fn accept(&mut self, listener: usize) {
         let stream = self.listeners.get(listener).and_then(net::accept);
-        if let Some(stream) = stream.filter(|_| self.hosts.len() < HOSTS) {
+        let Some(stream) = stream else { return };
+        let may_go = |host: &Host| host.has_ended && !host.channel.ends_the_bus();
+        if self.hosts.len() >= HOSTS
+            && let Some(place) = self.hosts.iter().position(may_go)
+        {
+            self.hosts.remove(place);
+        }
+        if self.hosts.len() < HOSTS {
             self.join(Box::new(stream));
         }
     }
@@ -132,8 +147,8 @@ impl Links {
     }
 
     fn join(&mut self, channel: Box<dyn Channel>) {
-        let (read, heard) = (Vec::new(), 0);
-        self.hosts.push(Host { number: self.count, channel, read, heard });
+        let (read, heard, has_ended) = (Vec::new(), 0, false);
+        self.hosts.push(Host { number: self.count, channel, read, heard, has_ended });
         self.count += 1;
     }
 }

@@ -2,6 +2,7 @@
 
 use std::fs::{self, File};
 use std::io::{self, Read as _, Write as _};
+use std::net::SocketAddr;
 use std::os::fd::{AsFd as _, BorrowedFd, OwnedFd};
 use std::os::unix::ffi::OsStringExt as _;
 use std::os::unix::fs::symlink;
@@ -75,7 +76,7 @@ impl Channel for Pty {
         Read::of(self.controller.read(buffer))
     }
 
-    fn write(&mut self, bytes: &[u8]) -> usize {
+    fn write(&mut self, bytes: &[u8], _: Option<SocketAddr>) -> usize {
         written(bytes, |rest| self.controller.write(rest))
     }
 }

@@ -3,7 +3,6 @@
 use std::iter;
 use std::ops::ControlFlow;
 use std::os::fd::{AsFd, BorrowedFd};
-use std::thread;
 use std::time::{Duration, Instant};
 
 use actucheck_spec::wire::Direction;
@@ -19,8 +18,9 @@ use crate::bus::VirtualBus;
 const LONGEST: usize = 64 << 10;
 
 impl Links {
-    /// Carries bytes between the hosts and the bus until `stop` can be read, standard input ends, or who
-    /// watches has seen enough. Returns how many bytes of devices were lost, as no host took them.
+    /// Carries bytes between the hosts and the bus until `stop` can be read, standard input has ended and
+    /// is answered, or who watches has seen enough. Returns how many bytes of devices were lost, as no
+    /// host took them.
     ///
     /// # Errors
     /// If the system can't wait for the ports.
@@ -34,7 +34,11 @@ impl Links {
         let mut line = Line { links: self, bus, watch, start, turn, buffer, lost: 0 };
         while let ControlFlow::Continue(look) = line.watch.settled(line.bus, start.elapsed()) {
             let ready = line.wait(stop, look)?;
-            if ready.stop || !line.hear(ready.hosts) {
+            if ready.stop {
+                break;
+            }
+            line.hear(ready.hosts);
+            if !line.part() {
                 break;
             }
             for listener in ready.listeners {
@@ -69,12 +73,13 @@ impl Line<'_> {
         let now = self.start.elapsed();
         let free = Some(self.bus.free()).filter(|free| *free > now);
         let Links { listeners, hosts, .. } = &self.links;
-        let is_heard = |host: &&Host| free.is_none() && self.turn.admits(host.number);
+        let is_heard =
+            |host: &&Host| free.is_none() && !host.has_ended && self.turn.admits(host.number, now);
         let heard: Vec<_> = hosts.iter().filter(is_heard).collect();
         let waits = |host: &&Host| !host.waiting().is_empty();
         let at_once = heard.iter().any(waits).then_some(now);
-        let wake =
-            [at_once, free, look, self.bus.next(), self.turn.end].into_iter().flatten().min();
+        let times = [at_once, free, look, self.bus.next(), self.turn.next(now)];
+        let wake = times.into_iter().flatten().min();
         let limit = wake.and_then(|wake| Timespec::try_from(wake.saturating_sub(now)).ok());
         let sources = heard.iter().map(|host| host.channel.source());
         let sources = listeners.iter().map(AsFd::as_fd).chain(sources);
@@ -99,57 +104,65 @@ impl Line<'_> {
         })
     }
 
-    /// Lets the bus hear hosts, and hands on what it has to say. Returns whether the bus goes on.
-    fn hear(&mut self, mut ready: Vec<u64>) -> bool {
+    /// Lets the bus hear hosts, and hands on what it has to say.
+    fn hear(&mut self, mut ready: Vec<u64>) {
         self.answer(&[], Duration::ZERO);
         if self.turn.expire(self.start.elapsed()) {
-            self.watch.quiet();
+            self.quiet();
         }
         // Who comes after the host that was heard last is first: so each comes to its turn.
-        let last = self.turn.host;
+        let last = self.turn.sender.map(|sender| sender.host);
         ready.sort_by_key(|number| Some(*number) <= last);
         for number in ready {
-            if self.bus.free() > self.start.elapsed() || !self.turn.admits(number) {
+            let now = self.start.elapsed();
+            if self.bus.free() > now || !self.turn.admits(number, now) {
                 continue;
             }
-            let Some(host) = self.links.host(number) else { continue };
-            if !host.fill(&mut self.buffer) {
-                if host.channel.ends_the_bus() {
-                    self.finish();
-                    return false;
-                }
-                self.links.hosts.retain(|host| host.number != number);
-                continue;
+            if let Some(host) = self.links.host(number) {
+                host.fill(&mut self.buffer);
+                self.hear_host(number);
             }
-            self.hear_host(number);
         }
-        true
     }
 
-    /// Hands on what is still on its way.
-    fn finish(&mut self) {
-        while let Some(next) = self.bus.next() {
-            thread::sleep(next.saturating_sub(self.start.elapsed()));
-            self.answer(&[], Duration::ZERO);
-        }
+    /// Lets hosts go whose input has ended, as soon as it is not their turn and nothing is on its way to
+    /// them. Returns whether the bus goes on.
+    fn part(&mut self) -> bool {
+        let (bus, turn) = (&*self.bus, &self.turn);
+        let goes = |host: &Host| {
+            host.has_ended && !turn.is_of(host.number) && !bus.is_awaited(host.number)
+        };
+        let ends = |host: &Host| host.channel.ends_the_bus() && goes(host);
+        let goes_on = !self.links.hosts.iter().any(ends);
+        self.links.hosts.retain(|host| !goes(host));
+        goes_on
+    }
+
+    /// Lets no packet go on after what was heard.
+    fn quiet(&mut self) {
+        self.bus.quiet(self.turn.sender.unwrap_or_default(), self.start.elapsed());
+        self.watch.quiet();
+        self.answer(&[], Duration::ZERO);
     }
 
     /// Lets the bus hear what a host has sent, packet by packet while the line is free. If others wait for
     /// the end of a packet, what comes after it waits for them.
     fn hear_host(&mut self, number: u64) {
-        let was_within_packet = self.turn.end.is_some();
-        loop {
-            let now = self.start.elapsed();
-            let Some(host) = self.links.host(number) else { return };
-            let count = self.bus.first(host.waiting());
-            if count == 0 || self.bus.free() > now {
-                return;
+        let was_within_packet = self.turn.lasts();
+        while let Some(sender) = self.links.host(number).and_then(|host| host.sender()) {
+            if self.turn.sender != Some(sender) && self.bus.is_within_packet() {
+                self.quiet();
             }
+            let now = self.start.elapsed();
+            let Some(host) = self.links.host(number).filter(|_| self.bus.free() <= now) else {
+                return;
+            };
+            let count = self.bus.first(host.waiting());
             let (bytes, may_split) = (host.next(count).to_vec(), host.channel.may_split());
-            self.turn.heard(number, may_split, now);
-            self.bus.send(&bytes, now);
-            self.answer(&bytes, now);
-            if was_within_packet && self.turn.end.is_none() {
+            let heard = self.bus.send_from(sender, &bytes, now);
+            self.turn.heard(sender, may_split, heard);
+            self.answer(&bytes, heard);
+            if was_within_packet && !self.turn.lasts() {
                 return;
             }
         }
@@ -157,20 +170,16 @@ impl Line<'_> {
 
     /// Hands on what devices have sent by now. Only then is told what passed: what was `asked`, and the
     /// answer.
-    fn answer(&mut self, asked: &[u8], then: Duration) {
+    fn answer(&mut self, asked: &[u8], heard: Duration) {
         let mut answers = Vec::new();
-        loop {
-            let bytes = self.bus.receive(self.start.elapsed());
-            if bytes.is_empty() {
-                break;
-            }
-            let host = self.turn.host.and_then(|number| self.links.host(number));
-            let taken = host.map_or(0, |host| host.channel.write(&bytes));
+        while let Some((sender, bytes)) = self.bus.receive_for(self.start.elapsed()) {
+            let host = self.links.host(sender.host);
+            let taken = host.map_or(0, |host| host.channel.write(&bytes, sender.peer));
             self.lost += bytes.len().saturating_sub(taken) as u64;
             answers.push((bytes, self.start.elapsed()));
         }
         if !asked.is_empty() {
-            self.watch.passed(Direction::Request, asked, then);
+            self.watch.passed(Direction::Request, asked, heard);
         }
         for (bytes, at) in answers {
             self.watch.passed(Direction::Reply, &bytes, at);

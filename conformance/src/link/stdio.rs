@@ -1,6 +1,7 @@
 //! Standard input and output as a line.
 
 use std::io::{Stdin, Stdout, stdin, stdout};
+use std::net::SocketAddr;
 use std::os::fd::{AsFd as _, BorrowedFd};
 
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
@@ -38,7 +39,7 @@ impl Channel for Stdio {
         Read::of(read(&self.input, buffer).map_err(Into::into))
     }
 
-    fn write(&mut self, bytes: &[u8]) -> usize {
+    fn write(&mut self, bytes: &[u8], _: Option<SocketAddr>) -> usize {
         written(bytes, |rest| {
             let piece = rest.get(..PIECE).unwrap_or(rest);
             if self.has_room() { write(&self.output, piece).map_err(Into::into) } else { Ok(0) }

@@ -34,6 +34,9 @@ const STATUS: &[u8] = b"\xFF\xFF\xFD\x00\x01\x08\x00\x55\x00\xA6\x00\x00\x00\x8C
 const READ_2: &[u8] = b"\xFF\xFF\xFD\x00\x02\x07\x00\x02\x44\x02\x04\x00\x1E\xA5";
 const STATUS_2: &[u8] = b"\xFF\xFF\xFD\x00\x02\x08\x00\x55\x00\xD0\x07\x00\x00\x54\x72";
 
+/// The beginning of a packet. A header that comes next is its length, of 64 KiB.
+const BEGUN: &[u8] = b"\xFF\xFF\xFD\x00\x01";
+
 /// Longer than anything here takes.
 const PATIENCE: Duration = Duration::from_secs(10);
 
@@ -135,7 +138,9 @@ fn answer(host: &mut (impl Read + AsFd), length: usize) -> Vec<u8> {
     let mut read = 0;
     while read < length {
         assert!(is_ready(host, PATIENCE), "{read} of {length} bytes came: {bytes:02x?}");
-        read += host.read(&mut bytes[read..]).unwrap();
+        let count = host.read(&mut bytes[read..]).unwrap();
+        assert!(count > 0, "it ended after {read} of {length} bytes: {bytes:02x?}");
+        read += count;
     }
     bytes
 }
@@ -146,6 +151,14 @@ fn packet(id: u8, instruction_and_params: &[u8]) -> Vec<u8> {
     let mut packet = [b"\xFF\xFF\xFD\x00", &[id][..], &length, instruction_and_params].concat();
     packet.extend(crc::umts(&packet).to_le_bytes());
     packet
+}
+
+/// The processor time of a bus in clock ticks, of which a second has 100.
+#[cfg(target_os = "linux")]
+fn ticks(bus: &Bus) -> u64 {
+    let stat = text(format!("/proc/{}/stat", bus.child.id()));
+    let (_, fields) = stat.rsplit_once(") ").unwrap();
+    fields.split(' ').skip(11).take(2).map(|ticks| ticks.parse::<u64>().unwrap()).sum()
 }
 
 /// Whether there is something to read within a time.

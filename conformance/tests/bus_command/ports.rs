@@ -62,6 +62,25 @@ fn what_is_on_its_way_when_the_input_ends_still_comes() {
     assert_eq!(ended(&mut bus.child), Some(0));
 }
 
+/// No packet goes on after the end, so what is within one that does not end is heard.
+#[test]
+fn a_packet_that_the_end_cuts_hides_none() {
+    let mut bus = Bus::start(&[TWO, "--stdio"]);
+    let cut = [BEGUN, READ_2].concat();
+    bus.child.stdin.take().unwrap().write_all(&cut).unwrap();
+    assert_eq!(answer(bus.out.get_mut(), STATUS_2.len()), STATUS_2);
+    assert_eq!(ended(&mut bus.child), Some(0));
+}
+
+#[test]
+fn what_is_on_its_way_when_the_input_ends_holds_up_no_interrupt() {
+    let mut bus = Bus::start(&[TWO, "--stdio", "--fault", "late=60000ms"]);
+    bus.child.stdin.take().unwrap().write_all(READ_2).unwrap();
+    std::thread::sleep(Duration::from_millis(200));
+    assert_eq!(bus.child.try_wait().unwrap(), None);
+    assert_eq!(bus.end().status, Some(0));
+}
+
 /// A pipe that is not read is full after 64 KiB.
 #[test]
 fn standard_output_that_nobody_reads_stops_nothing() {
