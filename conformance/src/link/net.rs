@@ -1,6 +1,6 @@
 //! Sockets.
 
-use std::io::{Read as _, Write as _};
+use std::io::{self, Read as _, Write as _};
 use std::net::{
     IpAddr, Ipv4Addr, SocketAddr, TcpListener, TcpStream, ToSocketAddrs as _, UdpSocket,
 };
@@ -51,12 +51,12 @@ pub(super) fn listen(address: SocketAddr) -> Result<TcpListener, LinkError> {
     open().map_err(|error| LinkError::Bind { address, error })
 }
 
-/// The next host that has connected; `None` if there is none, or it is gone again.
-pub(super) fn accept(listener: &TcpListener) -> Option<TcpStream> {
-    let (stream, _) = listener.accept().ok()?;
-    stream.set_nonblocking(true).ok()?;
-    stream.set_nodelay(true).ok()?;
-    Some(stream)
+/// The next host that has connected.
+pub(super) fn accept(listener: &TcpListener) -> io::Result<TcpStream> {
+    let (stream, _) = listener.accept()?;
+    stream.set_nonblocking(true)?;
+    stream.set_nodelay(true)?;
+    Ok(stream)
 }
 
 impl Channel for TcpStream {
@@ -92,7 +92,7 @@ impl Udp {
     }
 
     /// Its address.
-    pub(super) fn address(&self) -> std::io::Result<SocketAddr> {
+    pub(super) fn address(&self) -> io::Result<SocketAddr> {
         self.socket.local_addr()
     }
 }

@@ -1,5 +1,6 @@
 //! The ports of a bus, and who is connected to them.
 
+use std::io::{self, ErrorKind};
 use std::net::{SocketAddr, TcpListener};
 use std::path::Path;
 
@@ -128,9 +129,15 @@ impl Links {
     }
 
     /// Lets in who has connected. If there are too many hosts, one that only waits for answers makes room.
-    pub(super) fn accept(&mut self, listener: usize) {
-        let stream = self.listeners.get(listener).and_then(net::accept);
-        let Some(stream) = stream else { return };
+    ///
+    /// # Errors
+    /// If the system has no more room for hosts.
+    pub(super) fn accept(&mut self, listener: usize) -> io::Result<()> {
+        let Some(listener) = self.listeners.get(listener) else { return Ok(()) };
+        let stream = match net::accept(listener) {
+            Err(error) if error.kind() == ErrorKind::WouldBlock => return Ok(()),
+            stream => stream?,
+        };
         let may_go = |host: &Host| host.has_ended && !host.channel.ends_the_bus();
         if self.hosts.len() >= HOSTS
             && let Some(place) = self.hosts.iter().position(may_go)
@@ -140,6 +147,7 @@ impl Links {
         if self.hosts.len() < HOSTS {
             self.join(Box::new(stream));
         }
+        Ok(())
     }
 
     pub(super) fn host(&mut self, number: u64) -> Option<&mut Host> {

@@ -14,6 +14,9 @@ use super::turn::Turn;
 use super::{LinkError, Watch};
 use crate::bus::VirtualBus;
 
+/// How long nobody is let in after the system had no room for another host.
+const FULL: Duration = Duration::from_millis(100);
+
 /// The largest datagram. Streams are read in pieces that are no longer.
 const LONGEST: usize = 64 << 10;
 
@@ -31,7 +34,8 @@ impl Links {
         watch: &mut dyn Watch,
     ) -> Result<u64, LinkError> {
         let (start, turn, buffer) = (Instant::now(), Turn::default(), vec![0; LONGEST]);
-        let mut line = Line { links: self, bus, watch, start, turn, buffer, lost: 0 };
+        let (full, lost) = (Duration::ZERO, 0);
+        let mut line = Line { links: self, bus, watch, start, turn, full, buffer, lost };
         while let ControlFlow::Continue(look) = line.watch.settled(line.bus, start.elapsed()) {
             let ready = line.wait(stop, look)?;
             if ready.stop {
@@ -42,7 +46,9 @@ impl Links {
                 break;
             }
             for listener in ready.listeners {
-                line.links.accept(listener);
+                if line.links.accept(listener).is_err() {
+                    line.full = line.start.elapsed() + FULL;
+                }
             }
         }
         Ok(line.lost)
@@ -55,6 +61,8 @@ struct Line<'a> {
     watch: &'a mut dyn Watch,
     start: Instant,
     turn: Turn,
+    /// Nobody is let in until then.
+    full: Duration,
     buffer: Vec<u8>,
     lost: u64,
 }
@@ -72,13 +80,15 @@ impl Line<'_> {
     fn wait(&mut self, stop: BorrowedFd<'_>, look: Option<Duration>) -> Result<Ready, LinkError> {
         let now = self.start.elapsed();
         let free = Some(self.bus.free()).filter(|free| *free > now);
+        let full = Some(self.full).filter(|full| *full > now);
         let Links { listeners, hosts, .. } = &self.links;
+        let listeners = if full.is_none() { listeners.as_slice() } else { &[] };
         let is_heard =
             |host: &&Host| free.is_none() && !host.has_ended && self.turn.admits(host.number, now);
         let heard: Vec<_> = hosts.iter().filter(is_heard).collect();
         let waits = |host: &&Host| !host.waiting().is_empty();
         let at_once = heard.iter().any(waits).then_some(now);
-        let times = [at_once, free, look, self.bus.next(), self.turn.next(now)];
+        let times = [at_once, free, full, look, self.bus.next(), self.turn.next(now)];
         let wake = times.into_iter().flatten().min();
         let limit = wake.and_then(|wake| Timespec::try_from(wake.saturating_sub(now)).ok());
         let sources = heard.iter().map(|host| host.channel.source());

@@ -214,3 +214,26 @@ fn no_packet_goes_on_in_what_another_host_sends() {
         assert!(!is_ready(socket, Duration::from_millis(50)), "an answer to half a packet");
     }
 }
+
+/// Who can't be let in waits, and is no work meanwhile.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_bus_rests_while_the_system_has_no_room_for_hosts() {
+    use rustix::process::{Resource, Rlimit, prlimit};
+
+    let mut bus = Bus::start(&[ONE, "--tcp", "0"]);
+    let address = bus.port("tcp");
+    let limit = Rlimit { current: Some(14), maximum: Some(14) };
+    prlimit(Some(Pid::from_child(&bus.child)), Resource::Nofile, limit).unwrap();
+    let mut hosts: Vec<_> = (0..20).map(|_| connect(&address)).collect();
+    assert_eq!(ask(&mut hosts[0], READ, STATUS.len()), STATUS);
+    let before = ticks(&bus);
+    sleep(Duration::from_secs(1));
+    let spent = ticks(&bus) - before;
+    assert!(spent <= 2, "{spent} ticks");
+    let mut last = hosts.pop().unwrap();
+    last.write_all(READ).unwrap();
+    assert!(!is_ready(&last, Duration::from_millis(50)), "there is room");
+    drop(hosts);
+    assert_eq!(answer(&mut last, STATUS.len()), STATUS);
+}
