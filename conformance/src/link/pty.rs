@@ -41,7 +41,10 @@ impl Pty {
         let failed = |error| LinkError::Link { link: link.to_owned(), error };
         match fs::read_link(link) {
             // An earlier run that was killed left it, and its terminal is gone or has become this one.
-            Ok(target) if target == self.path || !link.exists() => {
+            Ok(target)
+                if target == self.path
+                    || target.parent() == self.path.parent() && !link.exists() =>
+            {
                 fs::remove_file(link).map_err(failed)?;
             }
             _ if link.symlink_metadata().is_ok() => return Err(LinkError::Exists(link.to_owned())),

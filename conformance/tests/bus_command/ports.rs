@@ -119,8 +119,12 @@ fn the_link_leads_to_the_terminal_and_goes_with_it() {
     assert_eq!(bus.end().status, Some(0));
     assert!(link.symlink_metadata().is_err(), "the link is left over");
 
-    // Nor is a file replaced.
+    // Nor is a file replaced, or a link to something else that is gone.
     fs::write(&link, "notes").unwrap();
     assert_eq!(Bus::start(&[ONE, "--pty", name]).ended().status, Some(4));
     assert_eq!(text(&link), "notes");
+    fs::remove_file(&link).unwrap();
+    symlink("/no-such-disk/notes", &link).unwrap();
+    assert_eq!(Bus::start(&[ONE, "--pty", name]).ended().status, Some(4));
+    assert_eq!(fs::read_link(&link).unwrap(), Path::new("/no-such-disk/notes"));
 }
