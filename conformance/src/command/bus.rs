@@ -37,7 +37,8 @@ Examples:
   printf '\\xFF\\xFF\\xFD\\x00\\x01\\x03\\x00\\x01\\x19\\x4E' | actucheck bus ja40@1 --stdio | xxd
 
 All ports lead to one line. A host's answers go to that host; what it does not read is lost as
-soon as its port is full.
+soon as its port is full. A pseudo-terminal keeps answers that nobody has read, also when its
+program has gone: who opens it next reads them first, or drops them with tcflush, as pyserial does.
 
 The first lines of the output are the ports, one each: what it is, and its path or address. At
 Ctrl-C comes what passed in numbers, as of `actucheck decode --show summary`. What a host sends

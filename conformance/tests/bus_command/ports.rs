@@ -4,6 +4,8 @@ use std::fs;
 use std::net::UdpSocket;
 use std::os::unix::fs::symlink;
 
+use rustix::termios::{QueueSelector, tcflush};
+
 use super::*;
 
 #[test]
@@ -79,6 +81,23 @@ fn what_is_on_its_way_when_the_input_ends_holds_up_no_interrupt() {
     std::thread::sleep(Duration::from_millis(200));
     assert_eq!(bus.child.try_wait().unwrap(), None);
     assert_eq!(bus.end().status, Some(0));
+}
+
+#[test]
+fn a_pseudo_terminal_keeps_what_nobody_has_read() {
+    let mut bus = Bus::start(&[ONE, TWO]);
+    let path = bus.port("pty");
+    let leave = || {
+        open(&path).write_all(READ).unwrap();
+        std::thread::sleep(Duration::from_millis(100));
+    };
+    leave();
+    let mut host = open(&path);
+    assert_eq!(ask(&mut host, READ_2, STATUS.len()), STATUS);
+    assert_eq!(answer(&mut host, STATUS_2.len()), STATUS_2);
+    leave();
+    tcflush(&host, QueueSelector::IFlush).unwrap();
+    assert_eq!(ask(&mut host, READ_2, STATUS_2.len()), STATUS_2);
 }
 
 /// A pipe that is not read is full after 64 KiB.
