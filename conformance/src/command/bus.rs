@@ -15,6 +15,7 @@ use actucheck::bus::{Fault, Place, Readings, Setup, VirtualBus, tables};
 use actucheck::link::{LinkError, Links, Port, Reach, address};
 use clap::Args;
 
+use super::ENDED;
 use super::shared::stream::{Fitted, Lines, Show, Sink, Text, Told, width};
 use super::shared::{self, Failure};
 use view::View;
@@ -46,11 +47,11 @@ that no document allows is told at once on standard error, the first times that 
 terminal, the devices are shown there as they are.
 
 Exit status: 0 ended by Ctrl-C or by the end of standard input, 2 wrong usage, 3 the output could
-not be written, 4 a port could not be opened.";
+not be written, 4 a port could not be opened";
 
 /// Puts virtual devices on a bus that programs open as they open a serial port
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = format!("{EXAMPLES}, {ENDED}"))]
 pub(crate) struct Bus {
     /// The devices, each with its ID and, if they are to begin with others than the document's, values
     /// of registers. A device is one that `actucheck decode --device` knows, a YAML or .model file, or a

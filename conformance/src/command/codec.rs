@@ -23,6 +23,7 @@ use clap::Args;
 use super::shared::{
     self, Adapter, Failure, Look, Outputs, Reports, Selection, Streams, Subjects, Target,
 };
+use super::{ENDED, EXIT};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -58,15 +59,11 @@ command, the reports of the run before stay, but a junit report says in an error
 server would take the old one for the new one.
 
 What fails is asked again in a second process. If it does not fail in the same way there, it is \
-`flaky`: it depends on what was asked before, which is then searched, or on time.
-
-Exit status: 0 all passed, 1 something failed, was flaky, crashed or gave no answer in time, \
-2 wrong usage, 3 something could not be run or written, or the adapter itself is at fault, 4 the \
-adapter could not be started, 130 another Ctrl-C ended it, a second after the first.";
+`flaky`: it depends on what was asked before, which is then searched, or on time.";
 
 /// Checks a codec: the built-in one, or a library behind an adapter
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = format!("{EXAMPLES}\n\n{EXIT}, {ENDED}"))]
 pub(crate) struct Codec {
     #[command(flatten)]
     selection: Selection,

@@ -6,15 +6,16 @@ use clap::{Args, CommandFactory as _};
 use clap_complete::Shell;
 
 use super::Cli;
+use super::WRITTEN;
 use super::shared::{self, Failure};
 
-const EXAMPLE: &str = "\
+const EXAMPLES: &str = "\
 Example:
   actucheck completions bash > ~/.local/share/bash-completion/completions/actucheck";
 
 /// Prints a shell's completion script
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLE)]
+#[command(after_help = format!("{EXAMPLES}\n\n{WRITTEN}"))]
 pub(crate) struct Completions {
     /// The shell
     #[arg(value_enum)]

@@ -18,6 +18,7 @@ use actucheck::suite::saved;
 use clap::Args;
 use indicatif::ProgressBar;
 
+use super::ENDED;
 use super::shared::{self, Adapter, Failure, Look, Subjects, Target, duration, wire};
 
 const EXAMPLES: &str = "\
@@ -39,12 +40,13 @@ they are found.
 What an adapter skips five times without another answer is not asked any more; the summary says \
 what that was.
 
-Exit status: 0 no failure found (a recommendation may be broken), 1 a failure found, 2 wrong usage, 3 the adapter failed too often or \
-skips everything, 4 the adapter could not be started.";
+Exit status: 0 no failure found (a recommendation may be broken), 1 a failure found, 2 wrong usage, \
+3 the adapter failed too often or skips everything, or what was found could not be written, 4 the adapter \
+could not be started";
 
 /// Looks for failures that no check foresees, and shrinks them
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = format!("{EXAMPLES}, {ENDED}"))]
 pub(crate) struct Fuzz {
     /// The wire whose packets are generated
     #[arg(long, value_parser = wire(), default_value_t)]

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use actucheck::suite::check::Check;
 use clap::Args;
 
+use super::WRITTEN;
 use super::shared::{self, Failure, Selection};
 
 const EXAMPLES: &str = "\
@@ -15,7 +16,7 @@ Examples:
 
 /// Lists the checks
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = format!("{EXAMPLES}\n\n{WRITTEN}"))]
 pub(crate) struct List {
     #[command(flatten)]
     selection: Selection,

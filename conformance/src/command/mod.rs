@@ -21,15 +21,20 @@ pub(crate) use shared::Failure;
 
 /// Checks implementations of robot actuators' protocols against the documents.
 #[derive(Debug, Parser)]
-#[command(version, after_help = EXIT)]
+#[command(version, after_help = format!("{EXIT}, {ENDED}"))]
 pub(crate) struct Cli {
     #[command(subcommand)]
     pub(crate) command: Command,
 }
 
-const EXIT: &str = "Exit status: 0 all passed, 1 something failed, crashed or gave no answer in time, \
-    2 wrong usage, 3 something could not be run, or the adapter itself is at fault, 4 the adapter \
-    could not be started.";
+/// The exit statuses of what runs checks.
+const EXIT: &str = "Exit status: 0 all passed, 1 something failed, was flaky, crashed or gave no answer \
+    in time, 2 wrong usage, 3 something could not be run or written, or the adapter itself is at fault, \
+    4 the adapter could not be started";
+/// One more, of whatever Ctrl-C ends.
+const ENDED: &str = "130 another Ctrl-C ended it, a second after the first.";
+/// The exit statuses of what only writes.
+const WRITTEN: &str = "Exit status: 0 written, 2 wrong usage, 3 the output could not be written.";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {

@@ -14,6 +14,7 @@ use actucheck_spec::Spec;
 use clap::Args;
 
 use super::shared::{self, Adapter, Failure, Growth, Subjects};
+use super::{ENDED, EXIT};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -21,13 +22,11 @@ Examples:
   actucheck replay --seed 7 dynamixel2.seed-7.12.status/decode -- ./my-adapter
   actucheck replay findings.yaml -- ./my-adapter
   actucheck replay ja40.ping.instruction/crc --after ja40.reboot.instruction/crc -- ./my-adapter
-      something that fails only after something else
-
-Exit status: as `actucheck codec`.";
+      something that fails only after something else";
 
 /// Asks one check again and shows the exchange
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = format!("{EXAMPLES}\n\n{EXIT}, {ENDED}"))]
 pub(crate) struct Replay {
     /// The check's id, as in `actucheck list` and in reports, or a file with checks, as `actucheck
     /// fuzz` writes it

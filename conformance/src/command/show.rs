@@ -6,15 +6,16 @@ use actucheck::report::text;
 
 use clap::Args;
 
+use super::WRITTEN;
 use super::shared::{self, Failure, Growth};
 
-const EXAMPLE: &str = "\
+const EXAMPLES: &str = "\
 Example:
   actucheck show dynamixel2.stuffing.goal-position/encode";
 
 /// Shows one check: what it asks, what it demands, and which sentence demands it
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLE)]
+#[command(after_help = format!("{EXAMPLES}\n\n{WRITTEN}"))]
 pub(crate) struct Show {
     /// The check's id, as in `actucheck list` and in reports
     id: String,

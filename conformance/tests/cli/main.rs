@@ -169,8 +169,9 @@ fn help_lists_the_subcommands_and_the_exit_status() {
       -h, --help     Print help
       -V, --version  Print version
 
-    Exit status: 0 all passed, 1 something failed, crashed or gave no answer in time, 2 wrong usage, 3
-    something could not be run, or the adapter itself is at fault, 4 the adapter could not be started.
+    Exit status: 0 all passed, 1 something failed, was flaky, crashed or gave no answer in time, 2 wrong
+    usage, 3 something could not be run or written, or the adapter itself is at fault, 4 the adapter
+    could not be started, 130 another Ctrl-C ended it, a second after the first.
     ");
 }
 
@@ -195,10 +196,22 @@ fn the_help_of_each_subcommand_has_an_example_of_it() {
             let examples = help.split("Example").nth(1).unwrap_or_default();
             let example = format!("  actucheck {}", path.join(" "));
             assert!(status == 0 && examples.contains(&example), "{path:?}: {help}");
+            assert!(help.contains("Exit status: "), "{path:?}: {help}");
             seen += 1;
         }
     }
     assert_eq!(seen, if cfg!(unix) { 21 } else { 20 });
+}
+
+/// A second Ctrl-C ends what has begun to listen for the first.
+#[cfg(unix)]
+#[test]
+fn the_help_of_what_ctrl_c_ends_has_its_status() {
+    for command in [&["codec"][..], &["fuzz"], &["replay"], &["bus"], &["adapter", "check"], &[]] {
+        let help = actucheck(&[command, &["--help"]].concat()).1;
+        let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(help.contains("130 another Ctrl-C ended it, a second after the first."), "{help}");
+    }
 }
 
 #[test]

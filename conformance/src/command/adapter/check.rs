@@ -12,6 +12,7 @@ use anstyle::AnsiColor;
 
 use clap::Args;
 
+use crate::command::ENDED;
 use crate::command::shared::{self, Exchange, Failure};
 
 const EXAMPLES: &str = "\
@@ -22,11 +23,11 @@ Examples:
   actucheck adapter check --start-timeout 60 -- ./run
 
 Exit status: 0 all is well, 1 something is wrong, 2 wrong usage, 3 it was interrupted, or the
-results could not be written, 4 the adapter could not be started.";
+results could not be written, 4 the adapter could not be started";
 
 /// Checks an adapter itself, point by point, before its library is checked
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = format!("{EXAMPLES}, {ENDED}"))]
 pub(crate) struct Check {
     #[command(flatten)]
     exchange: Exchange,

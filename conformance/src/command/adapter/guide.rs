@@ -4,6 +4,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 
+use crate::command::WRITTEN;
 use crate::command::shared::{self, Failure};
 
 const EXAMPLES: &str = "\
@@ -12,7 +13,7 @@ Example:
 
 /// Prints the guide for authors of adapters
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = format!("{EXAMPLES}\n\n{WRITTEN}"))]
 pub(crate) struct Guide;
 
 const GUIDE: &str = include_str!("../../../adapters/GUIDE.md");

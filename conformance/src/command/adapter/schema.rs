@@ -5,6 +5,7 @@ use std::process::ExitCode;
 use actucheck::adapter::schema;
 use clap::Args;
 
+use crate::command::WRITTEN;
 use crate::command::shared::{self, Failure, one_of};
 
 const EXAMPLES: &str = "\
@@ -13,7 +14,7 @@ Example:
 
 /// Prints the JSON Schema of a line of the adapter protocol
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = format!("{EXAMPLES}\n\n{WRITTEN}"))]
 pub(crate) struct Schema {
     /// Of which lines
     #[arg(value_parser = one_of(LINES))]

@@ -4,6 +4,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 
+use crate::command::WRITTEN;
 use crate::command::shared::{self, Failure, one_of};
 
 const EXAMPLES: &str = "\
@@ -13,7 +14,7 @@ Examples:
 
 /// Prints an adapter to start from, which skips every question
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = format!("{EXAMPLES}\n\n{WRITTEN}"))]
 pub(crate) struct Template {
     /// The language that it is written in
     #[arg(value_parser = one_of(LANGUAGES))]

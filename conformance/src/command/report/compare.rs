@@ -24,7 +24,8 @@ leave a question unspecified. Of what an implementation gets wrong, the smallest
 A requirement is met worse than in the first report if more of as many checks fail, expected or
 not; if any of another number of checks fails and none did before; or if none is judged any more.
 
-Exit status: 0 compared, 1 something is worse and --fail-on-regression is given, 2 wrong usage.";
+Exit status: 0 compared, 1 something is worse and --fail-on-regression is given, 2 wrong usage,
+3 the output could not be written.";
 
 /// Shows which implementation breaks which requirement
 #[derive(Debug, Args)]

@@ -8,19 +8,18 @@ use actucheck::report::{Format, screen};
 use clap::Args;
 
 use super::read;
+use crate::command::WRITTEN;
 use crate::command::shared::{Failure, Look, Outputs, Reports, next};
 
 const EXAMPLES: &str = "\
 Examples:
   actucheck report render report.json
       as `actucheck codec` printed it
-  actucheck report render report.json --report html=report.html --report markdown=-
-
-Exit status: 0 written, 2 wrong usage.";
+  actucheck report render report.json --report html=report.html --report markdown=-";
 
 /// Writes a report in other formats
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = format!("{EXAMPLES}\n\n{WRITTEN}"))]
 pub(crate) struct Render {
     /// A report, as `--report json=FILE` writes it
     #[arg(value_name = "REPORT")]

@@ -11,17 +11,18 @@ use actucheck_spec::model::{Level, Requirement, Role};
 use clap::Args;
 
 use super::sentences;
+use crate::command::WRITTEN;
 use crate::command::shared::table::{self, BOLD, DIM};
 use crate::command::shared::{Failure, one_of};
 
-const EXAMPLE: &str = "\
+const EXAMPLES: &str = "\
 Example:
   actucheck spec coverage --document dynamixel2 --role codec --uncovered
       what the DYNAMIXEL document demands of a codec and nothing checks yet";
 
 /// Lists what checks each requirement of the documents
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLE)]
+#[command(after_help = format!("{EXAMPLES}\n\n{WRITTEN}"))]
 pub(crate) struct Coverage {
     /// Only the requirements of this document
     #[arg(long, value_name = "DOCUMENT")]

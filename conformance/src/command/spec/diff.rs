@@ -7,18 +7,17 @@ use actucheck_spec::diff::{self, Difference, Only};
 use actucheck_spec::model::Device;
 use clap::Args;
 
+use crate::command::WRITTEN;
 use crate::command::shared::Failure;
 use crate::command::shared::table::{self, BOLD};
 
-const EXAMPLE: &str = "\
+const EXAMPLES: &str = "\
 Example:
-  actucheck spec diff ja40 ja-variant
-
-Exit status: 0 compared, 2 wrong usage.";
+  actucheck spec diff ja40 ja-variant";
 
 /// Compares the control tables of two devices
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLE)]
+#[command(after_help = format!("{EXAMPLES}\n\n{WRITTEN}"))]
 pub(crate) struct Diff {
     /// The first device
     #[arg(value_name = "DEVICE")]

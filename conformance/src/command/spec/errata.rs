@@ -6,6 +6,7 @@ use actucheck_spec::Spec;
 use actucheck_spec::model::{Erratum, Status};
 use clap::Args;
 
+use crate::command::WRITTEN;
 use crate::command::shared::table::{self, BOLD};
 use crate::command::shared::{Failure, one_of};
 
@@ -16,7 +17,7 @@ Examples:
 
 /// Lists what the documents get wrong or leave unspecified, with the evidence
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = format!("{EXAMPLES}\n\n{WRITTEN}"))]
 pub(crate) struct Errata {
     /// Only those of this document
     #[arg(long, value_name = "DOCUMENT")]

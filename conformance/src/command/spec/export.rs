@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use actucheck_spec::{Spec, export};
 use clap::{Args, ValueEnum};
 
+use crate::command::WRITTEN;
 use crate::command::shared::{Failure, Target, print};
 
 const EXAMPLES: &str = "\
@@ -15,7 +16,7 @@ Examples:
 
 /// Writes the spec for programs, compilers or readers
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = format!("{EXAMPLES}\n\n{WRITTEN}"))]
 pub(crate) struct Export {
     /// What to write
     #[arg(value_enum)]

@@ -11,10 +11,11 @@ use actucheck_spec::rests;
 use actucheck_spec::wire::{Ask, Wire};
 use clap::Args;
 
+use crate::command::WRITTEN;
 use crate::command::shared::Failure;
 use crate::command::shared::table::{self, BOLD};
 
-const EXAMPLE: &str = "\
+const EXAMPLES: &str = "\
 Examples:
   actucheck spec show ja40.goal-position.limits
       an erratum, with everything that rests on it
@@ -27,7 +28,7 @@ Examples:
 
 /// Shows one thing of the spec, with everything that belongs to it
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLE)]
+#[command(after_help = format!("{EXAMPLES}\n\n{WRITTEN}"))]
 pub(crate) struct Show {
     /// Id of a requirement, an erratum or a vector; DEVICE/REGISTER, with the register's name or
     /// address; WIRE/INSTRUCTION, or WIRE/COMMAND with the command's code
