@@ -22,7 +22,7 @@ const EXAMPLES: &str = "\
 Examples:
   actucheck decode ff fffd 00 01 0300 01 194e
   actucheck decode --json 'FF FF FD 00 01 09 00 03 34 02 D0 07 00 00 1E C9'
-  actucheck decode --device ja40 --address 580 fffffd00010800550 0946c0000f5af
+  actucheck decode --device ja40 --address 580 fffffd000108005500 946c0000f5af
       a status packet, whose data was read at address 580
   actucheck decode --fast 4:1,2 fffffd00fe11005500 01d0070000 0c83 00 02 09000000 1140
       the packet that answers a Fast Sync Read of 4 bytes from devices 1 and 2

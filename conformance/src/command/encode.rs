@@ -21,7 +21,7 @@ Examples:
   actucheck encode sync-read --id 1,2 address=580 length=4
   actucheck encode status --id 1 error=crc-error
   actucheck encode --wire innfos write --id 6 mode=homing --as python
-  actucheck encode --wire innfos read --id 6 position --direction reply 'position=1.5 R'
+  actucheck encode --wire innfos read --id 6 --direction reply 'position=1.5 R'
   actucheck encode ping --id 1 --flip 8.0 --as raw > ping-with-a-wrong-crc.bin
 
 Values are whole numbers, names, or amounts in the register's unit; data are bytes in hex.
