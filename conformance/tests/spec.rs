@@ -120,6 +120,17 @@ fn every_requirement_has_a_row_with_its_place_and_what_checks_it() {
     }
 }
 
+/// `spec show` has the reasons and all tests.
+#[test]
+fn a_row_of_the_matrix_fits_a_wide_screen() {
+    let stdout = spec(&["coverage"]).1;
+    let longest = stdout.lines().max_by_key(|line| line.chars().count()).unwrap();
+    assert!(longest.chars().count() <= 280, "{longest}");
+    for words in [" and 1 more", "; not in packets\n"] {
+        assert!(stdout.contains(words), "{words}");
+    }
+}
+
 #[test]
 fn what_is_checked_is_not_among_what_is_not() {
     let (_, stdout, _) =

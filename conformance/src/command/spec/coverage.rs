@@ -109,11 +109,19 @@ fn matrix(spec: &Spec, rows: &[Row<'_>]) -> String {
 fn cells(row: &Row<'_>) -> [String; 6] {
     let Requirement { id, level, source, binds, errata, .. } = row.requirement;
     let binds: Vec<_> = binds.iter().map(ToString::to_string).collect();
-    let (level, binds, errata) = (level.to_string(), binds.join(" "), errata.join(" "));
+    let (level, binds) = (level.to_string(), binds.join(" "));
+    let errata = first(errata).unwrap_or_default();
     [id.clone(), level, binds, source.section.clone(), errata, checked_by(row)]
 }
 
-/// What checks the requirement. Checks of a role that it does not bind are named, but do not count.
+/// The first of several names, so that a row fits a wide screen. `spec show` has them all.
+fn first(names: &[String]) -> Option<String> {
+    let (first, more) = names.split_first()?;
+    Some(if more.is_empty() { first.clone() } else { format!("{first} and {} more", more.len()) })
+}
+
+/// What checks the requirement. Checks of a role that it does not bind are named, but do not count. A test
+/// is named if there is no check.
 fn checked_by(row: &Row<'_>) -> String {
     let mut parts = Vec::new();
     for (role, checks) in &row.checks {
@@ -126,8 +134,14 @@ fn checked_by(row: &Row<'_>) -> String {
             false => format!("{NOTHING}; {many} name it, such as {}", checks.example),
         });
     }
-    parts.extend(row.requirement.tests.iter().map(|test| format!("test {test}")));
-    parts.extend(row.requirement.unseen.iter().map(|reason| format!("{UNSEEN}: {reason}")));
+    let tests = &row.requirement.tests;
+    parts.extend(match tests.len() {
+        0 => None,
+        _ if parts.is_empty() => first(tests).map(|tests| format!("test {tests}")),
+        1 => Some("1 test".to_owned()),
+        count => Some(format!("{count} tests")),
+    });
+    parts.extend(row.requirement.unseen.as_ref().map(|_| UNSEEN.to_owned()));
     if parts.is_empty() { NOTHING.to_owned() } else { parts.join("; ") }
 }
 
