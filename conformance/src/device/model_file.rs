@@ -32,25 +32,30 @@ pub(super) type Defect = (usize, String);
 pub(super) fn read(id: &str, text: &str) -> Result<Device, Vec<Defect>> {
     let mut file = File::default();
     let mut section = None;
+    let mut begins = false;
     for (line, text) in (1..).zip(text.trim_start_matches('\u{feff}').lines()) {
         if text.trim().is_empty() {
             continue;
         }
         if let Some(name) = text.trim().strip_prefix('[').and_then(|name| name.strip_suffix(']')) {
-            section = Some((name, line));
+            section = Some(name);
+            begins = true;
             continue;
         }
         let cells: Vec<_> = text.split('\t').map(str::trim).collect();
+        let is_first = std::mem::take(&mut begins);
         let read = match section {
             None => {
                 Err(format!("a row before the first section; [{TABLE}] comes before registers"))
             }
-            // The head.
-            Some((_, start)) if line == start + 1 => Ok(()),
-            Some((TABLE, _)) => file.register(&cells, line),
-            Some((UNITS, _)) => file.unit(&cells),
-            Some((TYPE, _)) => file.fact(&cells),
-            Some((name, _)) => Err(format!(
+            Some(_) if is_first && is_head(&cells) => Ok(()),
+            Some(name) if is_first => Err(format!(
+                "[{name}] begins without a head; the names of the columns come first, with tabs between"
+            )),
+            Some(TABLE) => file.register(&cells, line),
+            Some(UNITS) => file.unit(&cells),
+            Some(TYPE) => file.fact(&cells),
+            Some(name) => Err(format!(
                 "unknown section [{name}]; there are [{TYPE}], [{UNITS}] and [{TABLE}]"
             )),
         };
@@ -66,6 +71,8 @@ pub(super) fn read(id: &str, text: &str) -> Result<Device, Vec<Defect>> {
 struct File<'t> {
     /// Registers by address.
     rows: BTreeMap<u16, Told<'t>>,
+    /// The lines of registers by name.
+    lines: BTreeMap<&'t str, usize>,
     units: BTreeMap<&'t str, Measure<'t>>,
     facts: BTreeMap<&'t str, f64>,
     defects: Vec<Defect>,
@@ -103,8 +110,8 @@ impl<'t> File<'t> {
         if name.is_empty() {
             return Err("a register without a name".to_owned());
         }
-        if let Some(earlier) = self.rows.values().find(|row| row.name == name) {
-            return Err(format!("{name} is on line {} already", earlier.line));
+        if let Some(earlier) = self.lines.get(name) {
+            return Err(format!("{name} is on line {earlier} already"));
         }
         match self.rows.get(&address) {
             // A second name, for what programs do with the register.
@@ -115,7 +122,10 @@ impl<'t> File<'t> {
                     "{other} on line {line} has the address too, with size {size}"
                 ));
             }
-            None => drop(self.rows.insert(address, Told { name, size, line })),
+            None => {
+                self.lines.insert(name, line);
+                self.rows.insert(address, Told { name, size, line });
+            }
         }
         Ok(())
     }
@@ -206,16 +216,22 @@ impl<'t> File<'t> {
         }
     }
 
-    /// The counts in a turn, from the unit of Present Position or from the ends of its range.
+    /// The counts in a turn, from the unit of Present Position, or from its range. The lower half is
+    /// exact; the upper end may be the last count before a whole turn.
     fn counts_per_turn(&self) -> Option<u32> {
         let unit = self.units.get("Present Position").filter(|unit| unit.symbol == "rad");
         let fact = |name| self.facts.get(name);
+        let lower = || {
+            let counts =
+                fact("value_of_zero_radian_position")? - fact("value_of_min_radian_position")?;
+            Some(counts / -fact("min_radian")?).filter(|counts| counts.is_finite())
+        };
         let ends = || {
             let counts =
                 fact("value_of_max_radian_position")? - fact("value_of_min_radian_position")?;
             Some(counts / (fact("max_radian")? - fact("min_radian")?))
         };
-        let counts = unit.map(|unit| unit.factor.recip()).or_else(ends)? * TAU;
+        let counts = unit.map(|unit| unit.factor.recip()).or_else(lower).or_else(ends)? * TAU;
         let counts =
             Some(counts.round()).filter(|counts| (1.0..=f64::from(u32::MAX)).contains(counts));
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // it is within
@@ -229,6 +245,11 @@ impl Measure<'_> {
         let is_unit = self.symbol != "raw" && self.offset.abs() <= 0.0;
         is_unit.then(|| Unit { factor: self.factor, symbol: self.symbol.to_owned() })
     }
+}
+
+/// Whether the cells of a section's first line name its columns.
+fn is_head(cells: &[&str]) -> bool {
+    cells.len() > 1 && cells.iter().all(|cell| number(cell).is_err())
 }
 
 fn number(text: &str) -> Result<f64, String> {
@@ -274,18 +295,40 @@ mod tests {
     fn the_counts_in_a_turn_follow_from_the_ends_too() {
         let ends = "[type info]\nname\tvalue\nvalue_of_max_radian_position\t500\n\
                     value_of_min_radian_position\t-500\nmax_radian\t3.14159265\n\
-                    min_radian\t-3.14159265\n[control table]\nhead\n7\t1\tID\n";
+                    min_radian\t-3.14159265\n[control table]\nAddress\tSize\tData Name\n7\t1\tID\n";
         assert_eq!(read("x", ends).unwrap().counts_per_turn, Some(1000));
         let none = ends.replace("\nmin_radian\t-3.14159265", "\nmin_radian\t3.14159265");
         assert_eq!(read("x", &none).unwrap().counts_per_turn, None, "an empty range");
     }
 
+    /// Of 4096 counts the last is 4095, which is one count less than a turn from the first.
+    #[test]
+    fn a_turn_ends_one_count_after_the_upper_end() {
+        let facts = "[type info]\nname\tvalue\nvalue_of_zero_radian_position\t2048\n\
+                     value_of_max_radian_position\t4095\nvalue_of_min_radian_position\t0\n\
+                     min_radian\t-3.14159265\nmax_radian\t3.14159265\n\
+                     [control table]\nAddress\tSize\tData Name\n7\t1\tID\n";
+        assert_eq!(read("x", facts).unwrap().counts_per_turn, Some(4096));
+        let from_zero = facts.replace("-3.14159265", "0");
+        assert_eq!(read("x", &from_zero).unwrap().counts_per_turn, Some(8190), "no lower half");
+    }
+
+    /// With a look at all earlier rows for each, this takes minutes.
+    #[test]
+    fn the_longest_file_takes_no_longer_than_its_rows() {
+        let rows: Vec<_> = (0..=u16::MAX).map(|at| format!("{at}\t1\tr{at}\n")).collect();
+        let file = format!("[control table]\nAddress\tSize\tData Name\n{}", rows.concat());
+        let started = std::time::Instant::now();
+        assert_eq!(read("x", &file).unwrap().registers.len(), 1 << 16);
+        assert!(started.elapsed().as_secs() < 5, "{:?}", started.elapsed());
+    }
+
     #[test]
     fn a_defect_has_its_line() {
-        let of = |rows: &str| {
-            let defects = read("x", &format!("[control table]\nAddress\tSize\tData Name\n{rows}"));
+        let of = |text: &str| {
             let told = |(line, message)| format!("{line}: {message}");
-            defects.unwrap_err().into_iter().map(told).collect::<Vec<_>>().join("; ")
+            let defects = read("x", text).unwrap_err();
+            defects.into_iter().map(told).collect::<Vec<_>>().join("; ")
         };
         for (rows, message) in [
             ("", "1: no register"),
@@ -297,13 +340,32 @@ mod tests {
             ("7\t1\tID\n7\t2\tRate\n", "4: ID on line 3 has the address too, with size 1"),
             ("8\t1\tRate\n7\t2\tID\n", "3: Rate overlaps ID, on line 4"),
             ("7\tx\tID\ny\t1\tRate\n", "3: `x` is no size; a register has 1, 2 or 4 bytes; 4: `y`"),
-            ("[units]\nhead\nID\t1\n", "5: unknown section [units]"),
-            ("7\t1\tID\n[unit info]\nhead\nID\t1\tV\tmaybe\n", "6: `maybe` is neither"),
-            ("7\t1\tID\n[unit info]\nhead\nID\tinf\tV\tsigned\n", "6: `inf` is no number"),
-            ("7\t1\tID\n[type info]\nhead\nmin_radian\n", "6: a fact has a name and a number"),
+            ("[units]\nname\tvalue\nID\t1\n", "5: unknown section [units]"),
+            ("7\t1\tID\n[unit info]\nhead\t\nID\t1\tV\tmaybe\n", "6: `maybe` is neither"),
+            ("7\t1\tID\n[unit info]\nhead\t\nID\tinf\tV\tsigned\n", "6: `inf` is no number"),
+            ("7\t1\tID\n[type info]\nhead\t\nmin_radian\n", "6: a fact has a name and a number"),
         ] {
-            assert!(of(rows).starts_with(message), "{rows}: {}", of(rows));
+            let told = of(&format!("[control table]\nAddress\tSize\tData Name\n{rows}"));
+            assert!(told.starts_with(message), "{rows}: {told}");
         }
-        assert_eq!(read("x", "7\t1\tID\n").unwrap_err()[0].0, 1);
+        assert!(of("7\t1\tID\n").starts_with("1: a row before the first section"));
+        for (section, row) in [
+            ("control table", "7\t1\tID\n8\t1\tRate"),
+            ("control table", "7 1 ID\n8\t1\tRate"),
+            ("type info", "min_radian\t-3.14159265"),
+        ] {
+            let told = of(&format!("[{section}]\n{row}\n"));
+            let message = format!(
+                "2: [{section}] begins without a head; the names of the columns come first, with tabs \
+                 between"
+            );
+            assert_eq!(told, message, "{row}");
+        }
+    }
+
+    #[test]
+    fn a_head_is_the_first_line_with_something_in_it() {
+        let file = "[control table]\n\nAddress\tSize\tData Name\n7\t1\tID\n";
+        assert_eq!(read("x", file).unwrap().registers.len(), 1);
     }
 }
