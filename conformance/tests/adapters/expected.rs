@@ -96,6 +96,27 @@ fn a_comment_without_a_line_end_stays_one() {
 }
 
 #[test]
+fn the_comment_at_the_beginning_stays() {
+    for (before, kept) in [
+        ("# a\r", "# a\r\n"),
+        ("# a\u{85}# b\n", "# a\u{85}# b\n"),
+        ("# a\n\n# b\n \n", "# a\n\n# b\n \n"),
+        ("\r\n# a\r\n", "\r\n# a\r\n"),
+        ("\u{feff}# a\n", "# a\n"),
+        ("  # a\n", "  # a\n"),
+    ] {
+        let folder = with(&format!("{before}expected_failures: []\n"));
+        for _ in 0..2 {
+            let files = ["--expect", "e.yaml", "--write-expect", "e.yaml"];
+            let (status, stderr) = actucheck(folder.path(), &[&FEW[..], &files].concat());
+            assert_eq!(status, 0, "{before:?}: {stderr}");
+            let text = fs::read_to_string(folder.path().join("e.yaml")).unwrap();
+            assert_eq!(text, format!("{kept}expected_failures: []\n"), "{before:?}");
+        }
+    }
+}
+
+#[test]
 fn rows_of_checks_that_did_not_pass_stay() {
     // The one that ends at every question is given up.
     for answer in [r#"printf '{"id":%s,"skip":{"reason":"no"}}\n' "$id""#, "exit"] {

@@ -38,7 +38,7 @@ pub enum ExpectError {
 pub(super) struct File {
     /// Whether the file has nothing in it.
     pub(super) is_blank: bool,
-    /// The comment at the beginning, with its line breaks.
+    /// The comment at the beginning, with its line ends and blank lines.
     pub(super) comment: String,
     pub(super) rows: Vec<Row>,
 }
@@ -68,16 +68,19 @@ struct Content {
 /// The comment of a file that had none.
 const COMMENT: &str = "# Failures that are expected; `actucheck codec --expect` reads this file.\n";
 
-/// Whether a line is all comment. YAML has more line ends than text files have.
-fn is_comment(line: &str) -> bool {
-    line.starts_with('#') && !line.trim_end().contains(['\r', '\u{85}', '\u{2028}', '\u{2029}'])
+/// The comment at the beginning of a text, with blank lines. YAML has more line ends than text files have.
+fn comment(text: &str) -> String {
+    let lines = text
+        .trim_start_matches('\u{feff}')
+        .split_inclusive(['\n', '\r', '\u{85}', '\u{2028}', '\u{2029}']);
+    let is_comment = |line: &&str| matches!(line.trim_start().chars().next(), None | Some('#'));
+    lines.take_while(is_comment).collect()
 }
 
 impl File {
     /// Reads the text of the file `name`. An empty file has no rows.
     pub(super) fn parse(name: &str, text: &str) -> Result<Self, ExpectError> {
         let path = || name.to_owned();
-        let comment: String = text.split_inclusive('\n').take_while(|it| is_comment(it)).collect();
         if text.trim().is_empty() {
             return Ok(Self { is_blank: true, ..Self::default() });
         }
@@ -88,12 +91,12 @@ impl File {
             let message = "it names no check; add one to `ids`, or take the row out".to_owned();
             return Err(ExpectError::Row { path: path(), row: empty + 1, message });
         }
-        Ok(Self { is_blank: false, comment, rows })
+        Ok(Self { is_blank: false, comment: comment(text), rows })
     }
 
     /// The text of the file.
     pub(super) fn text(self) -> Result<String, serde_yaml::Error> {
-        let comment = if self.comment.is_empty() { COMMENT } else { &self.comment };
+        let comment = if self.comment.trim().is_empty() { COMMENT } else { &self.comment };
         let rows = serde_yaml::to_string(&Content { expected_failures: Some(self.rows) })?;
         // The last line of a file may have no end.
         let end = if comment.ends_with('\n') { "" } else { "\n" };
