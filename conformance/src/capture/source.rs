@@ -1,9 +1,9 @@
 //! The input: a sample of its beginning, and its lines.
 
 use std::borrow::Cow;
-use std::io::{self, BufRead, Cursor, Read};
+use std::io::{self, BufRead, Cursor, Read, Write as _};
 
-use anstream::adapter::strip_str;
+use anstream::adapter::{StripBytes, strip_str};
 
 use super::Unreadable;
 
@@ -53,6 +53,35 @@ impl Sampled {
     }
 }
 
+/// A text without colours, read a part at a time.
+pub(super) struct Plain<R> {
+    input: R,
+    strip: StripBytes,
+}
+
+impl<R: BufRead> Plain<R> {
+    pub(super) fn new(input: R) -> Self {
+        Self { input, strip: StripBytes::new() }
+    }
+}
+
+impl<R: BufRead> Read for Plain<R> {
+    fn read(&mut self, mut out: &mut [u8]) -> io::Result<usize> {
+        loop {
+            let bytes = self.input.fill_buf()?;
+            let bytes = bytes.get(..out.len()).unwrap_or(bytes);
+            let (taken, room) = (bytes.len(), out.len());
+            self.strip.strip_next(bytes).try_for_each(|part| out.write_all(part))?;
+            self.input.consume(taken);
+            let written = room - out.len();
+            // Nothing written is the end of the text, but a part of it may be all colour.
+            if written > 0 || taken == 0 {
+                return Ok(written);
+            }
+        }
+    }
+}
+
 /// The lines of a text, with their numbers.
 pub(super) struct Lines {
     input: Box<dyn BufRead + Send>,
@@ -81,7 +110,7 @@ impl Lines {
 }
 
 /// A text without its byte order mark and without colours.
-pub(super) fn plain(text: &str) -> Cow<'_, str> {
+fn plain(text: &str) -> Cow<'_, str> {
     let text = text.trim_start_matches('\u{feff}');
     if text.contains('\x1B') { strip_str(text).to_string().into() } else { text.into() }
 }

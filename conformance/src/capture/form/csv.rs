@@ -1,6 +1,6 @@
 //! Tables of logic analysers: a row for each byte, with its time and perhaps an error.
 
-use std::io::{BufRead, Read as _, Take};
+use std::io::{Read, Take};
 use std::time::Duration;
 
 use csv::{Reader, ReaderBuilder, StringRecord};
@@ -11,7 +11,7 @@ use super::text::Notation;
 use super::up_to_error;
 use crate::capture::error::readings;
 use crate::capture::line;
-use crate::capture::source::{LONGEST_LINE, Sampled, plain};
+use crate::capture::source::{LONGEST_LINE, Plain, Sampled};
 use crate::capture::{Form, Piece, Pieces, Unreadable};
 
 /// Rows that the notation of the data is found from.
@@ -101,7 +101,7 @@ pub(super) fn pieces(input: Sampled) -> Pieces {
 }
 
 struct Table {
-    rows: Reader<Take<Box<dyn BufRead + Send>>>,
+    rows: Reader<Take<Box<dyn Read + Send>>>,
     row: StringRecord,
     columns: Columns,
     notation: Form,
@@ -129,7 +129,7 @@ impl Table {
             .filter_map(|row| row.get(columns.data).map(str::to_owned))
             .collect();
         let notation = notation(&cells)?;
-        let whole: Box<dyn BufRead + Send> = Box::new(input.into_bytes());
+        let whole: Box<dyn Read + Send> = Box::new(Plain::new(input.into_bytes()));
         let rows = builder().from_reader(whole.take(0));
         Ok(Self { rows, row: StringRecord::new(), columns, notation })
     }
@@ -148,9 +148,6 @@ impl Table {
         }
         if !found {
             return Ok(None);
-        }
-        if row.as_slice().contains('\x1B') {
-            *row = row.iter().map(plain).collect();
         }
         let cell = row.get(columns.data).ok_or_else(|| wrong("this row has no data".to_owned()))?;
         let bytes = read(*notation, cell).map_err(wrong)?;
