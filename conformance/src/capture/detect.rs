@@ -52,14 +52,23 @@ fn notation(text: &str) -> Result<Form, Unreadable> {
         (Ok(_), _) => Ok(Form::Hex),
         (Err(_), Ok(_)) => Ok(Form::Decimal),
         (Err(hex), Err(decimal)) => {
-            // The form that gets farther is the one that is meant.
-            let line = |error: &Unreadable| match error {
-                Unreadable::Line { line, .. } => *line,
-                _ => 0,
+            // The form that gets farther is the one that is meant; in one line, that of more words.
+            let far = |form, error: &Unreadable| match error {
+                Unreadable::Line { line, .. } => (*line, words(form, text, *line)),
+                _ => (0, 0),
             };
-            Err(if line(&decimal) > line(&hex) { decimal } else { hex })
+            let decimal_is_meant = far(Form::Decimal, &decimal) > far(Form::Hex, &hex);
+            Err(if decimal_is_meant { decimal } else { hex })
         }
     }
+}
+
+/// How many words of a line, from 1, are bytes by themselves. The first ones tell enough.
+fn words(form: Form, text: &str, line: u64) -> usize {
+    const MOST: usize = 1000;
+    let line = (1..).zip(text.lines()).find(|(number, _)| *number == line);
+    let words = line.map_or("", |(_, text)| text).split([' ', '\t', ',', ';']).take(MOST);
+    words.filter(|word| bytes(form, word).is_ok()).count()
 }
 
 fn bytes(form: Form, text: &str) -> Result<Vec<u8>, Unreadable> {

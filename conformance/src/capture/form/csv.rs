@@ -177,6 +177,12 @@ fn notation(cells: &[String]) -> Result<Form, Unreadable> {
         }
         (Ok(_), _) => Ok(Form::Hex),
         (Err(_), Ok(_)) => Ok(Form::Decimal),
-        (Err(hex), Err(_)) => Err(Unreadable::File(format!("in the data {hex}"))),
+        (Err(hex), Err(decimal)) => {
+            // The notation of more cells is the one that is meant.
+            let count = |form| cells.iter().filter(|cell| read(form, cell).is_ok()).count();
+            let decimal_is_meant = count(Form::Decimal) > count(Form::Hex);
+            let what = if decimal_is_meant { decimal } else { hex };
+            Err(Unreadable::File(format!("in the data {what}")))
+        }
     }
 }
