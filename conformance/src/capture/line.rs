@@ -22,8 +22,8 @@ macro_rules! pattern {
     };
 }
 
-// What stands before // is no part of the comment.
-pattern!(COMMENT, r"(?s)/\*.*?\*/|(?P<before>^|[^:])//.*$|#.*$");
+// What stands before // is no part of the comment. In a word, # is no comment: it ends root's prompt.
+pattern!(COMMENT, r"(?s)/\*.*?\*/|(?P<before>^|[^:])//.*$|(?:^|[\s,;])#.*$");
 pattern!(
     TIME,
     r"(?x)^ \s* [\[(]? \s* (?:
