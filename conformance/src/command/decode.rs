@@ -203,6 +203,7 @@ fn stream(options: &Decode, wire: Wire, tables: Tables, input: Input) -> Result<
         Some(failure) => Err(failure),
         None if summary.total() == 0
             || !summary.skipped.is_empty()
+            || summary.wrong > 0
             || options.strict && !summary.warnings.is_empty() =>
         {
             Ok(ExitCode::from(Failure::FAILED))

@@ -100,6 +100,8 @@ pub struct Turn {
     pub notes: Vec<String>,
     /// What is wrong in its meaning.
     pub warnings: Vec<Warning>,
+    /// Whether it is no valid packet after all, as its request tells.
+    pub wrong: bool,
     /// Who did not answer the request before this one.
     pub silent: Option<Silent>,
 }

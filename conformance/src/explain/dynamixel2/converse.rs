@@ -1,7 +1,6 @@
 //! Who asks and who answers: a status packet does not say what it answers.
 
 use std::collections::BTreeSet;
-use std::iter::repeat;
 use std::time::Duration;
 
 use actucheck_codec::dynamixel2::fast_status::Block;
@@ -36,8 +35,8 @@ struct Ask {
     instruction: Instruction,
     /// The devices that are to answer; none if any may.
     devices: Vec<Asked>,
-    /// For a fast instruction, what its answer has.
-    fast: Option<Fast>,
+    /// Whether one packet that has a block for each of them answers it.
+    is_fast: bool,
     /// Whether anything came after it.
     followed: bool,
 }
@@ -96,7 +95,7 @@ impl Talk {
             }
             request => request,
         };
-        let mut fast = None;
+        let mut is_fast = false;
         match request {
             Ok(Request::SyncRead(read)) => {
                 let range = Some((read.address, read.length));
@@ -104,24 +103,23 @@ impl Talk {
             }
             Ok(Request::FastSyncRead(read)) => {
                 let range = Some((read.address, read.length));
-                fast = Some(Fast { length: read.length, ids: read.ids.to_vec() });
+                is_fast = true;
                 devices.extend(read.ids.iter().map(|id| Asked::of(*id, range)));
             }
             Ok(Request::FastSyncWrite(write)) => {
-                let ids: Vec<_> = write.devices.map(|device| device.id).collect();
-                devices.extend(ids.iter().map(|id| Asked::of(*id, None)));
-                fast = Some(Fast { length: 0, ids });
+                is_fast = true;
+                devices.extend(write.devices.map(|device| Asked::of(device.id, None)));
             }
-            Ok(Request::BulkRead(read)) => devices
-                .extend(read.devices.map(|of| Asked::of(of.id, Some((of.address, of.length))))),
+            Ok(Request::BulkRead(read)) => {
+                is_fast = instruction == FAST_BULK_READ;
+                devices
+                    .extend(read.devices.map(|of| Asked::of(of.id, Some((of.address, of.length)))));
+            }
             _ if frame.id() == BROADCAST_ID => {}
             Ok(Request::Read(read)) => {
                 devices.push(Asked::of(frame.id(), Some((read.address, read.length))));
             }
             _ => devices.push(Asked::of(frame.id(), None)),
-        }
-        if instruction == FAST_BULK_READ {
-            fast = of_one_length(&devices);
         }
         *ask = Some(Ask {
             at: heard.place.at,
@@ -129,7 +127,7 @@ impl Talk {
             bytes,
             instruction,
             devices,
-            fast,
+            is_fast,
             followed: false,
         });
         turn.role = Role::Request;
@@ -215,8 +213,7 @@ impl Talk {
         let kind = "Fast Status";
         let Self { tables, ask, held, .. } = self;
         let mut turn = Turn { kind, tables: tables.clone(), ..Turn::default() };
-        let is_asked = |ask: &&mut Ask| ask.fast.is_some() || ask.instruction == FAST_BULK_READ;
-        let Some(ask) = ask.as_mut().filter(is_asked) else {
+        let Some(ask) = ask.as_mut().filter(|ask| ask.is_fast) else {
             turn.role = Role::Unasked;
             turn.notes.push(
                 "its request is not here, so its blocks are not known; tell them with --fast"
@@ -227,44 +224,46 @@ impl Talk {
         ask.followed = true;
         let after = heard.place.time.zip(ask.end).and_then(|(begin, end)| begin.checked_sub(end));
         turn.role = Role::Answer { to: ask.at, name: extension::name(ask.instruction), after };
-        let Some(fast) = ask.fast.clone() else {
-            let lengths = ask.devices.iter().filter_map(|asked| asked.length);
-            let blocks = whole_blocks(heard.bytes, lengths);
-            turn.notes.extend(blocks.iter().map(block_words));
-            ask.hear(&blocks, tables, held);
-            return turn;
-        };
         let first = ask.devices.first().and_then(|asked| asked.address);
         turn.address = first.filter(|_| ask.devices.iter().all(|asked| asked.address == first));
-        let length = match ask.instruction {
-            // Some devices add data to the answer to a write.
-            Instruction::FastSyncWrite => data_of_write(heard.bytes, fast.ids.len()),
-            _ => fast.length,
-        };
-        match FastStatus::parse(heard.bytes, length, &fast.ids) {
-            Ok(packet) => {
-                let blocks: Vec<_> = packet.blocks().collect();
-                for block in &blocks {
-                    let table = tables.of(block.id);
-                    Warnings { table, list: &mut turn.warnings }.error(block.error);
-                }
-                ask.hear(&blocks, tables, held);
-                turn.context.fast = Some(Fast { length, ids: fast.ids });
-            }
-            Err(error) => {
-                ask.hear(&whole_blocks(heard.bytes, repeat(length)), tables, held);
-                turn.notes.push(error.to_string());
-                if matches!(error, FrameError::BlockId { .. }) {
-                    let table = fast.ids.first().and_then(|id| tables.of(*id));
-                    Warnings { table, list: &mut turn.warnings }.order(ask.instruction);
-                }
+        let blocks = ask.blocks(heard.bytes);
+        for block in &blocks {
+            Warnings { table: tables.of(block.id), list: &mut turn.warnings }.error(block.error);
+        }
+        ask.hear(&blocks, tables, held);
+        let ids: Vec<_> = ask.devices.iter().map(|asked| asked.id).collect();
+        let mut lengths = ask.lengths(heard.bytes);
+        let length = lengths.next().unwrap_or_default();
+        if lengths.any(|other| other != length) {
+            turn.notes.extend(blocks.iter().map(block_words));
+            turn.wrong = !blocks.iter().map(|block| &block.id).eq(&ids);
+        } else if let Err(error) = FastStatus::parse(heard.bytes, length, &ids) {
+            turn.notes.push(error.to_string());
+            turn.wrong = true;
+            if matches!(error, FrameError::BlockId { .. }) {
+                let table = ids.first().and_then(|id| tables.of(*id));
+                Warnings { table, list: &mut turn.warnings }.order(ask.instruction);
             }
         }
+        // What can't be read so is not the status packet of one device either.
+        turn.context.fast = Some(Fast { length, ids });
         turn
     }
 }
 
 impl Ask {
+    /// How many bytes of data each device has in the fast status packet that begins with `bytes`.
+    fn lengths(&self, bytes: &[u8]) -> impl Iterator<Item = u16> {
+        // Some devices add data to the answer to a write.
+        let added = data_of_write(bytes, self.devices.len());
+        self.devices.iter().map(move |asked| asked.length.unwrap_or(added))
+    }
+
+    /// The whole blocks of its answer.
+    fn blocks<'a>(&self, bytes: &'a [u8]) -> Vec<Block<'a>> {
+        whole_blocks(bytes, self.lengths(bytes))
+    }
+
     /// Takes the answers that one packet has.
     fn hear(&mut self, blocks: &[Block<'_>], tables: &Tables, held: &mut Held) {
         let is_refused = |block: &&Block<'_>| block.error.number().code() != 0;
@@ -272,16 +271,15 @@ impl Ask {
         if !refused.is_empty() {
             held.refused(&refused, &self.bytes, tables);
         }
-        for (block, asked) in blocks.iter().zip(&self.devices) {
-            if block.id == asked.id
-                && !is_refused(&block)
+        for block in blocks {
+            let is_its = |asked: &&mut Asked| asked.id == block.id && !asked.answered;
+            let Some(asked) = self.devices.iter_mut().find(is_its) else { continue };
+            asked.answered = true;
+            if !is_refused(&block)
                 && let Some((table, address)) = tables.of(block.id).zip(asked.address)
             {
                 held.take(block.id, table, address, block.data);
             }
-        }
-        for asked in &mut self.devices {
-            asked.answered |= blocks.iter().any(|block| block.id == asked.id);
         }
     }
 }
@@ -313,11 +311,8 @@ impl Converse for Talk {
             let Self { tables, ask: Some(ask), answered, held, .. } = self else { return notes };
             ask.followed = true;
             // A fast status packet has whole blocks, even if it ends early.
-            if let Some(fast) = &ask.fast
-                && id == BROADCAST_ID
-                && code == Instruction::Status.code()
-            {
-                let found = whole_blocks(packet, repeat(fast.length));
+            if ask.is_fast && id == BROADCAST_ID && code == Instruction::Status.code() {
+                let found = ask.blocks(packet);
                 if !found.is_empty() {
                     let ids: Vec<_> = found.iter().map(|block| block.id.to_string()).collect();
                     notes.push(format!("whole blocks of devices {}", ids.join(", ")));
@@ -363,12 +358,4 @@ fn ping(frame: &Frame<'_>) -> Option<(u16, u8)> {
 fn ping_words(model: u16, firmware: u8) -> String {
     let name = of_model(model).map(|device| format!(" ({})", device.name)).unwrap_or_default();
     format!("model {model}{name}, firmware {firmware}")
-}
-
-/// What a fast status packet has if each device is asked for as many bytes.
-fn of_one_length(devices: &[Asked]) -> Option<Fast> {
-    let length = devices.first()?.length?;
-    let ids = devices.iter().map(|asked| asked.id).collect();
-    let is_same = devices.iter().all(|asked| asked.length == Some(length));
-    is_same.then_some(Fast { length, ids })
 }

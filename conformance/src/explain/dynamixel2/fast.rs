@@ -11,9 +11,10 @@ use super::words::{error_words, whom};
 /// Bytes of a block beside its data: error, ID and CRC.
 const BLOCK: usize = 4;
 
-/// Bytes of data in each block of an answer to a write.
+/// Bytes of data in each block of an answer to a write, by the length that the packet states.
 pub(super) fn data_of_write(bytes: &[u8], devices: usize) -> u16 {
-    let blocks = bytes.len().saturating_sub(PREFIX + 1);
+    let [_, _, _, _, _, low, high, ..] = *bytes else { return 0 };
+    let blocks = usize::from(u16::from_le_bytes([low, high])).saturating_sub(1);
     let block = blocks.checked_div(devices).unwrap_or_default();
     u16::try_from(block.saturating_sub(BLOCK)).unwrap_or_default()
 }

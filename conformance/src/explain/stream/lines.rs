@@ -91,6 +91,8 @@ pub enum Line {
         warnings: BTreeMap<&'static str, u64>,
         /// Requests that came twice in a row.
         echoes: u64,
+        /// Packets that are not valid as answers to their requests.
+        wrong: u64,
         /// Answers that did not come.
         silent: u64,
         /// Times to answer; null if there is none.
@@ -119,7 +121,8 @@ pub struct Said {
     direction: Option<Direction>,
     /// Its bytes.
     bytes: HexBytes,
-    /// The packet object of the adapter protocol; null if its request is needed to read it.
+    /// The packet object of the adapter protocol; null if its request is needed to read it, or it
+    /// is not valid as an answer to that.
     packet: Option<Packet>,
     /// The word for its kind.
     kind: &'static str,
@@ -257,6 +260,7 @@ impl Line {
             devices: summary.devices.iter().map(seen).collect(),
             warnings: summary.warnings.clone(),
             echoes: summary.echoes,
+            wrong: summary.wrong,
             silent: summary.silent,
             answers: (answers.count > 0).then(times),
         }

@@ -20,6 +20,8 @@ pub struct Summary {
     pub warnings: BTreeMap<&'static str, u64>,
     /// Echoes.
     pub echoes: u64,
+    /// Packets that are not valid as answers to their requests.
+    pub wrong: u64,
     /// Devices that did not answer a request.
     pub silent: u64,
     /// The times between requests and answers.
@@ -69,7 +71,9 @@ impl Summary {
                     Some((_, count)) => *count += 1,
                     None => self.packets.push((turn.kind, 1)),
                 }
-                let several = turn.context.fast.as_ref().map_or(&[][..], |fast| &fast.ids);
+                self.wrong += u64::from(turn.wrong);
+                let fast = turn.context.fast.as_ref().filter(|_| !turn.wrong);
+                let several = fast.map_or(&[][..], |fast| &fast.ids);
                 for device in turn.device.iter().chain(several) {
                     self.devices.see(*device, turn.model);
                 }

@@ -76,6 +76,9 @@ impl<W: Write> Sink for Text<W> {
         if summary.echoes > 0 {
             writeln!(self.out, "echoes: {}", summary.echoes)?;
         }
+        if summary.wrong > 0 {
+            writeln!(self.out, "answers that are not valid: {}", summary.wrong)?;
+        }
         if summary.silent > 0 {
             writeln!(self.out, "answers missing: {}", summary.silent)?;
         }
