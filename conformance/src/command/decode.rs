@@ -122,11 +122,10 @@ fn single(options: &Decode, wire: Wire, tables: &Tables, input: &Input) -> Optio
         return None;
     }
     let Some(mut follower) = Follower::new(wire, tables.clone()) else { return Some(single) };
-    let (mut events, mut packets) = (0, 0);
+    let mut events = 0;
     let mut take = |event: Event<'_>| {
         events += 1;
         if let Event::Packet(heard, turn) = event {
-            packets += 1;
             single.context.direction = told.or(heard.direction);
             single.warnings.clone_from(&turn.warnings);
         }
@@ -138,9 +137,7 @@ fn single(options: &Decode, wire: Wire, tables: &Tables, input: &Input) -> Optio
         }
     }
     follower.end(&mut take);
-    // What is wrong with bytes has an object only among the lines of a stream.
-    let lines = options.json && packets == 0;
-    (!lines && (asked || events == 1)).then_some(single)
+    (asked || events == 1).then_some(single)
 }
 
 fn packet(
@@ -153,7 +150,8 @@ fn packet(
     let Single { context, warnings } = single;
     let bytes: Vec<u8> = input.beginning.iter().flat_map(|piece| &piece.bytes).copied().collect();
     let asked = Asked { bytes: &bytes, context, tables, address: options.address };
-    let (text, valid) = packet::text(wire, &asked, &warnings, options.json)?;
+    let lines = options.json.then_some(input.form);
+    let (text, valid) = packet::text(wire, &asked, &warnings, lines)?;
     if input.form != Form::Hex {
         anstream::eprintln!("read as {}", input.form);
     }

@@ -46,6 +46,11 @@ pub(super) trait Converse {
         Vec::new()
     }
 
+    /// The control tables that are known so far.
+    fn tables(&self) -> Tables {
+        Tables::default()
+    }
+
     /// Who did not answer the last request.
     fn end(&mut self) -> Option<Silent> {
         None
@@ -157,8 +162,10 @@ pub enum Event<'a> {
 pub struct Skipped<'a> {
     /// Where they begin.
     pub place: Place,
-    /// Which way they went, if that is known.
-    pub direction: Option<Direction>,
+    /// What reading them takes beside the bytes, as far as it is known.
+    pub context: Context,
+    /// The address at which the data of an answer was read, if known.
+    pub address: Option<u16>,
     /// How many there are.
     pub count: u64,
     /// The first of them: all, unless there are very many.
@@ -167,7 +174,7 @@ pub struct Skipped<'a> {
     pub reason: String,
     /// What else is known about them, as sentences.
     pub notes: Vec<String>,
-    /// The control tables that are known without the stream.
+    /// The control tables of all devices, where they are known.
     pub tables: &'a Tables,
 }
 
@@ -175,19 +182,15 @@ impl Skipped<'_> {
     /// Their fields as far as they can be read, if they begin like a packet.
     #[must_use]
     pub fn fields(&self, wire: Wire) -> Vec<Row> {
-        let (context, tables) = (self.context(), self.tables);
-        damaged(wire, &Asked { bytes: self.bytes, context, tables, address: None })
+        let Self { bytes, tables, address, .. } = *self;
+        damaged(wire, &Asked { bytes, context: self.context.clone(), tables, address })
     }
 
     /// The mistakes that may explain them, the likeliest first.
     #[must_use]
     pub fn fits(&self, wire: Wire) -> Vec<Fit> {
         let all = self.count == self.bytes.len() as u64;
-        if all { mistake::fits(wire, self.bytes, &self.context()) } else { Vec::new() }
-    }
-
-    fn context(&self) -> Context {
-        Context { fast: None, direction: self.direction }
+        if all { mistake::fits(wire, self.bytes, &self.context) } else { Vec::new() }
     }
 }
 
@@ -200,8 +203,6 @@ pub struct Follower {
 
 struct Parts {
     converse: Box<dyn Converse>,
-    /// The control tables that were known before.
-    tables: Tables,
     /// Bytes before the next event.
     at: u64,
     fed: u64,
@@ -214,8 +215,8 @@ impl Follower {
     /// are not followed.
     #[must_use]
     pub fn new(wire: Wire, tables: Tables) -> Option<Self> {
-        let (split, converse) = (Own::of(wire)?.listen)(tables.clone());
-        let parts = Parts { converse, tables, at: 0, fed: 0, pieces: VecDeque::new() };
+        let (split, converse) = (Own::of(wire)?.listen)(tables);
+        let parts = Parts { converse, at: 0, fed: 0, pieces: VecDeque::new() };
         Some(Self { parts, split, direction: None })
     }
 
@@ -293,9 +294,19 @@ impl Parts {
             Cut::Skipped(count, bytes, reason) => {
                 self.at += count;
                 let notes = self.converse.skipped(bytes);
-                let tables = &self.tables;
-                let skipped = Skipped { place, direction, count, bytes, reason, notes, tables };
-                take(Event::Skipped(skipped));
+                let (context, tables) =
+                    (Context { fast: None, direction }, &self.converse.tables());
+                let address = None;
+                take(Event::Skipped(Skipped {
+                    place,
+                    context,
+                    address,
+                    count,
+                    bytes,
+                    reason,
+                    notes,
+                    tables,
+                }));
             }
         }
     }

@@ -1,7 +1,10 @@
 //! One packet, field by field.
 
 use actucheck::adapter::{Output, Question, Wire};
+use actucheck::capture::Form;
 use actucheck::explain::mistake;
+use actucheck::explain::stream::lines::Line;
+use actucheck::explain::stream::{Event, Place, Skipped, Summary};
 use actucheck::explain::{Asked, Invalid, Warning, damaged, explain};
 use actucheck::subject::{Answer, Builtin, Subject as _};
 use actucheck_spec::wire::{Direction, Packet};
@@ -11,12 +14,12 @@ use super::super::shared::Failure;
 use super::super::shared::stream::{fields, fits, fitted, warned, width};
 use super::super::shared::table::BOLD;
 
-/// The packet in words, or as an object; and whether it is one.
+/// The packet in words, or as an object for the form of the bytes; and whether it is one.
 pub(super) fn text(
     wire: Wire,
     asked: &Asked<'_>,
     warnings: &[Warning],
-    json: bool,
+    json: Option<Form>,
 ) -> Result<(String, bool), Failure> {
     let both = || Direction::ALL.map(|direction| wire.decode(asked.bytes, &direction.into()));
     if asked.context.direction.is_none()
@@ -29,13 +32,13 @@ pub(super) fn text(
         );
         return Err(Failure::usage(message));
     }
-    let explanation = match explain(wire, asked) {
-        Ok(explanation) => explanation,
-        Err(error) if json => return Err(Failure::failed(format!("no valid packet, {error}"))),
-        Err(error) => return Ok((damaged_packet(wire, asked, &error), false)),
+    let explanation = match (explain(wire, asked), json) {
+        (Ok(explanation), _) => explanation,
+        (Err(error), None) => return Ok((damaged_packet(wire, asked, &error), false)),
+        (Err(error), Some(form)) => return Ok((lines(wire, asked, &error, form)?, false)),
     };
     check_direction(wire, asked)?;
-    if json {
+    if json.is_some() {
         return object(wire, asked, warnings).map(|text| (text, true));
     }
     let (title, fields) = (&explanation.title, fields(&explanation.rows));
@@ -48,6 +51,31 @@ fn damaged_packet(wire: Wire, asked: &Asked<'_>, error: &Invalid) -> String {
     let fits = fits(&mistake::fits(wire, asked.bytes, &asked.context));
     let fields = fields(&damaged(wire, asked));
     fitted(&format!("{BOLD}no valid packet{BOLD:#}, {error}\n{fields}{fits}"), width())
+}
+
+/// The same as the lines of a stream that has nothing else.
+fn lines(wire: Wire, asked: &Asked<'_>, error: &Invalid, form: Form) -> Result<String, Failure> {
+    let Asked { bytes, tables, address, .. } = *asked;
+    let event = Event::Skipped(Skipped {
+        place: Place::default(),
+        context: asked.context.clone(),
+        address,
+        count: bytes.len() as u64,
+        bytes,
+        reason: "no valid packet".to_owned(),
+        notes: vec![error.to_string()],
+        tables,
+    });
+    let mut summary = Summary::default();
+    summary.add(&event);
+    let lines =
+        [Line::header(wire, Some(form)), Line::of(wire, &event, true), Line::summary(&summary)];
+    lines.iter().map(line).collect()
+}
+
+/// An object on a line.
+fn line(object: &impl Serialize) -> Result<String, Failure> {
+    serde_json::to_string(object).map(|text| text + "\n").map_err(Failure::incomplete)
 }
 
 /// Refuses a packet whose direction is not the one that the user gave.
@@ -66,10 +94,7 @@ fn object(wire: Wire, asked: &Asked<'_>, warnings: &[Warning]) -> Result<String,
     let bytes = asked.bytes.to_vec().into();
     let op = Question::Decode { wire, bytes, context: asked.context.clone() };
     match Builtin::default().ask(&op) {
-        Answer::Ok(Output::Packet(packet)) => {
-            let object = Object { packet, warnings };
-            serde_json::to_string(&object).map(|text| text + "\n").map_err(Failure::incomplete)
-        }
+        Answer::Ok(Output::Packet(packet)) => line(&Object { packet, warnings }),
         Answer::Rejected(rejection) => Err(Failure::failed(rejection.detail)),
         other => Err(Failure::incomplete(format!("no packet: {other:?}"))),
     }

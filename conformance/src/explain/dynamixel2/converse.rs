@@ -324,6 +324,10 @@ impl Converse for Talk {
         notes
     }
 
+    fn tables(&self) -> Tables {
+        self.tables.clone()
+    }
+
     fn end(&mut self) -> Option<Silent> {
         let silent = self.silent();
         self.ask = None;

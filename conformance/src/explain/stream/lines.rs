@@ -224,7 +224,7 @@ impl Line {
             Event::Packet(heard, turn) => Self::Packet(Box::new(said(wire, heard, turn, fields))),
             Event::Skipped(skipped) => Self::Skipped {
                 place: skipped.place.into(),
-                direction: skipped.direction,
+                direction: skipped.context.direction,
                 count: skipped.count,
                 bytes: skipped.bytes.to_vec().into(),
                 reason: skipped.reason.clone(),
