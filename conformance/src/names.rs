@@ -5,9 +5,17 @@ use std::collections::BTreeSet;
 /// A name as a word: `Goal Position` is `goal-position`.
 #[must_use]
 pub fn as_word(name: &str) -> String {
-    let parts = name.split(|letter: char| !letter.is_alphanumeric());
-    let parts: Vec<_> = parts.filter(|part| !part.is_empty()).map(str::to_lowercase).collect();
-    parts.join("-")
+    let mut word = String::with_capacity(name.len());
+    for letter in name.chars() {
+        if letter.is_alphanumeric() {
+            word.extend(letter.to_lowercase());
+        } else if !word.is_empty() && !word.ends_with('-') {
+            word.push('-');
+        }
+    }
+    let length = word.trim_end_matches('-').len();
+    word.truncate(length);
+    word
 }
 
 /// The known names that may be meant by one that is not known: a few that contain it, in whatever

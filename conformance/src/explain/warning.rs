@@ -23,10 +23,15 @@ pub struct Warning {
 }
 
 impl Warning {
-    /// A warning by the first of these requirements that there is; `None` if there is none, as
-    /// nothing is wrong that no document demands.
-    pub(super) fn of(ids: impl IntoIterator<Item = String>, text: String) -> Option<Self> {
-        let rule = ids.into_iter().find_map(|id| requirements().get(&id))?;
+    /// A warning by the first requirement with one of these names in the first document that has one;
+    /// `None` if there is none, as nothing is wrong that no document demands.
+    pub(super) fn of<'a>(
+        documents: impl IntoIterator<Item = &'a str>,
+        names: &[&str],
+        text: String,
+    ) -> Option<Self> {
+        let mut documents = documents.into_iter().filter_map(|id| requirements().get(id));
+        let rule = documents.find_map(|rules| names.iter().find_map(|name| rules.get(*name)))?;
         let (document, section) = (rule.source.document.as_str(), rule.source.section.as_str());
         Some(Self { text, document, section, requirement: &rule.id })
     }
@@ -39,14 +44,22 @@ impl fmt::Display for Warning {
     }
 }
 
-/// The requirements of all documents by their ids. Only they are read of the spec, which is quick,
-/// and only when there is something to warn of.
-fn requirements() -> &'static HashMap<String, Requirement> {
-    static ROWS: OnceLock<HashMap<String, Requirement>> = OnceLock::new();
+/// The requirements of each document by the rest of their ids.
+type Requirements = HashMap<String, HashMap<String, Requirement>>;
+
+/// Only they are read of the spec, which is quick, and only when there is something to warn of.
+fn requirements() -> &'static Requirements {
+    static ROWS: OnceLock<Requirements> = OnceLock::new();
     ROWS.get_or_init(|| {
         let files = embedded().into_iter().filter(|file| file.path.contains("/requirements/"));
-        let rows = files.filter_map(|file| yaml::<RequirementsFile>(&file.text).ok());
-        rows.flat_map(|file| file.requirements).map(|row| (row.id.clone(), row)).collect()
+        let files = files.filter_map(|file| yaml::<RequirementsFile>(&file.text).ok());
+        let mut documents = Requirements::new();
+        for row in files.flat_map(|file| file.requirements) {
+            let Some((document, name)) = row.id.split_once('.') else { continue };
+            let (document, name) = (document.to_owned(), name.to_owned());
+            documents.entry(document).or_default().insert(name, row);
+        }
+        documents
     })
 }
 
@@ -56,10 +69,11 @@ mod tests {
 
     #[test]
     fn the_first_requirement_that_there_is_gives_the_section() {
-        let ids = ["xm430-w210.read.parameters", "dynamixel2.read.parameters"].map(str::to_owned);
-        let warning = Warning::of(ids, "Too few.".to_owned()).unwrap();
+        let documents = ["xm430-w210", "dynamixel2"];
+        let names = ["read.order", "read.parameters"];
+        let warning = Warning::of(documents, &names, "Too few.".to_owned()).unwrap();
         let text = "Too few. [dynamixel2 §Read (0x02), dynamixel2.read.parameters]";
         assert_eq!(warning.to_string(), text);
-        assert_eq!(Warning::of(["no.rule".to_owned()], String::new()), None);
+        assert_eq!(Warning::of(documents, &["rule"], String::new()), None);
     }
 }

@@ -30,9 +30,12 @@ pub(super) struct Question {
 
 /// Why a packet is none, with the section if that is about what its ID means.
 pub(super) fn cited(error: FrameError) -> String {
-    let of_id = matches!(error, FrameError::Id { .. }).then_some("dynamixel2.packet.id.range");
-    let warning = Warning::of(of_id.map(str::to_owned), error.to_string());
-    warning.map_or_else(|| error.to_string(), |warning| warning.to_string())
+    let text = error.to_string();
+    if !matches!(error, FrameError::Id { .. }) {
+        return text;
+    }
+    let warning = Warning::of(["dynamixel2"], &["packet.id.range"], text.clone());
+    warning.map_or(text, |warning| warning.to_string())
 }
 
 /// The warnings of a packet.
@@ -104,9 +107,7 @@ impl Warnings<'_> {
     /// the JA40's, which adds instructions.
     pub(super) fn add(&mut self, names: &[&str], text: String) {
         let documents = self.table.map(|table| table.id).into_iter().chain(["dynamixel2", "ja40"]);
-        let ids = documents
-            .flat_map(|document| names.iter().map(move |name| format!("{document}.{name}")));
-        self.list.extend(Warning::of(ids, text));
+        self.list.extend(Warning::of(documents, names, text));
     }
 
     /// Answers came in another order than they were asked for.

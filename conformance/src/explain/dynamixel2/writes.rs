@@ -75,9 +75,9 @@ impl Warnings<'_> {
             let text = format!("{error}, by {}", limit.name);
             self.add(&[&rule, "status-packet.error.data-limit"], text);
         } else {
-            let rules = ["range", "values"].map(|rule| format!("{}.{rule}", as_word(row.name)));
-            let [range, values] = &rules;
-            self.add(&[range, values, "status-packet.error.data-range"], error.to_string());
+            let name = as_word(row.name);
+            let (range, values) = (format!("{name}.range"), format!("{name}.values"));
+            self.add(&[&range, &values, "status-packet.error.data-range"], error.to_string());
         }
     }
 }

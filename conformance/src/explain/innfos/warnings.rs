@@ -13,18 +13,18 @@ pub(super) fn warnings(frame: &Frame<'_>) -> Vec<Warning> {
         Ok(message) => value(&message),
         Err(error) => rule(frame.direction(), &error).map(|rule| (rule, error.to_string())),
     };
-    found.and_then(|(rule, text)| Warning::of([rule.to_owned()], text)).into_iter().collect()
+    found.and_then(|(rule, text)| Warning::of(["innfos"], &[rule], text)).into_iter().collect()
 }
 
 /// The requirement that a frame without a meaning breaks. No sentence is about commands that are in
 /// no table.
 fn rule(direction: Direction, error: &MessageError) -> Option<&'static str> {
     match error {
-        MessageError::NoReply { .. } => Some("innfos.reply.always"),
+        MessageError::NoReply { .. } => Some("reply.always"),
         MessageError::Size { command, .. } => Some(match (command.row()?.operation, direction) {
-            (Operation::Read, _) => "innfos.read.sizes",
-            (Operation::Write, Direction::Request) => "innfos.write.sizes",
-            (Operation::Write, Direction::Reply) => "innfos.write.result",
+            (Operation::Read, _) => "read.sizes",
+            (Operation::Write, Direction::Request) => "write.sizes",
+            (Operation::Write, Direction::Reply) => "write.result",
         }),
         _ => None,
     }
@@ -35,16 +35,16 @@ fn value(message: &Message) -> Option<(&'static str, String)> {
     let (row, name) = (message.command.row()?, message.command.name());
     match message.value? {
         Value::Flag(flag) if flag.is_yes().is_none() => {
-            Some(("innfos.flag.values", format!("{name} is 01 or 00, not {:02X}", flag.0)))
+            Some(("flag.values", format!("{name} is 01 or 00, not {:02X}", flag.0)))
         }
         Value::Mode(Mode::Unknown(code)) => {
-            Some(("innfos.mode.values", format!("no mode has the number {code}")))
+            Some(("mode.values", format!("no mode has the number {code}")))
         }
         Value::Iq24(Iq24(number)) if number.unsigned_abs() > 1 << 24 => {
             let text = format!("{name} is -1 to 1, not {}", rounded(Iq24(number).to_f64()));
             let rule = match row.full_scale {
-                Some(FullScale::Current) => "innfos.value.relative",
-                _ if name.contains("loop output") => "innfos.value.output-limit",
+                Some(FullScale::Current) => "value.relative",
+                _ if name.contains("loop output") => "value.output-limit",
                 _ => return None,
             };
             Some((rule, text))
