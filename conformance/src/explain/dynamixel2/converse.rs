@@ -192,6 +192,7 @@ impl Talk {
         if error.number().code() != 0 {
             held.refused(&BTreeSet::from([id]), &ask.bytes, tables);
         } else if let Some((table, address)) = table.zip(turn.address)
+            && held.needs(table, address, size)
             && let Ok([_, data @ ..]) = frame.copy_params(room(scratch, frame))
         {
             held.take(id, table, address, data);

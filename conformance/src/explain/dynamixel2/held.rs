@@ -6,25 +6,31 @@ use std::ptr;
 
 use actucheck_codec::dynamixel2::instruction::{DeviceData, DeviceWrite};
 use actucheck_codec::dynamixel2::{BROADCAST_ID, Frame, Request};
-use actucheck_codec::register::{Bound, Device, Range, Row};
+use actucheck_codec::register::{Device, Row};
 
+use super::known::Known;
 use crate::device::Tables;
+
+/// By address, a list by ID.
+type Values = BTreeMap<u16, Vec<Option<i64>>>;
+
+/// Tables in use, by where they are.
+type InUse = BTreeMap<*const Device, Known>;
 
 /// The values of registers on which rules about other registers depend, such as Torque Enable and the
 /// limits.
 #[derive(Default)]
 pub(super) struct Held {
-    values: BTreeMap<(u8, u16), i64>,
-    /// Those registers, of each table in use.
-    tables: Vec<(&'static Device, Vec<&'static Row>)>,
+    values: Values,
+    tables: InUse,
 }
 
 impl Held {
     /// What the register at this address of a device holds; of all devices, if each holds the same.
     pub(super) fn value(&self, id: u8, address: u16) -> Option<i64> {
-        let mut values = ids(id).map(|id| self.values.get(&(id, address)).copied());
-        let first = values.next()??;
-        values.all(|value| value == Some(first)).then_some(first)
+        let mut values = self.values.get(&address)?.get(places(id))?.iter();
+        let first = (*values.next()?)?;
+        values.all(|value| *value == Some(first)).then_some(first)
     }
 
     /// The register that keeps a device's EEPROM area read-only, if it was seen on.
@@ -46,7 +52,9 @@ impl Held {
             | Request::Reboot(_)
             | Request::FactoryReset(_)
             | Request::ControlTableBackup(_) => {
-                self.values.retain(|(other, _), _| !ids(id).contains(other));
+                for values in self.values.values_mut() {
+                    values.get_mut(places(id)).unwrap_or_default().fill(None);
+                }
             }
             request => writes(id, request, |id, address, data| {
                 for id in ids(id) {
@@ -66,20 +74,39 @@ impl Held {
         writes(frame.id(), &request, |id, address, data| {
             for id in ids(id).filter(|id| devices.contains(id)) {
                 let Some(table) = tables.of(id) else { continue };
-                for row in rows(&mut self.tables, table, address, data.len()) {
-                    self.values.remove(&(id, row.address));
+                for row in known(&mut self.tables, table).referred(address, data.len()) {
+                    if let Some(value) = place(&mut self.values, id, row.address) {
+                        *value = None;
+                    }
                 }
             }
         });
     }
 
+    /// Whether bytes from `address` on have a register on which rules depend.
+    pub(super) fn needs(&mut self, table: &'static Device, address: u16, length: usize) -> bool {
+        known(&mut self.tables, table).referred(address, length).next().is_some()
+    }
+
+    /// The registers that have some of the bytes from `address` on.
+    pub(super) fn touched(
+        &mut self,
+        table: &'static Device,
+        address: u16,
+        length: usize,
+    ) -> impl Iterator<Item = &'static Row> + use<> {
+        known(&mut self.tables, table).touched(address, length)
+    }
+
     /// Takes bytes that were written or read from `address` on.
     pub(super) fn take(&mut self, id: u8, table: &'static Device, address: u16, data: &[u8]) {
-        for row in rows(&mut self.tables, table, address, data.len()) {
+        for row in known(&mut self.tables, table).referred(address, data.len()) {
             let from = usize::from(row.address - address);
             let bytes = data.get(from..from + usize::from(row.kind.size()));
-            if let Some(value) = bytes.and_then(|bytes| row.decode(bytes)) {
-                self.values.insert((id, row.address), value);
+            if let Some(value) = bytes.and_then(|bytes| row.decode(bytes))
+                && let Some(place) = place(&mut self.values, id, row.address)
+            {
+                *place = Some(value);
             }
         }
     }
@@ -88,6 +115,22 @@ impl Held {
 /// The devices that an ID means.
 fn ids(id: u8) -> RangeInclusive<u8> {
     if id == BROADCAST_ID { 0..=BROADCAST_ID - 1 } else { id..=id }
+}
+
+/// The places of those devices in a list by ID.
+fn places(id: u8) -> RangeInclusive<usize> {
+    let (first, last) = ids(id).into_inner();
+    first.into()..=last.into()
+}
+
+/// The place of a value.
+fn place(values: &mut Values, id: u8, address: u16) -> Option<&mut Option<i64>> {
+    let values = values.entry(address).or_insert_with(|| vec![None; 256]);
+    values.get_mut(usize::from(id))
+}
+
+fn known<'k>(tables: &'k mut InUse, table: &'static Device) -> &'k Known {
+    tables.entry(ptr::from_ref(table)).or_insert_with(|| Known::of(table))
 }
 
 /// Calls `each` with ID, address and data of every write in a request.
@@ -107,43 +150,4 @@ pub(super) fn writes(id: u8, request: &Request<'_>, mut each: impl FnMut(u8, u16
             .for_each(|DeviceWrite { id, address, data }| each(id, address, data)),
         _ => {}
     }
-}
-
-/// The registers to which their table refers itself, of those that lie wholly within some bytes.
-fn rows(
-    tables: &mut Vec<(&'static Device, Vec<&'static Row>)>,
-    table: &'static Device,
-    address: u16,
-    length: usize,
-) -> impl Iterator<Item = &'static Row> {
-    let known = tables.iter().position(|(known, _)| ptr::eq(*known, table));
-    let index = known.unwrap_or_else(|| {
-        tables.push((table, referred(table)));
-        tables.len() - 1
-    });
-    let rows = tables.get(index).map_or(&[][..], |(_, rows)| rows);
-    let first = rows.partition_point(|row| row.address < address);
-    let end = usize::from(address) + length;
-    let is_within =
-        move |row: &&Row| usize::from(row.address) + usize::from(row.kind.size()) <= end;
-    rows.get(first..).unwrap_or_default().iter().copied().take_while(is_within)
-}
-
-fn referred(table: &Device) -> Vec<&'static Row> {
-    let bounds = |range: Range| match range {
-        Range::Between { min, max } => [Some(min), Some(max)],
-        Range::Any | Range::OneOf(_) => [None, None],
-    };
-    let mut addresses: Vec<_> = table.eeprom_lock.into_iter().collect();
-    for row in table.registers {
-        let ranges = row.meanings.iter().filter_map(|meaning| meaning.range);
-        for bound in ranges.chain([row.range]).flat_map(bounds).flatten() {
-            if let Bound::Register { address, .. } = bound {
-                addresses.push(address);
-            }
-        }
-        addresses.extend(row.meanings.iter().map(|meaning| meaning.when.address));
-    }
-    let referred = |row: &&'static Row| addresses.contains(&row.address);
-    table.registers.iter().copied().filter(referred).collect()
 }

@@ -6,6 +6,7 @@ mod converse;
 mod extension;
 mod fast;
 mod held;
+mod known;
 mod mistakes;
 mod split;
 mod warnings;

@@ -52,7 +52,7 @@ impl Warnings<'_> {
         frame: &Frame<'_>,
         request: &Result<Request<'_>, RequestError>,
         tables: &Tables,
-        held: &Held,
+        held: &mut Held,
     ) {
         let (id, instruction) = (frame.id(), frame.instruction());
         match request {
@@ -135,7 +135,7 @@ impl Warnings<'_> {
         }
     }
 
-    fn request(&mut self, id: u8, request: &Request<'_>, tables: &Tables, held: &Held) {
+    fn request(&mut self, id: u8, request: &Request<'_>, tables: &Tables, held: &mut Held) {
         let instruction = request.instruction();
         match request {
             Request::Unknown { code, .. } if instruction != FAST_BULK_READ => {

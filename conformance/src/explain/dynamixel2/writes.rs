@@ -17,14 +17,14 @@ pub(super) struct Write<'a> {
 
 impl Warnings<'_> {
     /// What is wrong with a write.
-    pub(super) fn write(&mut self, write: Write<'_>, held: &Held) {
+    pub(super) fn write(&mut self, write: Write<'_>, held: &mut Held) {
         let Write { id, table, address, data } = write;
         if data.is_empty() {
             return;
         }
         self.table = Some(table);
         let mut locked = false;
-        for row in touched(table, address, data.len()) {
+        for row in held.touched(table, address, data.len()) {
             let (name, size) = (row.name, usize::from(row.kind.size()));
             if row.access == Access::ReadOnly {
                 let text = format!("{name} is read-only");
@@ -80,19 +80,4 @@ impl Warnings<'_> {
             self.add(&[&range, &values, "status-packet.error.data-range"], error.to_string());
         }
     }
-}
-
-/// The registers that have some of these bytes.
-fn touched(
-    table: &'static Device,
-    address: u16,
-    length: usize,
-) -> impl Iterator<Item = &'static Row> {
-    let end = usize::from(address) + length;
-    let before = |row: &&Row| {
-        usize::from(row.address) + usize::from(row.kind.size()) <= usize::from(address)
-    };
-    let first = table.registers.partition_point(before);
-    let rows = table.registers.get(first..).unwrap_or_default();
-    rows.iter().copied().take_while(move |row| usize::from(row.address) < end)
 }
