@@ -38,8 +38,8 @@ pub(super) trait Split {
 
 /// Knows what frames are in a conversation.
 pub(super) trait Converse {
-    /// What this frame is after those before it.
-    fn hear(&mut self, heard: &Heard<'_>) -> Turn;
+    /// Fills in what this frame is after those before it.
+    fn hear(&mut self, heard: &Heard<'_>, turn: &mut Turn);
 
     /// What is wrong with bytes that are no frame, as sentences.
     fn skipped(&mut self, _bytes: &[u8]) -> Vec<String> {
@@ -285,7 +285,9 @@ impl Parts {
                 self.at += bytes.len() as u64;
                 let direction = direction.or(found);
                 let heard = Heard { bytes, place, end: self.time_of_last(), direction };
-                let mut turn = self.converse.hear(&heard);
+                let mut turn = Turn::default();
+                self.converse.hear(&heard, &mut turn);
+                turn.tables = self.converse.tables();
                 if let Some(silent) = turn.silent.take() {
                     take(Event::Silent(silent));
                 }
@@ -294,18 +296,15 @@ impl Parts {
             Cut::Skipped(count, bytes, reason) => {
                 self.at += count;
                 let notes = self.converse.skipped(bytes);
-                let (context, tables) =
-                    (Context { fast: None, direction }, &self.converse.tables());
-                let address = None;
                 take(Event::Skipped(Skipped {
                     place,
-                    context,
-                    address,
+                    context: Context { fast: None, direction },
+                    address: None,
                     count,
                     bytes,
                     reason,
                     notes,
-                    tables,
+                    tables: &self.converse.tables(),
                 }));
             }
         }

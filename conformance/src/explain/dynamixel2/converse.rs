@@ -62,18 +62,18 @@ impl Talk {
         Self { tables, ask: None, answered: false, held, scratch }
     }
 
-    fn request(&mut self, heard: &Heard<'_>, frame: &Frame<'_>) -> Turn {
+    fn request(&mut self, heard: &Heard<'_>, frame: &Frame<'_>, turn: &mut Turn) {
         let instruction = frame.instruction();
-        let kind = extension::name(instruction);
-        let device = Some(frame.id()).filter(|id| *id != BROADCAST_ID);
-        let mut turn = Turn { kind, device, tables: self.tables.clone(), ..Turn::default() };
+        turn.kind = extension::name(instruction);
+        turn.device = Some(frame.id()).filter(|id| *id != BROADCAST_ID);
         if let Some(ask) = &mut self.ask
             && !ask.followed
             && ask.bytes == heard.bytes
             && heard.direction != Some(Direction::Request)
         {
             ask.followed = true;
-            return Turn { role: Role::Echo, ..turn };
+            turn.role = Role::Echo;
+            return;
         }
         turn.silent = self.silent();
         // The lists of the last request are used again: there are millions of requests.
@@ -131,7 +131,6 @@ impl Talk {
             followed: false,
         });
         turn.role = Role::Request;
-        turn
     }
 
     /// The devices that did not answer the last request. If none ever answered, the stream has one
@@ -157,15 +156,15 @@ impl Talk {
         told.then_some(Silent { to: ask.at, name: extension::name(ask.instruction), devices })
     }
 
-    fn status(&mut self, heard: &Heard<'_>, frame: &Frame<'_>) -> Turn {
+    fn status(&mut self, heard: &Heard<'_>, frame: &Frame<'_>, turn: &mut Turn) {
         self.answered = true;
-        let (kind, id) = (Instruction::Status.name(), frame.id());
+        let id = frame.id();
+        (turn.kind, turn.device) = (Instruction::Status.name(), Some(id));
         // The first parameter is the error.
         let size = frame.params_len().saturating_sub(1);
         let Self { tables, ask, held, scratch, .. } = self;
         let table = tables.of(id);
         let error = frame.error().unwrap_or_default();
-        let mut turn = Turn { kind, device: Some(id), tables: tables.clone(), ..Turn::default() };
         let mut warnings = Warnings { table, list: &mut turn.warnings };
         warnings.error(error);
         let Some(ask) = ask else { return unasked(turn, frame) };
@@ -202,25 +201,22 @@ impl Talk {
         {
             tables.learn(id, model);
             turn.model = Some(model);
-            turn.tables = tables.clone();
             turn.notes.push(ping_words(model, firmware));
         }
-        turn
     }
 
     /// A status packet of several devices together.
-    fn fast_status(&mut self, heard: &Heard<'_>) -> Turn {
+    fn fast_status(&mut self, heard: &Heard<'_>, turn: &mut Turn) {
         self.answered = true;
-        let kind = "Fast Status";
+        turn.kind = "Fast Status";
         let Self { tables, ask, held, .. } = self;
-        let mut turn = Turn { kind, tables: tables.clone(), ..Turn::default() };
         let Some(ask) = ask.as_mut().filter(|ask| ask.is_fast) else {
             turn.role = Role::Unasked;
             turn.notes.push(
                 "its request is not here, so its blocks are not known; tell them with --fast"
                     .to_owned(),
             );
-            return turn;
+            return;
         };
         ask.followed = true;
         let after = heard.place.time.zip(ask.end).and_then(|(begin, end)| begin.checked_sub(end));
@@ -248,7 +244,6 @@ impl Talk {
         }
         // What can't be read so is not the status packet of one device either.
         turn.context.fast = Some(Fast { length, ids });
-        turn
     }
 }
 
@@ -286,16 +281,17 @@ impl Ask {
 }
 
 impl Converse for Talk {
-    fn hear(&mut self, heard: &Heard<'_>) -> Turn {
+    fn hear(&mut self, heard: &Heard<'_>, turn: &mut Turn) {
         let is_fast = matches!(heard.bytes, [_, _, _, _, BROADCAST_ID, _, _, code, ..]
             if *code == Instruction::Status.code());
         if is_fast {
-            return self.fast_status(heard);
-        }
-        match &Frame::parse(heard.bytes) {
-            Ok(frame) if frame.instruction() == Instruction::Status => self.status(heard, frame),
-            Ok(frame) => self.request(heard, frame),
-            Err(_) => Turn::default(),
+            self.fast_status(heard, turn);
+        } else if let Ok(frame) = &Frame::parse(heard.bytes) {
+            if frame.instruction() == Instruction::Status {
+                self.status(heard, frame, turn);
+            } else {
+                self.request(heard, frame, turn);
+            }
         }
     }
 
@@ -344,13 +340,12 @@ fn room<'a>(scratch: &'a mut Vec<u8>, frame: &Frame<'_>) -> &'a mut [u8] {
     scratch
 }
 
-fn unasked(mut turn: Turn, frame: &Frame<'_>) -> Turn {
+fn unasked(turn: &mut Turn, frame: &Frame<'_>) {
     turn.role = Role::Unasked;
     if let Some((model, firmware)) = ping(frame) {
         let words = ping_words(model, firmware);
         turn.notes.push(format!("if it answers a Ping: {words}"));
     }
-    turn
 }
 
 /// Model number and firmware in an answer to Ping.

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 use std::time::Duration;
 
 use actucheck_codec::innfos::{self, Frame};
-use actucheck_spec::wire::{Context, Direction};
+use actucheck_spec::wire::Direction;
 
 use super::super::stream::{Converse, Heard, Role, Turn};
 use super::warnings::warnings;
@@ -26,20 +26,17 @@ struct Ask {
 }
 
 impl Converse for Talk {
-    fn hear(&mut self, heard: &Heard<'_>) -> Turn {
+    fn hear(&mut self, heard: &Heard<'_>, turn: &mut Turn) {
         let way = match heard.direction {
             Some(Direction::Reply) => innfos::Direction::Reply,
             _ => innfos::Direction::Request,
         };
-        let Ok(frame) = Frame::parse(way, heard.bytes) else { return Turn::default() };
+        let Ok(frame) = Frame::parse(way, heard.bytes) else { return };
         let (address, command) = (frame.address(), frame.command());
-        let mut turn = Turn {
-            kind: command.name(),
-            device: Some(address).filter(|address| *address != innfos::BROADCAST_ADDRESS),
-            context: Context { fast: None, direction: heard.direction },
-            warnings: warnings(&frame),
-            ..Turn::default()
-        };
+        turn.kind = command.name();
+        turn.device = Some(address).filter(|address| *address != innfos::BROADCAST_ADDRESS);
+        turn.context.direction = heard.direction;
+        turn.warnings = warnings(&frame);
         match heard.direction {
             None => {}
             Some(Direction::Request) => {
@@ -70,6 +67,5 @@ impl Converse for Talk {
                 }
             }
         }
-        turn
     }
 }
