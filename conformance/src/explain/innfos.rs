@@ -10,7 +10,7 @@ use actucheck_spec::wire::Direction;
 use actucheck_spec::wire::innfos::Packet;
 use actucheck_spec::wire::innfos::reference::encode;
 
-use super::stream::{Converse, Split};
+use super::stream::Listener;
 use super::table::{Explanation, Table, rounded};
 use super::{Asked, Invalid};
 use crate::device::Tables;
@@ -47,8 +47,8 @@ pub(super) fn mended(bytes: &[u8], direction: Option<Direction>) -> Option<Vec<u
 }
 
 /// Finds frames in a stream, and follows who asks and who answers.
-pub(super) fn listen(_: Tables) -> (Box<dyn Split>, Box<dyn Converse>) {
-    (Box::new(split::Frames::default()), Box::new(converse::Talk::default()))
+pub(super) fn listen(_: Tables) -> Box<dyn Listener> {
+    Box::new((split::Frames::default(), converse::Talk::default()))
 }
 
 fn frame(direction: innfos::Direction, bytes: &[u8]) -> Result<Explanation, FrameError> {

@@ -13,6 +13,7 @@ use super::super::stream::{Converse, Heard, Role, Silent, Turn};
 use super::extension::{self, FAST_BULK_READ};
 use super::fast::{block_words, data_of_write, whole_blocks};
 use super::held::Held;
+use super::split::Packets;
 use super::warnings::{Question, Warnings};
 use super::{PREFIX, warnings};
 use crate::device::{Tables, of_model};
@@ -280,18 +281,14 @@ impl Ask {
     }
 }
 
-impl Converse for Talk {
-    fn hear(&mut self, heard: &Heard<'_>, turn: &mut Turn) {
-        let is_fast = matches!(heard.bytes, [_, _, _, _, BROADCAST_ID, _, _, code, ..]
-            if *code == Instruction::Status.code());
-        if is_fast {
-            self.fast_status(heard, turn);
-        } else if let Ok(frame) = &Frame::parse(heard.bytes) {
-            if frame.instruction() == Instruction::Status {
+impl Converse<Packets> for Talk {
+    fn hear(&mut self, heard: &Heard<'_>, frame: Option<Frame<'_>>, turn: &mut Turn) {
+        match &frame {
+            None => self.fast_status(heard, turn),
+            Some(frame) if frame.instruction() == Instruction::Status => {
                 self.status(heard, frame, turn);
-            } else {
-                self.request(heard, frame, turn);
             }
+            Some(frame) => self.request(heard, frame, turn),
         }
     }
 

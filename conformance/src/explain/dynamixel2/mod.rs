@@ -19,7 +19,7 @@ use actucheck_codec::register::{Device, NamedValue};
 use actucheck_spec::wire::dynamixel2::reference::{HEADER, repair};
 use actucheck_spec::wire::{Direction, Fast};
 
-use super::stream::{Converse, Split};
+use super::stream::Listener;
 use super::table::{Explanation, Table, low_first};
 use super::{Asked, Invalid};
 use crate::device::Tables;
@@ -52,8 +52,8 @@ pub(super) fn mended(bytes: &[u8], _: Option<Direction>) -> Option<Vec<u8>> {
 }
 
 /// Finds packets in a stream, and follows who asks and who answers.
-pub(super) fn listen(tables: Tables) -> (Box<dyn Split>, Box<dyn Converse>) {
-    (Box::new(split::Packets::new()), Box::new(converse::Talk::new(tables)))
+pub(super) fn listen(tables: Tables) -> Box<dyn Listener> {
+    Box::new((split::Packets::new(), converse::Talk::new(tables)))
 }
 
 /// An instruction or status packet. `address` is the address at which a status packet's data was

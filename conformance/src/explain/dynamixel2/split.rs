@@ -1,5 +1,6 @@
 //! Finds packets in a stream with the codec's parser, and keeps the bytes that are in none.
 
+use actucheck_codec::dynamixel2::Frame;
 use actucheck_codec::dynamixel2::stream::{Event, Parser};
 use actucheck_spec::wire::Direction;
 
@@ -30,18 +31,18 @@ impl Packets {
         Self { parser: Box::default(), kept: Kept::default() }
     }
 
-    fn events(&mut self, bytes: &[u8], take: &mut dyn FnMut(Cut<'_>)) {
+    fn events(&mut self, bytes: &[u8], take: &mut dyn FnMut(Cut<'_, Option<Frame<'_>>>)) {
         let Self { parser, kept } = self;
         let mut at = 0;
         parser.feed(bytes, |event| match event {
             Event::Frame(frame) => {
                 let len = frame.stuffed_params().len() + AROUND;
-                take(Cut::Frame(kept.from(at, len), None));
+                take(Cut::Frame(kept.from(at, len), Some(frame), None));
                 at += len;
             }
             Event::FastStatus(status) => {
                 let len = status.bytes().len();
-                take(Cut::Frame(kept.from(at, len), None));
+                take(Cut::Frame(kept.from(at, len), None, None));
                 at += len;
             }
             Event::Skipped { bytes, reason } => {
@@ -55,14 +56,22 @@ impl Packets {
 }
 
 impl Split for Packets {
-    fn feed(&mut self, bytes: &[u8], _: Option<Direction>, take: &mut dyn FnMut(Cut<'_>)) {
+    /// `None` for a fast status packet, which can be read with its request only.
+    type Frame<'a> = Option<Frame<'a>>;
+
+    fn feed(
+        &mut self,
+        bytes: &[u8],
+        _: Option<Direction>,
+        take: &mut dyn FnMut(Cut<'_, Option<Frame<'_>>>),
+    ) {
         for chunk in bytes.chunks(LONGEST) {
             self.kept.bytes.extend_from_slice(chunk);
             self.events(chunk, take);
         }
     }
 
-    fn pause(&mut self, take: &mut dyn FnMut(Cut<'_>)) {
+    fn pause(&mut self, take: &mut dyn FnMut(Cut<'_, Option<Frame<'_>>>)) {
         self.parser.idle();
         self.events(&[], take);
     }

@@ -7,6 +7,7 @@ use actucheck_codec::innfos::{self, Frame};
 use actucheck_spec::wire::Direction;
 
 use super::super::stream::{Converse, Heard, Role, Turn};
+use super::split::Frames;
 use super::warnings::warnings;
 
 /// Requests that may be answered still.
@@ -25,8 +26,8 @@ struct Ask {
     command: u8,
 }
 
-impl Converse for Talk {
-    fn hear(&mut self, heard: &Heard<'_>, turn: &mut Turn) {
+impl Converse<Frames> for Talk {
+    fn hear(&mut self, heard: &Heard<'_>, (): (), turn: &mut Turn) {
         let way = match heard.direction {
             Some(Direction::Reply) => innfos::Direction::Reply,
             _ => innfos::Direction::Request,

@@ -22,7 +22,7 @@ enum First {
 }
 
 impl Frames {
-    fn cut(&mut self, paused: bool, take: &mut dyn FnMut(Cut<'_>)) {
+    fn cut(&mut self, paused: bool, take: &mut dyn FnMut(Cut<'_, ()>)) {
         let bytes = std::mem::take(&mut self.bytes);
         // A run of bytes that are in no frame begins at `run`.
         let (mut run, mut at) = (0, 0);
@@ -30,7 +30,7 @@ impl Frames {
             match first(rest, self.direction) {
                 First::Frame(len, direction) => {
                     self.end_run(bytes.get(run..at), take);
-                    take(Cut::Frame(rest.get(..len).unwrap_or_default(), direction));
+                    take(Cut::Frame(rest.get(..len).unwrap_or_default(), (), direction));
                     at += len;
                     run = at;
                 }
@@ -46,7 +46,7 @@ impl Frames {
         self.bytes = bytes.get(at..).unwrap_or_default().to_vec();
     }
 
-    fn end_run(&mut self, bytes: Option<&[u8]>, take: &mut dyn FnMut(Cut<'_>)) {
+    fn end_run(&mut self, bytes: Option<&[u8]>, take: &mut dyn FnMut(Cut<'_, ()>)) {
         let reason = self.skipped.take();
         if let (Some(reason), Some(bytes)) = (reason, bytes.filter(|bytes| !bytes.is_empty())) {
             take(Cut::Skipped(bytes.len() as u64, bytes, reason));
@@ -55,13 +55,21 @@ impl Frames {
 }
 
 impl Split for Frames {
-    fn feed(&mut self, bytes: &[u8], direction: Option<Direction>, take: &mut dyn FnMut(Cut<'_>)) {
+    /// It is read again when its direction is known.
+    type Frame<'a> = ();
+
+    fn feed(
+        &mut self,
+        bytes: &[u8],
+        direction: Option<Direction>,
+        take: &mut dyn FnMut(Cut<'_, ()>),
+    ) {
         self.direction = direction;
         self.bytes.extend_from_slice(bytes);
         self.cut(false, take);
     }
 
-    fn pause(&mut self, take: &mut dyn FnMut(Cut<'_>)) {
+    fn pause(&mut self, take: &mut dyn FnMut(Cut<'_, ()>)) {
         self.cut(true, take);
     }
 }
