@@ -10,7 +10,7 @@ use actucheck::bus::{QUIET, VirtualBus};
 use actucheck::device::Tables;
 use actucheck::explain::stream::{Event, Follower, Heard, Skipped};
 use actucheck::link::{Port, Watch};
-use actucheck_spec::wire::Direction;
+use actucheck_spec::wire::{Context, Direction};
 
 use super::super::shared::Failure;
 use super::super::shared::stream::{Sink as _, Text, Told};
@@ -128,7 +128,10 @@ impl Wrong {
         let kinds: Vec<_> = match event {
             // What devices send is wrong where the user wants it to be.
             Event::Packet(Heard { direction: Some(Direction::Reply), .. }, _)
-            | Event::Skipped(Skipped { direction: Some(Direction::Reply), .. })
+            | Event::Skipped(Skipped {
+                context: Context { direction: Some(Direction::Reply), .. },
+                ..
+            })
             | Event::Silent(_) => Vec::new(),
             Event::Packet(_, turn) => {
                 turn.warnings.iter().map(|warning| warning.requirement).collect()
