@@ -7,6 +7,7 @@
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
+mod answers;
 mod bad;
 mod mistakes;
 mod vectors;

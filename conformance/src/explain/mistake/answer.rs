@@ -1,8 +1,8 @@
 //! The mistake that may explain a wrong answer, where the right one is known.
 
-use actucheck_spec::wire::Wire;
+use actucheck_spec::wire::{Packet, Wire};
 
-use super::name::{CRC_SWAPPED, NO_STUFFING, OTHER_CRC, STUFFING_TWICE};
+use super::name::{CRC_SWAPPED, NO_STUFFING, OTHER_CRC, STUFFING_LEFT, STUFFING_TWICE};
 use super::{ALGORITHMS, LONGEST};
 use crate::adapter::{Output, Question};
 use crate::explain::Own;
@@ -26,12 +26,35 @@ pub fn of_answer(
             let twice = wire.stuff(expected).is_some_and(|twice| twice == actual.0);
             twice.then(|| (STUFFING_TWICE, "fits if byte stuffing is added twice".to_owned()))
         }
+        (Question::Unstuff { bytes, .. }, Output::Bytes(_), Output::Bytes(actual)) => {
+            (actual == bytes).then(stuffing_left)
+        }
+        (Question::Decode { wire, .. }, Output::Packet(expected), Output::Packet(actual)) => {
+            has_stuffing(*wire, expected, actual).then(stuffing_left)
+        }
+        (Question::Stream { wire, .. }, Output::Packets(expected), Output::Packets(actual)) => {
+            let differ = expected.iter().zip(actual).find(|(expected, actual)| expected != actual);
+            let fits =
+                differ.is_some_and(|(expected, actual)| has_stuffing(*wire, expected, actual));
+            fits.then(stuffing_left)
+        }
         (Question::Crc { bytes, .. }, Output::Crc(expected), Output::Crc(actual)) => {
             let [expected, actual] = [*expected, *actual].map(u16::try_from);
             crc(bytes, expected.ok()?, actual.ok()?)
         }
         _ => None,
     }
+}
+
+fn stuffing_left() -> (&'static str, String) {
+    (STUFFING_LEFT, "fits if byte stuffing is not taken away".to_owned())
+}
+
+/// Whether a packet was read with its stuffing: who sent it so would stuff it twice.
+fn has_stuffing(wire: Wire, expected: &Packet, actual: &Packet) -> bool {
+    let frames = wire.encode(expected).zip(wire.encode(actual));
+    let fit = frames.and_then(|(expected, actual)| frame(wire, &expected, &actual));
+    fit.is_some_and(|(mistake, _)| mistake == STUFFING_TWICE)
 }
 
 fn frame(wire: Wire, meant: &[u8], bytes: &[u8]) -> Option<(&'static str, String)> {

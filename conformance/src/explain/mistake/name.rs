@@ -10,6 +10,7 @@ pub(in crate::explain) const OTHER_BIT: &str = "one bit changed";
 pub(in crate::explain) const OTHER_BYTE: &str = "one byte changed";
 pub(in crate::explain) const OTHER_CRC: &str = "other CRC";
 pub(in crate::explain) const OTHER_RANGE: &str = "CRC over other bytes";
+pub(in crate::explain) const STUFFING_LEFT: &str = "byte stuffing left in";
 pub(in crate::explain) const STUFFING_TWICE: &str = "byte stuffing twice";
 pub(in crate::explain) const TRAILING: &str = "bytes after the packet";
 pub(in crate::explain) const WRONG_HEADER: &str = "wrong header";
