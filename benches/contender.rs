@@ -9,6 +9,11 @@ pub const PORTABLE: &str = "actucheck, portable";
 /// The name of the limit, which only reads the bytes.
 pub const READ: &str = "read only";
 
+/// The codec alone, beside a virtual device.
+pub const CODEC: &str = "codec alone";
+/// A pseudo-terminal that only echoes, beside one with a bus.
+pub const ECHO: &str = "bare echo";
+
 /// `dynamixel2`, including a system call that it always makes.
 pub const DYNAMIXEL2_AND_CALL: &str = "dynamixel2 + system call";
 /// That system call alone.

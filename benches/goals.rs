@@ -25,12 +25,21 @@ pub fn goal(group: &str, case: &str) -> Option<f64> {
         ("stream", "clean") => Some(8.0),
         ("stream", "stuffed") => Some(6.0),
         ("stream", "half noise") => Some(5.0),
+        // At most half as long again.
+        ("bus behind a pseudo-terminal", _) => Some(1.0 / 1.5),
         _ => None,
     }
 }
 
 /// At 64 KiB: the speed as a fraction of the speed of only reading the bytes.
 pub const OF_READING: f64 = 0.7;
+
+/// The most ns that a Read answered in process may take.
+pub const READ_ANSWERED: f64 = 1000.0;
+
+/// The ns that a line of 4 Mbit/s takes for the answers to a Sync Read of 4 bytes from 253 devices: 253
+/// packets of 15 bytes, each byte with a start and a stop bit.
+pub const SYNC_READ_CARRIED: f64 = 253.0 * 15.0 * 10.0 / 4e6 * 1e9;
 
 /// The trap: how much longer an input of twice the size may take.
 pub const GROWTH: f64 = 2.3;

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::contender::{OURS, PORTABLE, READ};
-use crate::goals::{GROWTH, OF_READING, goal};
+use crate::goals::{GROWTH, OF_READING, READ_ANSWERED, SYNC_READ_CARRIED, goal};
 use crate::measured::Measured;
 
 /// One case: the codec, the best peer, and the goal.
@@ -138,6 +138,15 @@ fn limits(all: &[Measured]) -> String {
                 text,
                 "| {group} at 64 KiB, of the speed of reading | {part:.2} | {OF_READING} | {met} |"
             );
+        }
+    }
+    for (what, case, most) in [
+        ("a Read answered in process, ns", "Read", READ_ANSWERED),
+        ("a Sync Read of 253 devices, ns", "Sync Read of 253", SYNC_READ_CARRIED),
+    ] {
+        if let Some(ours) = find("bus", case, OURS) {
+            let met = verdict(ours.time <= most);
+            let _ = writeln!(text, "| {what} | {:.0} | at most {most:.0} | {met} |", ours.time);
         }
     }
     for trap in ["trap", "unstuffed trap"] {
