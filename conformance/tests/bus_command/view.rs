@@ -4,6 +4,7 @@ use std::ffi::OsString;
 use std::os::unix::ffi::OsStringExt as _;
 
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
+use rustix::termios::{Winsize, tcsetwinsize};
 
 use super::*;
 
@@ -28,16 +29,32 @@ impl Screen {
     }
 }
 
-#[test]
-fn the_devices_are_shown_in_place_as_they_are() {
+/// A bus whose standard error is a terminal of so many lines; 0 if it does not tell.
+fn shown(devices: &[&str], lines: u16) -> (Bus, Screen) {
     let controller = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).unwrap();
     grantpt(&controller).unwrap();
     unlockpt(&controller).unwrap();
+    let size = Winsize { ws_row: lines, ws_col: 80, ws_xpixel: 0, ws_ypixel: 0 };
+    tcsetwinsize(&controller, size).unwrap();
     let path = OsString::from_vec(ptsname(&controller, Vec::new()).unwrap().into_bytes());
-    let mut screen = Screen { controller: controller.into(), seen: String::new() };
-    let mut child = command(&[TWO]).stderr(open(path)).spawn().unwrap();
+    let screen = Screen { controller: controller.into(), seen: String::new() };
+    let mut child = command(devices).stderr(open(path)).spawn().unwrap();
     let out = BufReader::new(child.stdout.take().unwrap());
-    let mut bus = Bus { child, out };
+    (Bus { child, out }, screen)
+}
+
+#[test]
+fn no_more_devices_are_shown_than_there_are_lines_for() {
+    let (mut bus, mut screen) = shown(&["ja40@1", "ja40@2", "ja40@3", "ja40@4"], 6);
+    screen.shows("\n2   JA40 ");
+    screen.shows("and 2 devices more");
+    kill_process(Pid::from_child(&bus.child), Signal::INT).unwrap();
+    assert_eq!(ended(&mut bus.child), Some(0));
+}
+
+#[test]
+fn the_devices_are_shown_in_place_as_they_are() {
+    let (mut bus, mut screen) = shown(&[TWO], 0);
     let mut host = bus.pty();
     screen.shows("\n2   JA40    2000      2000  off     0\r\n");
     ask(&mut host, &packet(2, &[3, 0, 2, 1]), 11);

@@ -4,14 +4,18 @@ use std::io::{Write as _, stderr};
 use std::time::Duration;
 
 use actucheck::bus::DeviceState;
+use rustix::termios::tcgetwinsize;
 
 use super::super::shared::table;
 use super::super::shared::terminal_width;
 
 /// The time between two looks.
 const PERIOD: Duration = Duration::from_millis(250);
-/// Devices that are shown.
+/// The most devices that are shown.
 const SHOWN: usize = 16;
+/// The lines of a terminal that are not for devices: the head, what is left out, the rate, and where the
+/// cursor stands.
+const OTHERS: usize = 4;
 
 /// What stands on the terminal.
 #[derive(Default)]
@@ -37,7 +41,10 @@ impl View {
         let rate = (packets - passed) as f64 / seconds.max(f64::EPSILON);
         let width = terminal_width();
         let clipped = |line: String| line.chars().take(width).collect::<String>();
-        let lines: Vec<_> = lines(devices, rate).into_iter().map(clipped).collect();
+        // A terminal that does not tell its size has 0 lines.
+        let height = tcgetwinsize(stderr()).map_or(0, |size| usize::from(size.ws_row));
+        let most = if height == 0 { SHOWN } else { height.saturating_sub(OTHERS).min(SHOWN) };
+        let lines: Vec<_> = lines(devices, most, rate).into_iter().map(clipped).collect();
         if lines != self.drawn {
             self.erase();
             self.write(&(lines.join("\n") + "\n"));
@@ -61,12 +68,12 @@ impl View {
     }
 }
 
-fn lines(devices: &[DeviceState], rate: f64) -> Vec<String> {
+fn lines(devices: &[DeviceState], most: usize, rate: f64) -> Vec<String> {
     let head = ["ID", "device", "position", "goal", "torque", "hardware error"];
     let mut rows = vec![head.map(str::to_owned)];
     let number = |value: Option<f64>| value.map_or("-".to_owned(), |value| value.to_string());
     let error = |error: Option<i64>| error.map_or("-".to_owned(), |error| error.to_string());
-    rows.extend(devices.iter().take(SHOWN).map(|device| {
+    rows.extend(devices.iter().take(most).map(|device| {
         let torque = device.torque.map_or("-", |torque| if torque { "on" } else { "off" });
         [
             device.id.to_string(),
@@ -78,8 +85,8 @@ fn lines(devices: &[DeviceState], rate: f64) -> Vec<String> {
         ]
     }));
     let mut lines = table::lines("", &rows);
-    if devices.len() > SHOWN {
-        lines.push(format!("and {} devices more", devices.len() - SHOWN));
+    if devices.len() > most {
+        lines.push(format!("and {} devices more", devices.len() - most));
     }
     lines.push(format!("{rate:.0} packets a second; Ctrl-C ends"));
     lines
