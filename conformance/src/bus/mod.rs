@@ -37,7 +37,7 @@ use crate::device;
 pub use self::dynamixel2::{ReadingError, Readings, VirtualDevice};
 use self::fault::{Alarm, Faults, OnDevice, What};
 pub use self::fault::{Fault, FaultError};
-pub use self::place::{Place, PlaceError, tables};
+pub use self::place::{Place, PlaceError, Places, tables};
 
 /// Bytes that devices send, and when the last of them is there.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,12 +1,15 @@
 //! The words with which a user puts devices on a bus.
 
+use std::path::Path;
 use std::str::FromStr;
 
+use serde::Deserialize;
 use thiserror::Error;
 
 use super::{Own, WIRES};
 use crate::compose::{ComposeError, Word};
 use crate::device::{DeviceError, Tables, unknown};
+use crate::input::{self, InputError};
 use crate::legible::{LONGEST_NAME, legible};
 
 /// A device on a bus, in words: `ja40@2:present-position=2000,torque-enable=1`, `dd-6010@6`.
@@ -20,12 +23,34 @@ pub struct Place {
     pub registers: Vec<Word>,
 }
 
+/// A device in words, or the devices of a YAML file that has such words: `bench.yaml`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Places(pub Vec<Place>);
+
+/// A bus as a file has it.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BusFile {
+    devices: Vec<String>,
+}
+
 /// Why words put no devices on a bus.
 #[derive(Debug, Error)]
 pub enum PlaceError {
     /// The words have another form.
     #[error("`{0}` is no device with its ID; write it as ja40@1 or ja40@1:goal-position=2000")]
     Form(String),
+    /// A file can't be read.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// A file has something else than devices.
+    #[error("{path}: {error}")]
+    File {
+        /// The file.
+        path: String,
+        /// What is wrong.
+        error: String,
+    },
     /// No device may have the ID.
     #[error("`{text}` has no ID from {min} to {max} after the @")]
     Id {
@@ -85,6 +110,22 @@ impl FromStr for Place {
         };
         let registers = registers.into_iter().map(word).collect::<Result<_, _>>()?;
         Ok(Self { device: device.to_owned(), id, registers })
+    }
+}
+
+impl FromStr for Places {
+    type Err = PlaceError;
+
+    fn from_str(text: &str) -> Result<Self, PlaceError> {
+        let ending = Path::new(text).extension();
+        if text.contains('@') || ending.is_none_or(|ending| ending != "yaml" && ending != "yml") {
+            return Ok(Self(vec![text.parse()?]));
+        }
+        let failed = |error: String| PlaceError::File { path: legible(text, LONGEST_NAME), error };
+        let file: BusFile = input::yaml(&input::yaml_text(Path::new(text))?).map_err(failed)?;
+        let place =
+            |words: &String| words.parse().map_err(|error: PlaceError| failed(error.to_string()));
+        file.devices.iter().map(place).collect::<Result<_, _>>().map(Self)
     }
 }
 

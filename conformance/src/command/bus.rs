@@ -11,7 +11,7 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use actucheck::adapter::Wire;
-use actucheck::bus::{Fault, Place, Readings, Setup, VirtualBus, tables};
+use actucheck::bus::{Fault, Place, Places, Readings, Setup, VirtualBus, tables};
 use actucheck::link::{LinkError, Links, Port, Reach, address};
 use clap::Args;
 
@@ -29,6 +29,8 @@ Examples:
       two devices, one of which stands elsewhere, behind a path that is always the same
   actucheck bus my-servo.yaml@7 --tcp 7777 --udp 127.0.0.1:0 --trace
       a device of your own behind two sockets, and a line for each packet that passes
+  actucheck bus bench.yaml
+      the devices of a file: `devices: [ja40@1, \"ja40@2:present-position=2000\"]`
   actucheck bus qdd-3510-36@6 dd-6010@7 --udp 2000
       two actuators with their addresses, behind a board that answers as the vendor's does
   actucheck bus ja40@1 --realtime --baud 57600
@@ -55,9 +57,10 @@ not be written, 4 a port could not be opened";
 pub(crate) struct Bus {
     /// The devices, each with its ID and, if they are to begin with others than the document's, values
     /// of registers. A device is one that `actucheck decode --device` knows, a YAML or .model file, or a
-    /// model that `actucheck encode --actuator` knows
+    /// model that `actucheck encode --actuator` knows. A YAML file without @ID has such words in a list,
+    /// `devices:`
     #[arg(required = true, value_name = "DEVICE@ID[:REGISTER=VALUE,…]")]
-    devices: Vec<Place>,
+    devices: Vec<Places>,
     #[command(flatten)]
     ports: Ports,
     /// Let bytes take their time at the rate of the line
@@ -171,8 +174,8 @@ pub(crate) fn run(options: &Bus) -> Result<ExitCode, Failure> {
         faults: options.faults.list.clone(),
         seed: options.faults.seed,
     };
-    let mut bus =
-        VirtualBus::new(&shared::spec()?, &options.devices, setup).map_err(Failure::usage)?;
+    let places: Vec<_> = options.devices.iter().flat_map(|places| &places.0).cloned().collect();
+    let mut bus = VirtualBus::new(&shared::spec()?, &places, setup).map_err(Failure::usage)?;
     let (stop, stopped) = UnixStream::pair().map_err(Failure::incomplete)?;
     shared::at_interrupt(move || {
         // One byte is enough, and there is room for it.
@@ -180,15 +183,15 @@ pub(crate) fn run(options: &Bus) -> Result<ExitCode, Failure> {
     })?;
     let mut links = Links::default();
     let ports = options.ports.open(&mut links).map_err(failure)?;
-    let mut watcher = watcher(options, bus.wire())?;
+    let mut watcher = watcher(options, &places, bus.wire())?;
     watcher.begin(&ports);
     let lost = links.serve(&mut bus, stopped.as_fd(), &mut watcher).map_err(failure)?;
     watcher.end(lost)?;
     Ok(ExitCode::SUCCESS)
 }
 
-fn watcher(options: &Bus, wire: Wire) -> Result<Watcher, Failure> {
-    let tables = tables(&options.devices).map_err(Failure::usage)?;
+fn watcher(options: &Bus, places: &[Place], wire: Wire) -> Result<Watcher, Failure> {
+    let tables = tables(places).map_err(Failure::usage)?;
     let out: Box<dyn Write> = if options.ports.stdio {
         Box::new(BufWriter::new(anstream::stderr()))
     } else {

@@ -56,3 +56,28 @@ fn words_that_mean_nothing_are_one_line() {
         assert_eq!((ended.err.lines().count(), ended.out.as_str()), (1, ""));
     }
 }
+
+#[test]
+fn the_devices_may_be_those_of_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("bench.yaml");
+    let file = path.to_str().unwrap();
+    let refused = |text: &str| {
+        fs::write(&path, text).unwrap();
+        let ended = Bus::start(&[file]).ended();
+        assert_eq!((ended.status, ended.out.as_str()), (Some(2), ""), "{text}");
+        ended.err.replace(file, "bench.yaml")
+    };
+    for (text, told) in [
+        ("devices: [ja40]", "`ja40` is no device with its ID"),
+        ("devices: [ja41@1]", "no device is called `ja41`; did you mean `ja40`?"),
+        ("device: [ja40@1]", "unknown field `device`"),
+        ("devices: []", "a bus needs a device"),
+    ] {
+        let err = refused(text);
+        assert!(err.contains(told), "{text}: {err}");
+    }
+    fs::write(&path, "devices:\n  - xm430-w210@1:present-position=166\n  - ja40@2\n").unwrap();
+    let mut bus = Bus::start(&[file]);
+    assert_eq!(ask(&mut bus.pty(), READ, STATUS.len()), STATUS);
+}
