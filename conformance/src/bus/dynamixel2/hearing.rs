@@ -6,7 +6,8 @@ use actucheck_codec::EncodeError;
 use actucheck_codec::dynamixel2::fast_status::{self, Block};
 use actucheck_codec::dynamixel2::instruction::RequestError;
 use actucheck_codec::dynamixel2::{
-    BROADCAST_ID, ErrorNumber, FactoryResetOption, Frame, Instruction, Request, StatusError, status,
+    BROADCAST_ID, ErrorNumber, FactoryResetOption, Frame, HEADER, Instruction, Request,
+    StatusError, status,
 };
 
 use super::super::Chunk;
@@ -52,6 +53,13 @@ impl Hearing<'_> {
                     })
                 });
             }
+        }
+    }
+
+    /// A packet whose CRC is wrong, answered by who has the ID in it, which may be wrong too.
+    pub(super) fn hear_damaged(&mut self, bytes: &[u8]) {
+        if let Some([id, _, _, code, ..]) = bytes.strip_prefix(&HEADER) {
+            self.one(*id, Instruction::from_code(*code), |_| Err(ErrorNumber::CRCError));
         }
     }
 

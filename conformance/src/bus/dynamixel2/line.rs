@@ -2,8 +2,8 @@
 
 use std::time::Duration;
 
-use actucheck_codec::dynamixel2::HEADER;
 use actucheck_codec::dynamixel2::stream::{Event, Parser};
+use actucheck_codec::dynamixel2::{Frame, FrameError, HEADER};
 use actucheck_spec::wire::dynamixel2::reference::repair;
 
 use super::super::fault::Alarm;
@@ -11,7 +11,7 @@ use super::super::{Chunk, DeviceState, Devices, QUIET};
 use super::LARGEST_ID;
 use super::device::VirtualDevice;
 use super::hearing::Hearing;
-use super::readings::Readings;
+use super::readings::{CrcError, Readings};
 
 /// Bits of a byte on the line: a start bit, the byte, a stop bit.
 const BITS: u64 = 10;
@@ -61,6 +61,12 @@ impl Devices for Line {
                 Hearing { devices, readings, clock, now, send }.hear(&frame, scratch);
             }
         });
+        if readings.crc_error == CrcError::Answer
+            && let Err(FrameError::Crc { .. }) = Frame::parse(bytes)
+        {
+            let readings = *readings;
+            Hearing { devices, readings, clock, now, send }.hear_damaged(bytes);
+        }
         self.heard
     }
 

@@ -48,6 +48,14 @@ readings! {
         /// They wait for it for ever.
         Silent: "silent",
     },
+    /// Whether a packet with a wrong CRC is answered.
+    crc_error: "crc-error", "dynamixel2.crc-error.answer", CrcError {
+        /// It is not.
+        #[default]
+        Silent: "silent",
+        /// It is, with CRC Error, by who has the ID in it.
+        Answer: "answer",
+    },
     /// What a second Reg Write before the Action does.
     reg_write_again: "reg-write-again", "dynamixel2.reg-write.again", RegWriteAgain {
         /// It takes the place of the first.
@@ -121,6 +129,14 @@ readings! {
         ProfileVelocity: "profile-velocity",
         /// Profile Time.
         ProfileTime: "profile-time",
+    },
+    /// The unit of Present Velocity where the document gives it another than every other velocity.
+    present_velocity: "present-velocity", "ja40.present-velocity.unit", PresentVelocity {
+        /// The printed one.
+        #[default]
+        Printed: "printed",
+        /// That of Velocity Limit.
+        AsLimit: "as-limit",
     },
     /// What answers an option that no document lists.
     other_options: "other-options", "dynamixel2.options.others", OtherOptions {

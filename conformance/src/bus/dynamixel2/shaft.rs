@@ -12,7 +12,7 @@ use actucheck_codec::register::Row;
 use super::super::motion::{Bounds, Motion, Task};
 use super::memory::Memory;
 use super::model::Model;
-use super::readings::MovementTime;
+use super::readings::{MovementTime, PresentVelocity};
 
 /// Values of Operating Mode.
 pub(super) mod mode {
@@ -236,9 +236,17 @@ impl Shaft {
         if self.before.goes() {
             memory.set(roles.position_trajectory, shown);
         }
-        for row in [roles.present_velocity, roles.velocity_trajectory] {
-            if let Some(scale) = row.and_then(|row| scale(row.unit?.symbol, model)) {
-                memory.put_physical(row, velocity / scale);
+        let like = match model.readings.present_velocity {
+            PresentVelocity::Printed => roles.present_velocity,
+            PresentVelocity::AsLimit => roles.velocity_limit,
+        };
+        for (row, like) in
+            [(roles.present_velocity, like), (roles.velocity_trajectory, roles.velocity_trajectory)]
+        {
+            let scaled = like
+                .and_then(|like| like.from_physical(velocity / scale(like.unit?.symbol, model)?));
+            if let Some(count) = scaled {
+                memory.set(row, count);
             }
         }
         for (limit, row) in
