@@ -22,6 +22,7 @@ mod fault;
 mod innfos;
 mod motion;
 mod place;
+mod readings;
 
 use std::collections::VecDeque;
 use std::net::SocketAddr;
@@ -34,10 +35,11 @@ use actucheck_spec::wire::{self, Wire};
 
 use crate::device;
 
-pub use self::dynamixel2::{ReadingError, Readings, VirtualDevice};
+pub use self::dynamixel2::VirtualDevice;
 use self::fault::{Alarm, Faults, OnDevice, What};
 pub use self::fault::{Fault, FaultError};
 pub use self::place::{Place, PlaceError, Places, tables};
+pub use self::readings::{Reading, ReadingError, Readings};
 
 /// Bytes that devices send, and when the last of them is there.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -119,6 +121,8 @@ struct Own {
     knows: fn(&str) -> bool,
     /// The names of its devices.
     names: fn() -> Vec<String>,
+    /// What the documents leave unspecified about them.
+    readings: &'static [Reading],
     /// Puts devices on it, at least one.
     connect: Connect,
 }
@@ -134,6 +138,7 @@ static WIRES: [Own; 2] = [
         has_datagrams: true,
         knows: innfos::knows,
         names: innfos::names,
+        readings: innfos::READINGS,
         connect: innfos::board,
     },
     Own {
@@ -143,6 +148,7 @@ static WIRES: [Own; 2] = [
         has_datagrams: false,
         knows: device::knows,
         names: dynamixel2::names,
+        readings: dynamixel2::READINGS,
         connect: dynamixel2::line,
     },
 ];

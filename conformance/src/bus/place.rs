@@ -67,9 +67,9 @@ pub enum PlaceError {
     /// The wire has no rate.
     #[error("a board is on a network, which has no such rate; take --realtime away")]
     Rate,
-    /// The wire has no such readings.
-    #[error("readings are for devices with a control table, not for a board; take --readings away")]
-    Readings,
+    /// The devices have no such reading.
+    #[error("`{0}` is no reading of these devices; take it out of --readings")]
+    Reading(String),
     /// A register can't hold this at the beginning.
     #[error(
         "no device begins with `{0}`: it measures that itself, or its document does not allow it"

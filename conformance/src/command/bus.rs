@@ -11,7 +11,7 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use actucheck::adapter::Wire;
-use actucheck::bus::{Fault, Place, Places, Readings, Setup, VirtualBus, tables};
+use actucheck::bus::{Fault, Place, Places, Reading, Readings, Setup, VirtualBus, tables};
 use actucheck::link::{LinkError, Links, Port, Reach, address};
 use clap::Args;
 
@@ -145,10 +145,9 @@ impl Ports {
 }
 
 fn readings_help() -> String {
-    let line = |(name, ways, erratum): &(&str, &[&str], &str)| {
-        format!("- {name}={}, as to {erratum}", ways.join("|"))
-    };
-    let lines: Vec<_> = Readings::ALL.iter().map(line).collect();
+    let line =
+        |(name, ways, erratum): &Reading| format!("- {name}={}, as to {erratum}", ways.join("|"));
+    let lines: Vec<_> = Readings::all().map(line).collect();
     format!(
         "What devices do where the documents leave something unspecified. The first way of each is \
          taken if none is named; `actucheck spec show ERRATUM` has what the documents say\n\n{}",
@@ -168,7 +167,7 @@ fn faults_help() -> String {
 /// Serves until Ctrl-C.
 pub(crate) fn run(options: &Bus) -> Result<ExitCode, Failure> {
     let setup = Setup {
-        readings: options.readings.unwrap_or_default(),
+        readings: options.readings.clone().unwrap_or_default(),
         rate: options.realtime.then_some(options.baud),
         echo: options.faults.echo,
         faults: options.faults.list.clone(),

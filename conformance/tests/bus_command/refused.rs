@@ -46,7 +46,10 @@ fn words_that_mean_nothing_are_one_line() {
         (&[ONE, "--tcp", "here"], "`here` is no address; write it as 127.0.0.1:7777"),
         (&[ONE, "--baud", "9600"], "--realtime"),
         (&[ONE, "--readings", "restore=some"], "`restore=some` is no reading; there are "),
-        (&["dd-6010@6", "--readings", "restore=eeprom"], "take --readings away"),
+        (
+            &["dd-6010@6", "--readings", "restore=eeprom"],
+            "`restore` is no reading of these devices; take it out of --readings",
+        ),
         (&["dd-6010@6", "--realtime"], "take --realtime away"),
         (&[], "DEVICE@ID"),
     ] {

@@ -46,7 +46,7 @@ pub fn check(input: &[u8]) {
 }
 
 fn on_a_line(choices: &mut Unstructured<'_>) {
-    let readings = readings(choices).unwrap_or_default();
+    let readings = readings(choices, false).unwrap_or_default();
     let places: Vec<_> =
         (1..).zip(DEVICES).map(|(id, device)| format!("{device}@{id}").parse().unwrap()).collect();
     let setup = Setup { readings, ..Setup::default() };
@@ -71,16 +71,19 @@ fn on_a_line(choices: &mut Unstructured<'_>) {
     }
 }
 
-/// The usual readings, or one that is not.
-fn readings(choices: &mut Unstructured<'_>) -> Result<Readings> {
-    let (name, ways, _) = choices.choose(Readings::ALL)?;
+/// A reading of the document or documents, in one of its ways.
+fn readings(choices: &mut Unstructured<'_>, is_board: bool) -> Result<Readings> {
+    let own = Readings::all().filter(|(.., erratum)| erratum.starts_with("innfos.") == is_board);
+    let (name, ways, _) = choices.choose(&own.collect::<Vec<_>>())?;
     Ok(format!("{name}={}", choices.choose(ways)?).parse().unwrap())
 }
 
 fn on_a_board(choices: &mut Unstructured<'_>) {
     let innfos = &SPEC.wires.innfos.content;
     let places = ACTUATORS.map(|actuator| actuator.parse().unwrap());
-    let mut bus = VirtualBus::new(&SPEC, &places, Setup::default()).unwrap();
+    let readings = readings(choices, true).unwrap_or_default();
+    let setup = Setup { readings, ..Setup::default() };
+    let mut bus = VirtualBus::new(&SPEC, &places, setup).unwrap();
     let mut now = Duration::ZERO;
     while !choices.is_empty()
         && let Ok(request) = host::datagram(choices, innfos)

@@ -13,7 +13,7 @@ use actucheck_codec::dynamixel2::{
 use super::super::Chunk;
 use super::device::{Outcome, VirtualDevice};
 use super::line::Clock;
-use super::readings::{AfterMissing, Readings, RestartAnswer};
+use super::readings::{AfterMissing, LineReadings, RestartAnswer};
 
 /// Bytes that most packets fit in.
 const USUAL: usize = 64;
@@ -23,7 +23,7 @@ const BLOCK_OVERHEAD: usize = 4;
 /// What it takes to carry out a packet.
 pub(super) struct Hearing<'a> {
     pub(super) devices: &'a mut [VirtualDevice],
-    pub(super) readings: Readings,
+    pub(super) readings: LineReadings,
     pub(super) clock: &'a mut Clock,
     pub(super) now: Duration,
     pub(super) send: &'a mut dyn FnMut(Chunk),

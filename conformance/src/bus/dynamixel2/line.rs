@@ -11,7 +11,7 @@ use super::super::{Chunk, DeviceState, Devices, QUIET};
 use super::LARGEST_ID;
 use super::device::VirtualDevice;
 use super::hearing::Hearing;
-use super::readings::{CrcError, Readings};
+use super::readings::{CrcError, LineReadings};
 
 /// Bits of a byte on the line: a start bit, the byte, a stop bit.
 const BITS: u64 = 10;
@@ -24,7 +24,7 @@ pub(in super::super) struct Line {
     /// When the last byte was heard.
     heard: Duration,
     devices: Vec<VirtualDevice>,
-    readings: Readings,
+    readings: LineReadings,
     clock: Clock,
     scratch: Vec<u8>,
 }
@@ -33,7 +33,7 @@ impl Line {
     /// A line on which bytes take no time, unless it has a rate in bit/s.
     pub(in super::super) fn new(
         devices: Vec<VirtualDevice>,
-        readings: Readings,
+        readings: LineReadings,
         rate: Option<u32>,
     ) -> Self {
         Self {

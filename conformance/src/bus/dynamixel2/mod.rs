@@ -16,18 +16,21 @@ use std::sync::Arc;
 use actucheck_spec::Spec;
 use actucheck_spec::model::Device;
 
-use super::{Devices, Place, PlaceError, Setup};
+use super::{Devices, Place, PlaceError, Reading, Setup};
 use crate::compose::{self, Word};
 use crate::device::{KNOWN, Tables};
 use crate::names::as_word;
 use line::Line;
 use model::Model;
+use readings::LineReadings;
 
 pub use device::VirtualDevice;
-pub use readings::{ReadingError, Readings};
 
 /// The largest ID of a device.
 pub(super) const LARGEST_ID: u8 = 252;
+
+/// What the documents leave unspecified, and a user chooses.
+pub(super) const READINGS: &[Reading] = LineReadings::ALL;
 
 /// A line with devices.
 pub(super) fn line(
@@ -35,6 +38,8 @@ pub(super) fn line(
     places: &[Place],
     setup: &Setup,
 ) -> Result<Box<dyn Devices>, PlaceError> {
+    let mut readings = LineReadings::default();
+    setup.readings.chosen(|name, way| readings.choose(name, way))?;
     let mut models = BTreeMap::new();
     let mut devices = Vec::new();
     for place in places {
@@ -42,7 +47,7 @@ pub(super) fn line(
             let tables = Tables::of_each([(place.id, place.device.as_str())])?;
             let known = tables.of(place.id).zip(tables.written(place.id, spec));
             let (table, written) = known.ok_or(PlaceError::None)?;
-            let model = Arc::new(Model::new(table, written, setup.readings));
+            let model = Arc::new(Model::new(table, written, readings));
             models.insert(&place.device, (model, written));
         }
         let Some((model, written)) = models.get(&place.device) else { continue };
@@ -50,7 +55,7 @@ pub(super) fn line(
         begin(&mut device, written, &place.registers)?;
         devices.push(device);
     }
-    Ok(Box::new(Line::new(devices, setup.readings, setup.rate)))
+    Ok(Box::new(Line::new(devices, readings, setup.rate)))
 }
 
 /// The names of the devices.

@@ -6,7 +6,7 @@ use actucheck_codec::register::{Access, Bound, Device, Range, Row};
 use actucheck_spec::model;
 
 use super::indirect::Indirect;
-use super::readings::Readings;
+use super::readings::LineReadings;
 
 /// Counts in a turn of a device whose file does not tell them.
 const COUNTS_PER_TURN: u32 = 4096;
@@ -16,7 +16,7 @@ const COUNTS_PER_TURN: u32 = 4096;
 pub(super) struct Model {
     pub(super) table: &'static Device,
     /// What is done where the documents leave something unspecified.
-    pub(super) readings: Readings,
+    pub(super) readings: LineReadings,
     /// Counts of the position registers in a turn.
     pub(super) counts_per_turn: f64,
     /// The registers of the RAM area that a backup has.
@@ -133,7 +133,11 @@ roles! {
 
 impl Model {
     /// The device with this table, which `written` has as the spec or the user's file has it.
-    pub(super) fn new(table: &'static Device, written: &model::Device, readings: Readings) -> Self {
+    pub(super) fn new(
+        table: &'static Device,
+        written: &model::Device,
+        readings: LineReadings,
+    ) -> Self {
         let named = |name: &String| table.register_named(name);
         let watch = |alarm: &model::Alarm| {
             let status = table.register_named("Hardware Error Status")?;

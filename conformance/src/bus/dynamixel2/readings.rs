@@ -1,45 +1,8 @@
-//! What the documents leave unspecified about devices, and the reading that is chosen.
+//! What the documents leave unspecified about devices with a control table and their line.
 
-use std::str::FromStr;
+use super::super::readings::readings;
 
-use thiserror::Error;
-
-use crate::legible::{LONGEST_NAME, legible};
-
-/// Defines the readings: field, name, erratum, and the ways with the default first.
-macro_rules! readings {
-    ($($(#[$doc:meta])* $field:ident: $name:literal, $erratum:literal, $kind:ident {
-        $($(#[$way_doc:meta])* $way:ident: $word:literal,)*
-    },)*) => {
-        $($(#[$doc])*
-        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-        pub enum $kind {
-            $($(#[$way_doc])* $way,)*
-        })*
-
-        /// What a device or its line does where the documents say nothing, or two things. Each has a
-        /// row in the errata.
-        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-        pub struct Readings {
-            $($(#[$doc])* pub $field: $kind,)*
-        }
-
-        impl Readings {
-            /// Every reading: its name, its ways with the default first, and its erratum.
-            pub const ALL: &[(&str, &[&str], &str)] = &[$(($name, &[$($word),*], $erratum)),*];
-
-            fn choose(&mut self, name: &str, way: &str) -> bool {
-                match (name, way) {
-                    $($(($name, $word) => self.$field = $kind::$way,)*)*
-                    _ => return false,
-                }
-                true
-            }
-        }
-    };
-}
-
-readings! {
+readings! { LineReadings,
     /// What devices do that a Sync Read or a Bulk Read names after one that stays silent.
     after_missing: "after-missing", "dynamixel2.silent-device", AfterMissing {
         /// They answer as if it had.
@@ -146,31 +109,4 @@ readings! {
         /// No error.
         NoError: "no-error",
     },
-}
-
-/// Why words choose no reading.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("`{text}` is no reading; there are {known}")]
-pub struct ReadingError {
-    text: String,
-    known: String,
-}
-
-/// `after-missing=silent,restore=eeprom`: the others keep their defaults.
-impl FromStr for Readings {
-    type Err = ReadingError;
-
-    fn from_str(text: &str) -> Result<Self, ReadingError> {
-        let mut readings = Self::default();
-        for word in text.split(',').map(str::trim) {
-            let chosen = word.split_once('=').is_some_and(|(name, way)| readings.choose(name, way));
-            if !chosen {
-                let line =
-                    |(name, ways, _): &(&str, &[&str], &str)| format!("{name}={}", ways.join("|"));
-                let known = Self::ALL.iter().map(line).collect::<Vec<_>>().join(", ");
-                return Err(ReadingError { text: legible(word, LONGEST_NAME), known });
-            }
-        }
-        Ok(readings)
-    }
 }

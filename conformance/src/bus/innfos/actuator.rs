@@ -9,6 +9,7 @@ use actucheck_codec::innfos::{
 
 use super::super::DeviceState;
 use super::super::fault::Alarm;
+use super::readings::BoardReadings;
 use super::shaft::Shaft;
 use super::values::{Values, WHOLE};
 
@@ -28,10 +29,10 @@ pub(super) struct Actuator {
 
 impl Actuator {
     /// An actuator that has just got power, the one of this number behind its board.
-    pub(super) fn new(address: u8, number: u32, model: &Model) -> Self {
+    pub(super) fn new(address: u8, number: u32, model: &Model, readings: BoardReadings) -> Self {
         let mac = Mac::new(&FIRST_MAC.wrapping_add(number).to_be_bytes());
         let mut values = Values::new();
-        let mut shaft = Shaft::new(model);
+        let mut shaft = Shaft::new(model, readings.full_speed);
         shaft.stay(&mut values);
         Self { address, name: model.name, mac, stored: values.clone(), values, shaft }
     }

@@ -9,6 +9,7 @@ use actucheck_codec::innfos::{
 use super::super::fault::Alarm;
 use super::super::{Chunk, DeviceState, Devices, QUIET};
 use super::actuator::Actuator;
+use super::readings::{BoardReadings, Broadcast};
 
 /// The place of the address in a frame.
 const ADDRESS: usize = 1;
@@ -16,6 +17,7 @@ const ADDRESS: usize = 1;
 /// A board with its actuators.
 pub(super) struct Board {
     actuators: Vec<Actuator>,
+    readings: BoardReadings,
     /// How long the board looks for actuators.
     query: Duration,
     /// The beginning of a frame.
@@ -25,9 +27,13 @@ pub(super) struct Board {
 }
 
 impl Board {
-    pub(super) fn new(actuators: Vec<Actuator>, query_milliseconds: u32) -> Self {
+    pub(super) fn new(
+        actuators: Vec<Actuator>,
+        readings: BoardReadings,
+        query_milliseconds: u32,
+    ) -> Self {
         let query = Duration::from_millis(query_milliseconds.into());
-        Self { actuators, query, begun: Vec::new(), heard: Duration::ZERO }
+        Self { actuators, readings, query, begun: Vec::new(), heard: Duration::ZERO }
     }
 
     fn take(&mut self, frame: &Frame<'_>, now: Duration, send: &mut dyn FnMut(Chunk)) {
@@ -47,10 +53,13 @@ impl Board {
             }
             return;
         }
-        let at = if command == Command::ReadActuatorQuery { now + self.query } else { now };
+        let is_query = command == Command::ReadActuatorQuery;
+        let at = if is_query { now + self.query } else { now };
+        let is_silent = is_for_all && !is_query && self.readings.broadcast == Broadcast::Silent;
         for actuator in &mut self.actuators {
             if (is_for_all || actuator.address() == address)
                 && let Some(value) = actuator.answer(frame, now)
+                && !is_silent
             {
                 send(at, Message::reply(actuator.address(), command, Some(value)));
             }

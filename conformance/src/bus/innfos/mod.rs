@@ -1,16 +1,17 @@
 //! A control board with actuators behind it (INNFOS document).
 //!
-//! What the document leaves unspecified, and what is done here:
+//! What the document leaves unspecified, and what is done here beside what `readings.rs` lets choose:
 //!
-//! - All actuators obey a request to address 0 that is not for the board, and each answers.
+//! - All actuators obey a request to address 0 that is not for the board.
 //! - The board's greeting has no CRC, and a MAC address has four bytes, as printed.
-//! - Speeds are fractions of the model's full scale. So are the speeds of the profiles; an acceleration
-//!   of 1.0 reaches the full scale in a second. A profile's value that nobody set bounds nothing.
+//! - The speeds of the profiles are fractions of the full scale too; an acceleration of 1.0 reaches it
+//!   in a second. A profile's value that nobody set bounds nothing.
 //! - A value that is refused is not stored: 00 answers it. A read with data is not answered.
 //! - An actuator begins switched off, in current mode, at position 0.
 
 mod actuator;
 mod board;
+mod readings;
 mod shaft;
 mod values;
 
@@ -21,15 +22,19 @@ use actucheck_codec::innfos::{Direction as Way, Message};
 use actucheck_spec::Spec;
 use actucheck_spec::wire::{Direction, innfos};
 
-use super::{Devices, Place, PlaceError, Readings, Setup};
+use super::{Devices, Place, PlaceError, Reading, Setup};
 use crate::compose::{ComposeError, Phrase, Word, compose};
 use crate::device::Tables;
 use crate::names::as_word;
 use actuator::Actuator;
 use board::Board;
+use readings::BoardReadings;
 
 /// The addresses of actuators.
 pub(super) const ADDRESSES: RangeInclusive<u8> = MIN_ADDRESS..=MAX_ADDRESS;
+
+/// What the document leaves unspecified, and a user chooses.
+pub(super) const READINGS: &[Reading] = BoardReadings::ALL;
 
 /// Whether a model of actuator has this name.
 pub(super) fn knows(name: &str) -> bool {
@@ -54,13 +59,12 @@ pub(super) fn board(
     if setup.rate.is_some() {
         return Err(PlaceError::Rate);
     }
-    if setup.readings != Readings::default() {
-        return Err(PlaceError::Readings);
-    }
+    let mut readings = BoardReadings::default();
+    setup.readings.chosen(|name, way| readings.choose(name, way))?;
     let mut actuators = Vec::new();
     for (number, place) in (0_u32..).zip(places) {
         let Some(model) = model(&place.device) else { continue };
-        let mut actuator = Actuator::new(place.id, number, model);
+        let mut actuator = Actuator::new(place.id, number, model, readings);
         for word in &place.registers {
             let bytes = answer(spec, place, word)?;
             let frame = Frame::parse(Way::Reply, &bytes).ok();
@@ -72,7 +76,7 @@ pub(super) fn board(
         }
         actuators.push(actuator);
     }
-    Ok(Box::new(Board::new(actuators, spec.wires.innfos.content.udp.query_milliseconds)))
+    Ok(Box::new(Board::new(actuators, readings, spec.wires.innfos.content.udp.query_milliseconds)))
 }
 
 /// The answer to a read that finds what a word says.

@@ -6,7 +6,11 @@ use std::time::Duration;
 use actucheck_codec::innfos::{Actuator as Model, Command, Iq24, Mode, Value};
 
 use super::super::motion::{Bounds, Motion, Task};
+use super::readings::FullSpeed;
 use super::values::{Values, WHOLE};
+
+/// The full scale of a motor's speed in RPM, if it is the same for every model.
+const SAME_SPEED: f64 = 6000.0;
 
 /// What hosts want of the shaft.
 #[derive(Clone, Copy, Debug, Default)]
@@ -29,8 +33,12 @@ pub(super) struct Shaft {
 }
 
 impl Shaft {
-    pub(super) fn new(model: &Model) -> Self {
-        let full = model.output_speed / 60.0 * f64::from(WHOLE);
+    pub(super) fn new(model: &Model, full: FullSpeed) -> Self {
+        let share = match full {
+            FullSpeed::Model => 1.0,
+            FullSpeed::Same => SAME_SPEED / model.motor_speed,
+        };
+        let full = model.output_speed * share / 60.0 * f64::from(WHOLE);
         Self { motion: Motion::default(), now: Duration::ZERO, goals: Goals::default(), full }
     }
 
