@@ -1,0 +1,116 @@
+//! The adapter: it answers requests on standard input with what the host does.
+
+use std::io::{self, Write as _};
+use std::time::Duration;
+
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use super::answer::Failure;
+use super::faults::{Fault, Switch};
+use super::host::Host;
+use super::request::{CALLS, Call};
+
+/// The version of the adapter protocol.
+const PROTOCOL: u32 = 3;
+
+pub(crate) struct Adapter {
+    on: Switch,
+    limit: Duration,
+    host: Option<Host>,
+}
+
+#[derive(Deserialize)]
+struct Open {
+    port: String,
+    #[serde(default = "default_baud")]
+    baud: u32,
+}
+
+fn default_baud() -> u32 {
+    57_600
+}
+
+/// What comes of a request: the reply's field and its content.
+type Answer = (&'static str, Value);
+
+impl Adapter {
+    /// An adapter of a host that waits so long for an answer.
+    pub(crate) fn new(on: Switch, limit: Duration) -> Self {
+        Self { on, limit, host: None }
+    }
+
+    /// Answers until `bye` or the end of the input.
+    pub(crate) fn run(mut self) -> io::Result<()> {
+        for line in io::stdin().lines() {
+            let request: Value = serde_json::from_str(&line?)?;
+            if request["op"] == "bye" {
+                break;
+            }
+            let (field, content) = self.answer(&request);
+            let mut stdout = io::stdout().lock();
+            writeln!(stdout, "{}", json!({"id": request["id"], field: content}))?;
+            stdout.flush()?;
+        }
+        Ok(())
+    }
+
+    fn answer(&mut self, request: &Value) -> Answer {
+        match request["op"].as_str() {
+            Some("hello") => ("ok", hello()),
+            Some("open" | "call") if request["wire"] != "dynamixel2" => skip("no such wire"),
+            Some("open") => self.open(request),
+            Some("call") => self.call(&request["call"]),
+            Some("close") => {
+                self.host = None;
+                ("ok", json!({}))
+            }
+            _ => skip("no such op"),
+        }
+    }
+
+    fn open(&mut self, request: &Value) -> Answer {
+        if self.host.is_some() && self.on.is(Fault::KeepsFirstPort) {
+            return ("ok", json!({}));
+        }
+        // A port is closed before another is opened.
+        self.host = None;
+        let opened = Open::deserialize(request).map_err(io::Error::from);
+        match opened.and_then(|open| Host::open(self.on, self.limit, &open.port, open.baud)) {
+            Ok(host) => {
+                self.host = Some(host);
+                ("ok", json!({}))
+            }
+            Err(error) => ("err", json!(Failure::from(error))),
+        }
+    }
+
+    fn call(&mut self, call: &Value) -> Answer {
+        if !CALLS.iter().any(|name| call["name"] == *name) {
+            return skip("no such call");
+        }
+        let devices = match (Call::deserialize(call), &mut self.host) {
+            (Err(error), _) => Err(Failure::new("internal", error.to_string())),
+            (_, None) => Err(Failure::new("port", "no port is open")),
+            (Ok(call), Some(host)) => host.call(&call),
+        };
+        match devices {
+            Ok(devices) => ("ok", json!({"devices": devices})),
+            Err(failure) => ("err", json!(failure)),
+        }
+    }
+}
+
+fn hello() -> Value {
+    json!({
+        "protocol": PROTOCOL,
+        "implementation": {"name": "host with a fault", "version": "1", "language": "Rust"},
+        "wires": ["dynamixel2"],
+        "ops": ["open", "call", "close"],
+        "calls": CALLS,
+    })
+}
+
+fn skip(reason: &str) -> Answer {
+    ("skip", json!({"reason": reason}))
+}

@@ -1,0 +1,122 @@
+//! A right host, and faults that it may have, one a row of a table.
+//!
+//! This program is the host's adapter too, so that a test needs nothing built but itself:
+//!
+//! ```sh
+//! cargo test -p actucheck --test hosts                    # every test
+//! cargo test -p actucheck --test hosts -- no-drain        # those with this in their name
+//! cargo test -q -p actucheck --test hosts -- table        # the faults, as a table in Markdown
+//! cargo test -q -p actucheck --test hosts -- adapter none # the right host, as an adapter
+//! cargo test -q -p actucheck --test hosts -- adapter no-drain 50
+//!                                   # one that waits 50 ms for an answer, and does not drain
+//! ```
+
+#![allow(clippy::unwrap_used, clippy::indexing_slicing, clippy::panic)] // tests may stop at a surprise
+#![cfg(unix)]
+
+mod adapter;
+mod answer;
+mod bus;
+mod cases;
+mod faults;
+mod host;
+mod inbox;
+mod line;
+mod packet;
+mod port;
+mod request;
+mod shown;
+mod talk;
+
+use std::process::ExitCode;
+use std::time::Duration;
+
+use libtest_mimic::{Arguments, Failed, Trial};
+
+use self::adapter::Adapter;
+use self::faults::{FAULTS, Switch};
+use self::shown::CASES;
+
+/// How long a call waits for its answer, in milliseconds.
+const LIMIT: &str = "30";
+/// How often a conversation is tried until it is as it should be. A machine may be too busy for a host's
+/// limit, but hardly so often.
+const TRIES: usize = 3;
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        ["adapter", fault] => adapter(fault, LIMIT),
+        ["adapter", fault, limit] => adapter(fault, limit),
+        ["table"] => print_table(),
+        _ => tests(),
+    }
+}
+
+fn adapter(fault: &str, limit: &str) -> ExitCode {
+    let Some(switch) = Switch::named(fault) else {
+        eprintln!("`{fault}` is no fault; `table` prints them");
+        return ExitCode::from(2);
+    };
+    let limit = Duration::from_millis(limit.parse().unwrap());
+    // An error is the end of the pipe.
+    Adapter::new(switch, limit).run().map_or(ExitCode::FAILURE, |()| ExitCode::SUCCESS)
+}
+
+fn tests() -> ExitCode {
+    let mut arguments = Arguments::from_args();
+    // Most of the time is waited.
+    arguments.test_threads.get_or_insert(4);
+    let test = |name: String, test: Box<dyn Fn() -> String + Send>| {
+        Trial::test(name, move || {
+            let tries: Vec<_> =
+                (0..TRIES).map(|_| test()).take_while(|wrong| !wrong.is_empty()).collect();
+            if tries.len() < TRIES { Ok(()) } else { Err(Failed::from(tries.join("\n"))) }
+        })
+    };
+    let cases =
+        CASES.iter().map(|case| test(format!("fault::{}", case.fault), Box::new(|| case.wrong())));
+    let mut trials: Vec<_> = cases.collect();
+    trials.push(test("bus::every_call".to_owned(), Box::new(bus::every_call)));
+    trials.push(test("faults::each_is_shown".to_owned(), Box::new(shown)));
+    trials.push(test("faults::each_has_one_place".to_owned(), Box::new(one_place)));
+    libtest_mimic::run(&arguments, trials).exit_code()
+}
+
+/// The faults whose switch is not in exactly one place.
+fn one_place() -> String {
+    let sources = [
+        include_str!("adapter.rs"),
+        include_str!("answer.rs"),
+        include_str!("host.rs"),
+        include_str!("inbox.rs"),
+        include_str!("packet.rs"),
+        include_str!("port.rs"),
+        include_str!("request.rs"),
+    ];
+    let words = || sources.iter().flat_map(|text| text.split(|c: char| !c.is_alphanumeric()));
+    let places = |fault: &str| words().filter(|word| *word == fault).count();
+    let wrong = FAULTS.iter().filter(|row| places(&format!("{:?}", row.fault)) != 1);
+    wrong.map(|row| row.name).collect::<Vec<_>>().join(" ")
+}
+
+/// The faults that no case shows, or several.
+fn shown() -> String {
+    let cases = |name: &str| CASES.iter().filter(|case| case.fault == name).count();
+    let wrong = FAULTS.iter().map(|row| row.name).filter(|name| cases(name) != 1);
+    wrong.collect::<Vec<_>>().join(" ")
+}
+
+fn print_table() -> ExitCode {
+    println!("| fault | the host | a run |");
+    println!("|---|---|---|");
+    for row in FAULTS {
+        println!(
+            "| `{}` | {} | {} |",
+            row.name,
+            row.does,
+            format!("{:?}", row.judged).to_lowercase()
+        );
+    }
+    ExitCode::SUCCESS
+}
