@@ -106,6 +106,7 @@ fn hello() -> Value {
         "protocol": PROTOCOL,
         "implementation": {"name": "host with a fault", "version": "1", "language": "Rust"},
         "wires": ["dynamixel2"],
+        "roles": ["host"],
         "ops": ["open", "call", "close"],
         "calls": CALLS,
     })

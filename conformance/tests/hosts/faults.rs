@@ -105,7 +105,7 @@ faults! {
     WaitsForeverAfterBroadcast: "waits-forever-after-broadcast", Fails, "waits for an answer to a broadcast write without a limit";
     RetriesOnce: "retries-once", Passes, "asks again once";
     RetriesForever: "retries-forever", Fails, "asks again until it is answered";
-    AsksWhileListening: "asks-while-listening", Recorded, "sends its request again while it waits for the answer";
+    AsksWhileListening: "asks-while-listening", Fails, "sends its request again while it waits for the answer";
     // What an answer says.
     IgnoresError: "ignores-error", Fails, "tells success whatever the error number is";
     AlertAsError: "alert-as-error", Fails, "takes the alert bit for part of the error number";

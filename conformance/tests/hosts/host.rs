@@ -158,11 +158,14 @@ impl Host {
             }
             let waits = on.is(Fault::WaitsForever)
                 || self.inbox.has_begun() && on.is(Fault::WaitsForeverForRest);
-            // Also if the line never rests.
+            // The line may never rest.
             if Instant::now() >= end && !waits {
                 return Ok(());
             }
             let read = self.port.receive((!waits).then_some(end))?;
+            if read.is_empty() {
+                return Ok(());
+            }
             reads += 1;
             self.inbox.push(&read);
             if on.is(Fault::LimitRestarts) {
