@@ -5,6 +5,8 @@
 pub(crate) enum Judged {
     /// It fails.
     Fails,
+    /// It passes with a warning: the documents recommend another way.
+    Warns,
     /// The documents leave it unspecified: it is recorded.
     Recorded,
     /// It is right.
@@ -81,7 +83,7 @@ faults! {
     LosesPacketAfterNoise: "loses-packet-after-noise", Fails, "drops all that it has if noise comes first";
     NaiveHeaderSearch: "naive-header-search", Fails, "begins the search for a header anew behind a byte that does not fit, and misses FF FF FF FD 00";
     AnyReserved: "any-reserved", Fails, "takes FF FF FD and any byte for a header";
-    NoResync: "no-resync", Fails, "skips as many bytes as a false header's length says";
+    NoResync: "no-resync", Warns, "skips as many bytes as a false header's length says";
     FixedSize: "fixed-size", Fails, "reads as many bytes as it expects, whatever the length says";
     ReadsLengthHighByteFirst: "reads-length-high-byte-first", Fails, "takes the first byte of a length for the high one";
     IgnoresCrc: "ignores-crc", Fails, "takes packets with a wrong CRC";
