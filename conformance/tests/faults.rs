@@ -86,6 +86,18 @@ fn an_answer_comes_split_or_late() {
 }
 
 #[test]
+fn nothing_comes_between_the_pieces_of_an_answer() {
+    let spec = Spec::embedded().unwrap();
+    let setup = Setup { faults: vec!["split#1".parse().unwrap()], ..Setup::default() };
+    let places = ["ja40@1", "ja40@2"].map(|words| words.parse().unwrap());
+    let mut bus = VirtualBus::new(&spec, &places, setup).unwrap();
+    bus.send(&reference::frame(254, &[1]), NOW);
+    let bytes = bus.receive(NOW + Duration::from_secs(1));
+    let (first, second) = bytes.split_at(14);
+    assert_eq!((status(first).0, status(second).0), (1, 2));
+}
+
+#[test]
 fn an_echo_comes_before_the_answer() {
     let ping = instruction(1, &[]);
     let mut bus = with(&["lost"], 0, true);

@@ -215,9 +215,15 @@ impl VirtualBus {
         if self.echo && !bytes.is_empty() {
             self.put(sender, Chunk { at: heard, bytes: bytes.to_vec() });
         }
+        // No answer comes between the pieces of another.
+        let mut free = Duration::ZERO;
         for answer in answers {
-            for piece in self.struck(answer, now) {
-                self.put(sender, piece);
+            let pieces = self.struck(answer, now);
+            let is_split = pieces.len() > 1;
+            for Chunk { at, bytes } in pieces {
+                let at = at.max(free);
+                free = if is_split { at } else { free };
+                self.put(sender, Chunk { at, bytes });
             }
         }
         heard
