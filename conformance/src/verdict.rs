@@ -271,7 +271,9 @@ impl Outcome {
 
 fn bytes_of(output: &Output) -> Vec<&HexBytes> {
     match output {
-        Output::Crc(_) | Output::Value(_) | Output::Message(_) => Vec::new(),
+        Output::Crc(_) | Output::Value(_) | Output::Message(_) | Output::Conversation(_) => {
+            Vec::new()
+        }
         Output::Bytes(bytes) => vec![bytes],
         Output::Packet(packet) => packet.wire().payload(packet),
         Output::Packets(packets) => {

@@ -31,6 +31,7 @@ from dynamixel_sdk.protocol2_packet_handler import (
 from adapter_kit import Skipped, serve, unhex
 from calls import CALLS, sync_read_group
 from common import SDK, rejected
+from host import OPS as HOST
 from memory_port import MemoryPort
 
 # The list that the SDK's methods pass around: seven bytes of header with the length field, the body,
@@ -144,7 +145,7 @@ if __name__ == "__main__":
         },
         ["host"],
         "dynamixel2",
-        {op.__name__: op for op in (crc, stuff, unstuff, encode, decode, stream)},
+        {op.__name__: op for op in (crc, stuff, unstuff, encode, decode, stream)} | HOST,
         # It compares a received packet's length field, which counts from the instruction on.
         {"max_send": TXPACKET_MAX_LEN, "max_receive": RXPACKET_MAX_LEN + PKT_INSTRUCTION},
     )

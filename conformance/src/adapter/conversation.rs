@@ -6,6 +6,7 @@ use std::process::ExitStatus;
 use std::time::Duration;
 
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use serde_json::value::RawValue;
 use thiserror::Error;
 
@@ -41,8 +42,8 @@ pub(crate) enum Reply {
     /// The result: an object that is not read yet. So nothing of it that is not asked for takes
     /// memory.
     Ok(Box<RawValue>),
-    /// The bytes or the packet are rejected.
-    Err(Rejection),
+    /// What is asked is rejected, or failed: an object that [`rejection`] or [`error`] reads.
+    Err(Box<RawValue>),
     /// The request was skipped, with the reason.
     Skip(String),
 }
@@ -215,7 +216,7 @@ impl Conversation {
             (Some(ok), None, None) => {
                 object(ok).map(|ok| Reply::Ok(ok.to_owned())).ok_or(Malformed::Ok)
             }
-            (None, Some(err), None) => rejection(err),
+            (None, Some(err), None) => Ok(Reply::Err(err.to_owned())),
             (None, None, Some(skip)) => skipped(skip).ok_or(Malformed::Skip),
             (None, None, None) => Err(Malformed::Nothing),
             _ => Err(Malformed::Several),
@@ -229,12 +230,17 @@ fn object(value: &RawValue) -> Option<&RawValue> {
     value.get().starts_with('{').then_some(value)
 }
 
-fn rejection(err: &RawValue) -> Result<Reply, Malformed> {
+/// Why bytes or a packet are rejected.
+pub(crate) fn rejection(err: &RawValue) -> Result<Rejection, Malformed> {
+    let rejection: Rejection = error(err)?;
+    Ok(Rejection { detail: legible(&rejection.detail, LONGEST_TEXT), ..rejection })
+}
+
+/// Reads the `err` of a reply.
+pub(crate) fn error<T: DeserializeOwned>(err: &RawValue) -> Result<T, Malformed> {
     let err = object(err).ok_or_else(|| Malformed::Err("it is no object".to_owned()))?;
-    let rejection: Rejection = serde_json::from_str(err.get())
-        .map_err(|error| Malformed::Err(legible(&error.to_string(), LONGEST_TEXT)))?;
-    let detail = legible(&rejection.detail, LONGEST_TEXT);
-    Ok(Reply::Err(Rejection { detail, ..rejection }))
+    serde_json::from_str(err.get())
+        .map_err(|error| Malformed::Err(legible(&error.to_string(), LONGEST_TEXT)))
 }
 
 fn skipped(skip: &RawValue) -> Option<Reply> {

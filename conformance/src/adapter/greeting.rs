@@ -10,8 +10,10 @@ use super::{Hello, Implementation, Limits, VERSIONS, Wire};
 use crate::legible::{LONGEST_NAME, legible};
 
 /// The ops that `hello` may name. Every adapter has `hello` and `bye`, so they need not be listed.
-const OPS: [&str; 10] =
-    ["hello", "crc", "stuff", "unstuff", "encode", "decode", "stream", "value", "message", "bye"];
+const OPS: [&str; 13] = [
+    "hello", "crc", "stuff", "unstuff", "encode", "decode", "stream", "value", "message", "open",
+    "call", "close", "bye",
+];
 
 /// The roles that an adapter may play. A role of `codec` would say nothing: every library is one.
 const ROLES: [Role; 2] = [Role::Host, Role::Device];

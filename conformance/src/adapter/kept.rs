@@ -42,6 +42,8 @@ impl Output {
                 (Some(Self::Bytes(HexBytes(bytes))), missing)
             }
             Self::Bytes(bytes) => (Some(Self::Bytes(bytes)), none),
+            // The line keeps no more of it than is shown.
+            Self::Conversation(steps) => (Some(Self::Conversation(steps)), none),
             other => match (size(&other), other) {
                 (all, _) if all > most => (None, format!("its {all} characters are not kept")),
                 (_, Self::Message(message)) => {

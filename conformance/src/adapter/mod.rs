@@ -3,6 +3,7 @@
 
 pub(crate) mod conversation;
 mod greeting;
+mod host;
 mod kept;
 #[cfg(target_os = "linux")]
 mod leftover;
@@ -20,8 +21,11 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 pub use greeting::{Contradiction, Greeting};
+pub use host::{Burst, CallError, CallTo, Course, Passed, Reported, Returned, Step, Trouble};
 pub use message::Told;
 pub use reading::Misfit;
+#[cfg(unix)]
+pub(crate) use reading::devices;
 pub use requests::{
     Called, Hello, Implementation, Limits, Output, Question, Rejection, Request, VERSION, VERSIONS,
     Wire,

@@ -8,7 +8,7 @@ use serde_json::Value;
 use thiserror::Error;
 
 use super::value::Given;
-use super::{Greeting, Output, Question, Told, VERSIONS};
+use super::{Greeting, Output, Question, Reported, Told, VERSIONS};
 use crate::legible::{LONGEST_TEXT, legible};
 
 /// The most bytes of an `ok` whose form is looked at. No right one is nearly as long. A longer one
@@ -57,7 +57,11 @@ impl Output {
             }
             Self::Packet(packet) => std::slice::from_ref(packet),
             Self::Packets(packets) => packets,
-            Self::Crc(_) | Self::Bytes(_) | Self::Value(_) | Self::Message(_) => &[],
+            Self::Crc(_)
+            | Self::Bytes(_)
+            | Self::Value(_)
+            | Self::Message(_)
+            | Self::Conversation(_) => &[],
         };
         if packets.iter().any(|packet| packet.wire() != question.wire()) {
             return Err(Misfit::new("the packet is of a kind that this wire has not", kinds()));
@@ -97,6 +101,27 @@ impl Greeting {
             "answer with one of the versions that the request offers",
         ))
     }
+}
+
+/// Reads the `ok` of a reply to `call`: what the library's user gets of each device.
+///
+/// # Errors
+/// What is wrong with it.
+#[cfg(unix)]
+pub(crate) fn devices(ok: &str) -> Result<Vec<Reported>, Misfit> {
+    #[derive(Deserialize)]
+    struct Devices {
+        devices: Vec<Reported>,
+    }
+    let ok = object(ok)?;
+    lowercase(&ok)?;
+    let Devices { devices } = Devices::deserialize(&ok).map_err(|error| {
+        Misfit::new(
+            format!("`ok` does not fit call: {error}"),
+            "`actucheck adapter guide` has a table of what `ok` holds",
+        )
+    })?;
+    Ok(devices)
 }
 
 /// The fields of an `ok`.

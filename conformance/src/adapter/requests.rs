@@ -1,5 +1,6 @@
 //! The adapter protocol: the requests and replies between the suite and an adapter, one JSON object
-//! per line. This is version 2; [`Request::in_version`] writes the requests of version 1.
+//! per line. This is version 3; [`Request::in_version`] writes the requests of version 1. Those of
+//! version 2 are the same, without the ops for ports.
 
 use std::fmt;
 
@@ -9,14 +10,15 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use super::host::{self, CallTo, Course, Step};
 use super::message::Told;
 use super::value::{Given, RegisterOf};
 
 /// The newest version of the adapter protocol.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 
 /// The versions of the adapter protocol that this suite speaks.
-pub const VERSIONS: [u32; 2] = [1, VERSION];
+pub const VERSIONS: [u32; 3] = [1, 2, VERSION];
 
 pub use actucheck_spec::wire::Wire;
 
@@ -28,6 +30,27 @@ pub enum Request<'a> {
     Hello {
         /// The versions of the adapter protocol that the suite speaks.
         protocol: &'a [u32],
+    },
+    /// Open a port, and close the one that is open.
+    Open {
+        /// The wire that is spoken there.
+        wire: Wire,
+        /// The path of a terminal; `tcp://HOST:PORT` or `udp://HOST:PORT` for a socket.
+        port: &'a str,
+        /// The rate in bit/s, if the port has one.
+        baud: u32,
+    },
+    /// Make a call through the port.
+    Call {
+        /// The wire.
+        wire: Wire,
+        /// The call.
+        call: &'a CallTo,
+    },
+    /// Close the port.
+    Close {
+        /// The wire.
+        wire: Wire,
     },
     /// An op that no version of the protocol has.
     #[serde(rename = "no-such-op")]
@@ -131,6 +154,15 @@ pub enum Question {
         #[serde(flatten)]
         told: Told,
     },
+    /// What becomes of calls on a line that plays a script. No adapter gets it: it is asked for one call
+    /// after the other, with the ops `open`, `call` and `close`.
+    #[schemars(skip)]
+    Converse {
+        /// The wire.
+        wire: Wire,
+        /// The calls, and what the line does.
+        steps: Vec<Step>,
+    },
 }
 
 impl Question {
@@ -146,6 +178,7 @@ impl Question {
             Self::Stream { .. } => "stream",
             Self::Value { .. } => "value",
             Self::Message { .. } => "message",
+            Self::Converse { .. } => "call",
         }
     }
 
@@ -178,9 +211,11 @@ impl Question {
             Self::Decode { context, .. } => context.direction,
             Self::Stream { direction, .. } => *direction,
             Self::Message { told, .. } => Some(told.direction()),
-            Self::Value { .. } | Self::Crc { .. } | Self::Stuff { .. } | Self::Unstuff { .. } => {
-                None
-            }
+            Self::Value { .. }
+            | Self::Crc { .. }
+            | Self::Stuff { .. }
+            | Self::Unstuff { .. }
+            | Self::Converse { .. } => None,
         }
     }
 
@@ -188,6 +223,9 @@ impl Question {
     /// replies and reads requests. `None` if both do.
     #[must_use]
     pub fn role(&self) -> Option<Role> {
+        if matches!(self, Self::Converse { .. }) {
+            return Some(Role::Host);
+        }
         let builds = matches!(
             self,
             Self::Encode { .. }
@@ -211,7 +249,8 @@ impl Question {
             | Self::Decode { wire, .. }
             | Self::Stream { wire, .. }
             | Self::Value { wire, .. }
-            | Self::Message { wire, .. } => *wire,
+            | Self::Message { wire, .. }
+            | Self::Converse { wire, .. } => *wire,
         }
     }
 }
@@ -337,6 +376,9 @@ pub enum Output {
     Value(wire::Value),
     /// Of `message` if the bytes are given.
     Message(Message),
+    /// Of calls on a line that plays a script: what became of each.
+    #[schemars(skip)]
+    Conversation(Vec<Course>),
 }
 
 impl Output {
@@ -366,6 +408,7 @@ impl fmt::Display for Output {
             Self::Packets(packets) => f.write_str(&json(packets)?),
             Self::Value(value) => f.write_str(&json(value)?),
             Self::Message(message) => f.write_str(&json(message)?),
+            Self::Conversation(steps) => f.write_str(&host::told(steps)),
         }
     }
 }

@@ -23,6 +23,8 @@ mod innfos;
 mod motion;
 mod place;
 mod readings;
+#[cfg(unix)]
+mod script;
 
 use std::collections::VecDeque;
 use std::net::SocketAddr;
@@ -40,6 +42,8 @@ use self::fault::{Alarm, Faults, OnDevice, What};
 pub use self::fault::{Fault, FaultError};
 pub use self::place::{Place, PlaceError, Places, tables};
 pub use self::readings::{Reading, ReadingError, Readings};
+#[cfg(unix)]
+pub(crate) use self::script::{Bursts, Script};
 
 /// Bytes that devices send, and when the last of them is there.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -195,6 +199,14 @@ impl VirtualBus {
         let Setup { echo, faults, seed, .. } = setup;
         let (faults, coming) = (Faults::new(faults, seed), VecDeque::new());
         Ok(Self { own, devices, echo, faults, coming })
+    }
+
+    /// A line on which nothing answers but a script; `None` if there is no such line for the wire.
+    #[cfg(unix)]
+    pub(crate) fn scripted(wire: Wire, script: Script) -> Option<Self> {
+        let own = WIRES.iter().find(|own| own.wire == wire)?;
+        let (devices, faults) = (Box::new(script), Faults::new(Vec::new(), 0));
+        Some(Self { own, devices, echo: false, faults, coming: VecDeque::new() })
     }
 
     /// The wire of its devices.

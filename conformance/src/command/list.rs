@@ -7,7 +7,7 @@ use actucheck::suite::check::Check;
 use clap::Args;
 
 use super::WRITTEN;
-use super::shared::{self, Failure, Selection};
+use super::shared::{self, Failure, Growth, Selection};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -20,13 +20,15 @@ Examples:
 pub(crate) struct List {
     #[command(flatten)]
     selection: Selection,
+    #[command(flatten)]
+    growth: Growth,
 }
 
 /// Prints one line per check: id, level and requirement.
 pub(crate) fn run(options: &List) -> Result<ExitCode, Failure> {
     let spec = shared::spec()?;
     let selection = &options.selection;
-    let mut plan = selection.growth.plan(&spec, &selection.wires(), None);
+    let mut plan = options.growth.plan(&spec, &selection.wires(), None);
     selection.restrict(&mut plan)?;
     let mut out = io::BufWriter::new(io::stdout().lock());
     let line = |check: Check| writeln!(out, "{}  {}  {}", check.id, check.level, check.requirement);

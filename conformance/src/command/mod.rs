@@ -8,6 +8,8 @@ pub(crate) mod completions;
 pub(crate) mod decode;
 pub(crate) mod encode;
 pub(crate) mod fuzz;
+#[cfg(unix)]
+pub(crate) mod host;
 pub(crate) mod list;
 pub(crate) mod replay;
 pub(crate) mod report;
@@ -39,6 +41,8 @@ const WRITTEN: &str = "Exit status: 0 written, 2 wrong usage, 3 the output could
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     Codec(codec::Codec),
+    #[cfg(unix)]
+    Host(host::Host),
     Fuzz(fuzz::Fuzz),
     Decode(decode::Decode),
     Encode(encode::Encode),

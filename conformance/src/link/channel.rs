@@ -29,7 +29,7 @@ impl Read {
 }
 
 /// Where a host's bytes come from and go to. Nothing here waits.
-pub(super) trait Channel {
+pub(super) trait Channel: Send {
     /// What is waited for.
     fn source(&self) -> BorrowedFd<'_>;
 

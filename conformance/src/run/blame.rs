@@ -7,8 +7,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::suite::basics;
-use crate::suite::codec::rests_on;
+use crate::suite::{basics, rests_on};
 use crate::verdict::{Because, Outcome, Verdict};
 
 /// The failures that later ones may follow from.

@@ -9,8 +9,10 @@ use std::time::Duration;
 
 use thiserror::Error;
 
+#[cfg(unix)]
+use super::host::converse;
 use super::{Answer, Questions, Subject};
-use crate::adapter::conversation::{Conversation, Lost, Malformed, Reply};
+use crate::adapter::conversation::{Conversation, Lost, Malformed, Reply, rejection};
 use crate::adapter::{
     Contradiction, Greeting, Hello, Misfit, Output, Question, Request, Settings, VERSIONS,
 };
@@ -114,19 +116,26 @@ impl Process {
         request: &Request<'_>,
         read: impl FnOnce(&str) -> Result<Output, Misfit>,
     ) -> Answer {
+        self.talk(|conversation, limit| {
+            conversation.send(request);
+            conversation.receive(limit).map(|(_, reply)| answer(reply, read))
+        })
+    }
+
+    /// Talks with the adapter, which has so long for each request. Ends it if it fails.
+    fn talk(
+        &mut self,
+        talk: impl FnOnce(&mut Conversation, Duration) -> Result<Answer, Lost>,
+    ) -> Answer {
         let limit = self.settings.timeouts.request;
         let conversation = match self.conversation() {
             Ok(conversation) => conversation,
             Err(reason) => return Answer::NotAsked(reason),
         };
-        conversation.send(request);
-        match conversation.receive(limit) {
-            Ok((_, reply)) => answer(reply, read),
-            Err(lost) => {
-                self.end();
-                lost.into()
-            }
-        }
+        talk(conversation, limit).unwrap_or_else(|lost| {
+            self.end();
+            lost.into()
+        })
     }
 
     /// Keeps as many questions outstanding as the adapter takes, until none is left or the adapter
@@ -136,11 +145,18 @@ impl Process {
         let limit = self.settings.timeouts.request;
         // The number of each outstanding question by the id of its request.
         let mut outstanding = BTreeMap::new();
+        // A conversation has the adapter to itself.
+        let mut alone = None;
         let lost = loop {
             while outstanding.len() < self.at_once
+                && alone.is_none()
                 && let Some(number) = questions.next()
             {
                 let Some(question) = questions.question(number) else { continue };
+                if matches!(question, Question::Converse { .. }) {
+                    alone = Some(number);
+                    break;
+                }
                 match self.conversation() {
                     Ok(conversation) => {
                         let id = conversation.send(&Request::Ask(question));
@@ -151,7 +167,9 @@ impl Process {
                 }
             }
             if outstanding.is_empty() {
-                return true;
+                let Some(number) = alone.take() else { return true };
+                self.ask_one(questions, number);
+                continue;
             }
             // The time limit starts again with each reply: it is for the question that the adapter
             // works on.
@@ -166,7 +184,7 @@ impl Process {
             questions.answered(number, answer);
         };
         self.end();
-        let outstanding: Vec<_> = outstanding.into_values().collect();
+        let outstanding: Vec<_> = outstanding.into_values().chain(alone).collect();
         self.ask_apart(questions, &outstanding, lost.into());
         false
     }
@@ -231,6 +249,14 @@ impl Subject for Process {
     }
 
     fn ask(&mut self, question: &Question) -> Answer {
+        #[cfg(unix)]
+        if let Question::Converse { wire, steps } = question {
+            return self.talk(|conversation, limit| converse(conversation, limit, *wire, steps));
+        }
+        #[cfg(not(unix))]
+        if let Question::Converse { .. } = question {
+            return Answer::Skipped("this system has no pseudo-terminals".to_owned());
+        }
         self.say(&Request::Ask(question), |ok| Output::read(question, ok))
     }
 
@@ -349,7 +375,8 @@ fn answer(
         Ok(Reply::Ok(ok)) => {
             read(ok.get()).map_or_else(|misfit| Answer::Faulty(misfit.what), Answer::Ok)
         }
-        Ok(Reply::Err(rejection)) => Answer::Rejected(rejection),
+        Ok(Reply::Err(err)) => rejection(&err)
+            .map_or_else(|malformed| Answer::Faulty(malformed.to_string()), Answer::Rejected),
         Ok(Reply::Skip(reason)) => Answer::Skipped(reason),
         Err(malformed) => Answer::Faulty(malformed.to_string()),
     }

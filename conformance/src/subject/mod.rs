@@ -2,6 +2,8 @@
 
 mod adapter;
 mod builtin;
+#[cfg(unix)]
+mod host;
 
 use crate::adapter::{Hello, Output, Question, Rejection};
 

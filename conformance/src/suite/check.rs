@@ -4,6 +4,7 @@ use actucheck_spec::model::{Citation, Fault, Level};
 use actucheck_spec::wire::Number;
 use serde::{Deserialize, Serialize};
 
+use super::due::{self, Due};
 use crate::adapter::{Output, Question, Rejection};
 use crate::legible::{LONGEST_TEXT, legible};
 use crate::subject::Answer;
@@ -54,6 +55,10 @@ pub enum Demand {
     YieldOneOf(Vec<Output>),
     /// A rejection. A rejection for another reason gets a warning, one without a reason does not.
     Reject(Fault),
+    /// The last call of a conversation puts its packet on the line, and nothing else.
+    Send,
+    /// What the last call of a conversation returns.
+    Return(Due),
     /// Any answer: the documents leave it unspecified. The report shows what the subject does.
     Record(Unspecified),
 }
@@ -108,6 +113,10 @@ impl Unspecified {
 
     /// An answer that is none of the foreseen ones.
     fn other(&self, output: &Output) -> String {
+        if let Output::Conversation(steps) = output {
+            let last = steps.last().map(|step| format!("returns {}", step.returned));
+            return last.unwrap_or_default();
+        }
         match (output, self.ways.first().map(|way| &way.output)) {
             (Output::Packets(found), Some(Output::Packets(whole)))
                 if found.iter().all(|packet| whole.contains(packet)) =>
@@ -215,16 +224,20 @@ impl Check {
             Demand::Yield(output) | Demand::Near { output, .. } => Some(output),
             Demand::YieldOneOf(outputs) => outputs.first(),
             Demand::Record(unspecified) => unspecified.ways.first().map(|way| &way.output),
-            Demand::Reject(_) => None,
+            Demand::Reject(_) | Demand::Send | Demand::Return(_) => None,
         }
     }
 
     fn judge_output(&self, actual: Output) -> (Verdict, String, Option<Output>) {
+        if let Output::Conversation(courses) = &actual {
+            let (verdict, detail) = due::judge(&self.question, &self.demand, courses);
+            return (verdict, detail, Some(actual));
+        }
         let right = match &self.demand {
             Demand::Yield(expected) => *expected == actual,
             Demand::Near { output, within } => output.is_near(&actual, *within),
             Demand::YieldOneOf(outputs) => outputs.contains(&actual),
-            Demand::Reject(_) | Demand::Record(_) => false,
+            _ => false,
         };
         match &self.demand {
             _ if right => (Verdict::Pass, String::new(), None),
@@ -242,15 +255,13 @@ impl Check {
             return (Verdict::Fail, format!("broke down: {detail}"), None);
         }
         match &self.demand {
-            Demand::Yield(_) | Demand::Near { .. } | Demand::YieldOneOf(_) | Demand::Record(_) => {
-                (Verdict::Fail, format!("rejected ({class}: {detail}), but is valid"), None)
-            }
             Demand::Reject(fault) if fault == class || *class == Fault::Unspecified => {
                 (Verdict::Pass, String::new(), None)
             }
             Demand::Reject(fault) => {
                 (Verdict::Warn, format!("rejected as {class}, the fault is {fault}"), None)
             }
+            _ => (Verdict::Fail, format!("rejected ({class}: {detail}), but is valid"), None),
         }
     }
 }

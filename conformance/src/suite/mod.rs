@@ -7,11 +7,15 @@
 pub(crate) mod basics;
 pub mod check;
 pub(crate) mod codec;
+pub mod due;
 pub mod expect;
+pub(crate) mod host;
 pub mod plan;
 pub(crate) mod random;
 pub mod saved;
 pub mod select;
+
+use std::borrow::Cow;
 
 use actucheck_spec::Spec;
 use actucheck_spec::model::{Citation, Level};
@@ -73,6 +77,25 @@ impl Default for Options {
 pub fn plan<'a>(spec: &'a Spec, wires: &[Wire], options: &Options) -> Plan<'a> {
     let families = |wire: &Wire| codec::families(Author { spec, wire: *wire }, options);
     Plan::new(wires.iter().flat_map(families).collect())
+}
+
+/// Every check of a host on these wires, in a fixed order.
+#[must_use]
+pub fn host_plan<'a>(spec: &'a Spec, wires: &[Wire]) -> Plan<'a> {
+    let families = |wire: &Wire| host::families(Author { spec, wire: *wire });
+    Plan::new(wires.iter().flat_map(families).collect())
+}
+
+/// The ids of the basic checks that the answer to a question rests on, the most basic first.
+/// `expected` is the answer that is demanded, if it is not a rejection.
+pub(crate) fn rests_on<'a>(
+    question: &'a Question,
+    expected: Option<&'a Output>,
+) -> Box<dyn Iterator<Item = Cow<'static, str>> + 'a> {
+    match question {
+        Question::Converse { wire, steps } => Box::new(host::rests_on(*wire, steps)),
+        question => Box::new(codec::rests_on(question, expected)),
+    }
 }
 
 /// Writes checks about one wire.

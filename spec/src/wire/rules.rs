@@ -95,6 +95,9 @@ pub trait Rules: Sync + RefUnwindSafe {
     /// What a packet says in words; `None` for a packet of another wire.
     fn call(&self, packet: &Packet) -> Option<Call>;
 
+    /// The ID or the address that a packet carries.
+    fn device(&self, packet: &Packet) -> u8;
+
     /// The part of a whole frame that the byte at `offset` belongs to.
     fn part(&self, frame: &[u8], offset: usize) -> &'static str;
 

@@ -56,7 +56,7 @@ def _role(request):
 def serve(implementation, roles, wire, ops, limits=None):
     """Answers requests until `bye` or the end of standard input."""
     hello = {
-        "protocol": 2,
+        "protocol": 3,
         "implementation": {"language": "Python", **implementation},
         "roles": roles,
         "wires": [wire],
@@ -94,7 +94,7 @@ def _answer(request, hello, wire, ops):
             return {"skip": {"reason": f"no op {op!r}"}}
         if request["wire"] != wire:
             return {"skip": {"reason": f"the library does not speak {request['wire']!r}"}}
-        role = _role(request)
+        role = "host" if op in ("open", "call", "close") else _role(request)
         if role not in (None, *hello["roles"]):
             return {"skip": {"reason": f"only a {role} does this"}}
         return {"ok": ops[op](request)}

@@ -7,7 +7,7 @@ use std::time::Duration;
 use serde_json::Value;
 
 use super::{Problem, Said};
-use crate::adapter::conversation::{Conversation, Lost, Malformed, Reply, ended};
+use crate::adapter::conversation::{Conversation, Lost, Malformed, Reply, ended, rejection};
 use crate::adapter::process::Line;
 use crate::adapter::{Misfit, Rejection, Settings, reading};
 
@@ -117,7 +117,9 @@ fn answer(reply: Result<Reply, Malformed>) -> Result<Answer, Problem> {
             let ok = reading::object(ok.get());
             ok.map(Answer::Ok).map_err(|Misfit { what, mend }| Problem::new(what, mend))
         }
-        Ok(Reply::Err(rejection)) => Ok(Answer::Err(rejection)),
+        Ok(Reply::Err(err)) => {
+            rejection(&err).map(Answer::Err).or_else(|malformed| answer(Err(malformed)))
+        }
         Ok(Reply::Skip(reason)) => Ok(Answer::Skip(reason)),
         Err(malformed @ Malformed::Ok) => Err(Problem::new(
             malformed,

@@ -1,6 +1,7 @@
 //! What several subcommands have in common: groups of options, and where their output goes.
 
 mod begun;
+mod checking;
 mod device;
 mod failure;
 mod look;
@@ -21,6 +22,7 @@ use std::time::{Duration, Instant};
 use actucheck_spec::Spec;
 
 pub(crate) use begun::{command_line, date};
+pub(crate) use checking::{Checking, Planned};
 pub(crate) use device::DeviceOption;
 pub(crate) use failure::Failure;
 pub(crate) use look::{Look, next, terminal_width};

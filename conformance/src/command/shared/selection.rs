@@ -25,8 +25,6 @@ pub(crate) struct Selection {
     /// Only the checks of requirements of this level or a stricter one
     #[arg(long, value_parser = one_of(LEVELS), default_value = "may")]
     level: Level,
-    #[command(flatten)]
-    pub(crate) growth: Growth,
 }
 
 const LEVELS: [(Level, &str, &str); 3] = [
@@ -122,7 +120,8 @@ impl Growth {
     ) -> Result<Check, Failure> {
         let longest = Self { body_length: Some(Options::LONGEST_BODY), ..*self };
         let plan = longest.plan(spec, &Wire::ALL, hello);
-        plan.find(id).ok_or_else(|| {
+        let of_host = || suite::host_plan(spec, &Wire::ALL).find(id);
+        plan.find(id).or_else(of_host).ok_or_else(|| {
             let hint = if spec.requirement(id).is_some() {
                 format!("it is a requirement's, which `actucheck spec show {id}` shows")
             } else if let Some(other) = self.plan(spec, &Wire::ALL, hello).nearest(id) {

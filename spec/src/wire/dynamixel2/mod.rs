@@ -128,6 +128,13 @@ impl Rules for This {
         own(packet).map(reference::call)
     }
 
+    fn device(&self, packet: &super::Packet) -> u8 {
+        match own(packet) {
+            Some(Packet::Instruction { id, .. } | Packet::Status { id, .. }) => *id,
+            _ => reference::BROADCAST,
+        }
+    }
+
     fn part(&self, frame: &[u8], offset: usize) -> &'static str {
         reference::part(frame, offset)
     }

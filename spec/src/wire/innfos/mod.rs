@@ -120,6 +120,10 @@ impl Rules for This {
         own(packet).map(reference::call)
     }
 
+    fn device(&self, packet: &super::Packet) -> u8 {
+        own(packet).map_or(0, |packet| packet.address)
+    }
+
     fn part(&self, frame: &[u8], offset: usize) -> &'static str {
         reference::part(frame, offset)
     }

@@ -1,0 +1,121 @@
+//! A line on which nothing answers but a script.
+
+use std::collections::VecDeque;
+use std::mem;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use super::fault::Alarm;
+use super::{Chunk, DeviceState, Devices};
+
+/// Bytes, and how long after the packet that they answer they are there.
+pub(crate) type Bursts = Vec<(Duration, Vec<u8>)>;
+
+/// A script for a line. Its clones are one script: who writes it need not be where the line is.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Script(Arc<Mutex<Scene>>);
+
+#[derive(Debug, Default)]
+struct Scene {
+    /// The packet that is answered.
+    packet: Vec<u8>,
+    /// What answers it, each time that it is heard.
+    answers: VecDeque<Bursts>,
+    /// The last bytes that were heard, as many as the packet has.
+    heard: Vec<u8>,
+    times: usize,
+    /// What comes without being asked.
+    unasked: Vec<u8>,
+    /// How many bytes are on their way.
+    coming: usize,
+}
+
+impl Script {
+    /// Answers this packet from now on, and no other.
+    pub(crate) fn begin(&self, packet: Vec<u8>, answers: impl IntoIterator<Item = Bursts>) {
+        let (answers, coming) = (answers.into_iter().collect(), self.scene().coming);
+        *self.scene() = Scene { packet, answers, coming, ..Scene::default() };
+    }
+
+    /// Whether the packet was heard.
+    pub(crate) fn is_heard(&self) -> bool {
+        self.scene().times > 0
+    }
+
+    /// Plays these bytes as soon as the line is served.
+    pub(crate) fn play(&self, bytes: &[u8]) {
+        self.scene().unasked.extend(bytes);
+    }
+
+    /// Whether bytes wait to be played that nobody asks for.
+    pub(crate) fn is_waiting(&self) -> bool {
+        !self.scene().unasked.is_empty()
+    }
+
+    /// So many bytes that were played are there.
+    pub(crate) fn arrived(&self, count: usize) {
+        let mut scene = self.scene();
+        scene.coming = scene.coming.saturating_sub(count);
+    }
+
+    /// Whether nothing is on its way.
+    pub(crate) fn is_over(&self) -> bool {
+        let scene = self.scene();
+        scene.coming == 0 && scene.unasked.is_empty()
+    }
+
+    fn scene(&self) -> MutexGuard<'_, Scene> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Devices for Script {
+    fn hear(&mut self, bytes: &[u8], now: Duration, send: &mut dyn FnMut(Chunk)) -> Duration {
+        let mut scene = self.scene();
+        let mut play = mem::take(&mut scene.unasked);
+        let mut bursts: Bursts = Vec::new();
+        if !play.is_empty() {
+            bursts.push((Duration::ZERO, mem::take(&mut play)));
+        }
+        for byte in bytes {
+            scene.heard.push(*byte);
+            let surplus = scene.heard.len().saturating_sub(scene.packet.len());
+            scene.heard.drain(..surplus);
+            if scene.heard == scene.packet {
+                scene.times += 1;
+                bursts.extend(scene.answers.pop_front().unwrap_or_default());
+            }
+        }
+        for (after, bytes) in bursts {
+            scene.coming += bytes.len();
+            send(Chunk { at: now + after, bytes });
+        }
+        now
+    }
+
+    fn restart(&mut self, _: Duration) {}
+
+    fn alarm(&mut self, _: Alarm) {}
+
+    fn rename(&self, _: &mut [u8]) {}
+
+    fn free(&self) -> Duration {
+        Duration::ZERO
+    }
+
+    fn is_within_packet(&self) -> bool {
+        false
+    }
+
+    fn quiet(&mut self) {
+        self.scene().heard.clear();
+    }
+
+    fn first(&self, bytes: &[u8]) -> usize {
+        bytes.len()
+    }
+
+    fn states(&mut self, _: Duration) -> Vec<DeviceState> {
+        Vec::new()
+    }
+}

@@ -1,0 +1,61 @@
+//! `actucheck host`.
+
+use std::collections::BTreeMap;
+use std::process::ExitCode;
+
+use actucheck::suite::{self, Options};
+use actucheck_spec::Spec;
+use clap::Args;
+
+use super::shared::{self, Checking, Failure, Planned, Selection, Subjects};
+use super::{ENDED, EXIT};
+
+const EXAMPLES: &str = "\
+Examples:
+  actucheck host -- python3 my_adapter.py
+      check a library that opens a port and talks with devices
+  actucheck host --select '*.basic.*' -- ./my-adapter
+      only what each call sends, and what it returns of a right answer
+  actucheck host --select '*.read.flip-*' --report html=report.html -- ./my-adapter
+      answers with one byte changed, with a page to read
+  actucheck replay dynamixel2.host.after.action/read -- ./my-adapter
+      one conversation again
+
+For each check the host opens a pseudo-terminal and makes calls, and the other end plays devices by a \
+script: right answers, damaged and late ones, those of others, or none. What it sends, what it returns, \
+that it returns within --timeout, and that the next call is right, is judged by the documents. What they \
+leave unspecified is recorded. `actucheck adapter guide` tells how an adapter opens a port.";
+
+/// Checks a host: a library that talks with devices, behind an adapter
+#[derive(Debug, Args)]
+#[command(after_help = format!("{EXAMPLES}\n\n{EXIT}, {ENDED}"))]
+pub(crate) struct Host {
+    #[command(flatten)]
+    selection: Selection,
+    #[command(flatten)]
+    checking: Checking,
+}
+
+/// Runs the checks, writes the reports, and returns the exit status.
+pub(crate) fn run(options: &Host) -> Result<ExitCode, Failure> {
+    let spec = shared::spec()?;
+    let selection = &options.selection;
+    options.checking.run(&spec, selection, |subjects| plan(selection, &spec, subjects))
+}
+
+fn plan<'a>(
+    selection: &Selection,
+    spec: &'a Spec,
+    subjects: &Subjects,
+) -> Result<Planned<'a>, Failure> {
+    let hello = &subjects.hello;
+    if !["open", "call"].iter().all(|op| hello.ops.iter().any(|offered| offered == op)) {
+        let message = "no host to check: give after `--` the command of an adapter with the ops `open` \
+            and `call`, as `actucheck adapter guide` describes them";
+        return Err(Failure::usage(message));
+    }
+    let wires = selection.offered_wires(hello)?;
+    let plan = suite::host_plan(spec, &wires);
+    let widest = suite::host_plan(spec, &wires);
+    Ok(Planned { wires, plan, widest, records: BTreeMap::new(), options: Options::new() })
+}

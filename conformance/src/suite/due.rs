@@ -1,0 +1,103 @@
+//! What a call of a host must return, and the judgement of a conversation.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use super::check::Demand;
+use crate::adapter::{CallError, Course, Question, Reported, Returned, Step, Trouble};
+use crate::verdict::Verdict;
+
+/// What a call must return.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Due {
+    /// What may be returned, and nothing else.
+    pub devices: Vec<Reported>,
+    /// Whether it may be a part of that. What says nothing but who answered may be missing anyway.
+    #[serde(default)]
+    pub partly: bool,
+    /// The errors that are right as well. Another one gets a warning, one without a reason does not. If
+    /// there are none, the call must not fail.
+    #[serde(default)]
+    pub or: Vec<Trouble>,
+}
+
+/// In words: `device 1: data a6000000, or an error (corrupt)`.
+impl fmt::Display for Due {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let part = if self.partly { "some of " } else { "" };
+        let returned = Returned::Devices(self.devices.clone());
+        write!(f, "{part}{returned}")?;
+        let or: Vec<_> = self.or.iter().map(ToString::to_string).collect();
+        if or.is_empty() { Ok(()) } else { write!(f, ", or an error ({})", or.join(" or ")) }
+    }
+}
+
+/// The verdict on a conversation, of which the last call is judged, and the reason.
+pub(super) fn judge(question: &Question, demand: &Demand, courses: &[Course]) -> (Verdict, String) {
+    let Question::Converse { wire, steps } = question else { return unjudged() };
+    let (Some(Step { packet, .. }), Some(course)) = (steps.last(), courses.last()) else {
+        return unjudged();
+    };
+    let frame = wire.encode(&packet.packet).unwrap_or_default();
+    let sent = course.sent();
+    match demand {
+        Demand::Send if sent.is_empty() => fail("the call sends nothing"),
+        // A host that is not content with the answer may ask again.
+        Demand::Send if sent.chunks(frame.len().max(1)).all(|chunk| chunk == frame) => {
+            (Verdict::Pass, String::new())
+        }
+        Demand::Send => fail(format!("the call must send {}", packet_of(&frame))),
+        Demand::Return(_) if !sent.windows(frame.len().max(1)).any(|part| part == frame) => {
+            fail(format!("nothing answers, as the call does not send {}", packet_of(&frame)))
+        }
+        Demand::Return(due) => due.judge(&course.returned),
+        _ => unjudged(),
+    }
+}
+
+fn packet_of(frame: &[u8]) -> actucheck_spec::model::HexBytes {
+    frame.to_vec().into()
+}
+
+fn fail(detail: impl Into<String>) -> (Verdict, String) {
+    (Verdict::Fail, detail.into())
+}
+
+/// A file of checks may have anything in it.
+fn unjudged() -> (Verdict, String) {
+    (Verdict::NotRun, "the demand is not one on a conversation".to_owned())
+}
+
+impl Due {
+    fn judge(&self, returned: &Returned) -> (Verdict, String) {
+        match returned {
+            Returned::Err(_) if self.or.is_empty() => {
+                fail(format!("returned {returned}, but must return {self}"))
+            }
+            Returned::Err(CallError { class, .. })
+                if *class == Trouble::Unspecified || self.or.contains(class) =>
+            {
+                (Verdict::Pass, String::new())
+            }
+            Returned::Err(CallError { class, .. }) => {
+                (Verdict::Warn, format!("failed as {class}, but must return {self}"))
+            }
+            Returned::Devices(devices) => {
+                let right =
+                    |reported: &Reported| self.devices.iter().any(|device| reported.fits(device));
+                let is_there = |device: &&Reported| {
+                    let bare = Reported { id: device.id, ..Reported::default() };
+                    **device == bare || devices.iter().any(|reported| reported.fits(device))
+                };
+                let missing = self.devices.iter().find(|device| !is_there(device));
+                match (devices.iter().find(|reported| !right(reported)), missing) {
+                    (Some(wrong), _) => fail(format!("returned {wrong}, but must return {self}")),
+                    (None, Some(missing)) if !self.partly => fail(format!("{missing} is missing")),
+                    _ => (Verdict::Pass, String::new()),
+                }
+            }
+        }
+    }
+}

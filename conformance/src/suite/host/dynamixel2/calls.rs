@@ -1,0 +1,209 @@
+//! Each call with a right answer.
+
+use actucheck_spec::wire::dynamixel2::{Block, Packet, WIRE};
+
+use super::{BROADCAST, all, burst, data, frame, instruction, read, status, step};
+use crate::adapter::{Burst, Called, Reported, Step};
+use crate::suite::Author;
+use crate::suite::check::Check;
+use crate::suite::due::Due;
+use crate::suite::host::{BASIC, basic};
+
+/// Parameters of a Clear: what is done, and the key.
+const CLEAR: [u8; 5] = [0x01, 0x44, 0x58, 0x4C, 0x22];
+/// Four bytes in which nothing is like the pattern of byte stuffing.
+const FOUR: [u8; 4] = [0xA6, 0x01, 0x02, 0x83];
+const OTHER_FOUR: [u8; 4] = [0x17, 0x28, 0x39, 0x4A];
+/// The pattern of byte stuffing, and a byte after it.
+const PATTERN: [u8; 4] = [0xFF, 0xFF, 0xFD, 0x11];
+
+/// A call that is answered right.
+struct Right {
+    packet: Packet,
+    /// The answer; empty if there is none.
+    answer: Vec<u8>,
+    due: Due,
+    /// The requirements on the packet and on the answer.
+    requirements: [&'static str; 2],
+}
+
+impl Right {
+    fn new(packet: Packet, answer: Vec<u8>, due: Due, requirements: [&'static str; 2]) -> Self {
+        Self { packet, answer, due, requirements }
+    }
+
+    /// A call that is answered without data.
+    fn done(packet: Packet, requirements: [&'static str; 2]) -> Self {
+        let due = all([Reported { id: 1, ..Reported::default() }]);
+        Self::new(packet, status(1, 0, &[]), due, requirements)
+    }
+
+    fn step(&self) -> Step {
+        let answer: Vec<Burst> = match self.answer.as_slice() {
+            [] => Vec::new(),
+            bytes => vec![burst(bytes)],
+        };
+        // A host that asks again is answered again.
+        step(self.packet.clone(), vec![answer.clone(), answer.clone(), answer])
+    }
+
+    fn call(&self) -> &'static str {
+        Called::from(self.packet.clone()).call.map_or("", |call| call.name)
+    }
+}
+
+/// One call of each kind, the most basic first.
+fn every() -> Vec<Right> {
+    let of_two = |first: &[u8], second: &[u8]| [status(1, 0, first), status(2, 0, second)].concat();
+    let both = || all([data(1, &FOUR), data(2, &OTHER_FOUR)]);
+    let pinged = Reported {
+        id: 1,
+        model_number: Some(0x145A),
+        firmware_version: Some(0x26),
+        ..Reported::default()
+    };
+    let register = [132_u16, 4].map(u16::to_le_bytes).concat();
+    let to_each = [&register[..], &[1], &FOUR, &[2], &OTHER_FOUR].concat();
+    let from_each = [&[1], &register[..], &[2], &register].concat();
+    let bulk = [&[1], &register[..], &FOUR, &[2], &register, &OTHER_FOUR].concat();
+    let ids = [&register[..], &[1, 2]].concat();
+    let blocks = [(1, FOUR), (2, OTHER_FOUR)];
+    let blocks = blocks.map(|(id, data)| Block { error: 0, id, data: data.to_vec().into() });
+    let fast = frame(Packet::FastStatus { blocks: blocks.to_vec() });
+    let written = [&116_u16.to_le_bytes()[..], &FOUR].concat();
+    vec![
+        Right::new(
+            instruction(1, 0x01, []),
+            status(1, 0, &[0x5A, 0x14, 0x26]),
+            all([pinged]),
+            ["dynamixel2.ping.parameters", "dynamixel2.ping.status"],
+        ),
+        Right::new(
+            read(1, 132, 4),
+            status(1, 0, &FOUR),
+            all([data(1, &FOUR)]),
+            ["dynamixel2.read.parameters", "dynamixel2.read.status"],
+        ),
+        Right::done(
+            instruction(1, 0x03, written.clone()),
+            ["dynamixel2.write.parameters", "dynamixel2.write.status"],
+        ),
+        Right::done(
+            instruction(1, 0x04, written),
+            ["dynamixel2.reg-write.parameters", "dynamixel2.reg-write.status"],
+        ),
+        Right::done(
+            instruction(1, 0x05, []),
+            ["dynamixel2.action.parameters", "dynamixel2.action.status"],
+        ),
+        Right::done(
+            instruction(1, 0x06, [0x01]),
+            ["dynamixel2.factory-reset.parameters", "dynamixel2.factory-reset.status"],
+        ),
+        Right::done(
+            instruction(1, 0x08, []),
+            ["dynamixel2.reboot.parameters", "dynamixel2.reboot.status"],
+        ),
+        Right::done(
+            instruction(1, 0x10, CLEAR),
+            ["dynamixel2.clear.parameters", "dynamixel2.clear.status"],
+        ),
+        Right::new(
+            instruction(BROADCAST, 0x82, ids.clone()),
+            of_two(&FOUR, &OTHER_FOUR),
+            both(),
+            ["dynamixel2.sync-read.parameters", "dynamixel2.sync-read.same-registers"],
+        ),
+        Right::new(
+            instruction(BROADCAST, 0x83, to_each),
+            Vec::new(),
+            all([]),
+            ["dynamixel2.sync-write.parameters", "dynamixel2.sync-write.silence"],
+        ),
+        Right::new(
+            instruction(BROADCAST, 0x92, from_each),
+            of_two(&FOUR, &OTHER_FOUR),
+            both(),
+            ["dynamixel2.bulk-read.parameters", "dynamixel2.status-packet.parameters"],
+        ),
+        Right::new(
+            instruction(BROADCAST, 0x93, bulk),
+            Vec::new(),
+            all([]),
+            ["dynamixel2.bulk-write.parameters", "dynamixel2.bulk-write.silence"],
+        ),
+        Right::new(
+            instruction(BROADCAST, 0x8A, ids),
+            fast,
+            both(),
+            ["ja40.fast-sync-read.parameters", "ja40.fast-sync-read.status"],
+        ),
+    ]
+}
+
+/// What each call sends, and what it returns.
+pub(super) fn basics(author: &Author<'_>) -> Vec<Check> {
+    let [sent, result] = BASIC;
+    let both = |right: Right| {
+        let id = |about| basic(WIRE, right.call(), about);
+        let [to_send, to_return] = right.requirements;
+        [
+            author.sent(id(sent), to_send, vec![right.step()]),
+            author.returned(id(result), to_return, vec![right.step()], right.due),
+        ]
+    };
+    every().into_iter().flat_map(both).collect()
+}
+
+/// Calls of the same kinds with other data, and calls that nothing answers.
+pub(super) fn others(author: &Author<'_>) -> Vec<Check> {
+    let id = |name: &str| format!("dynamixel2.host.call.{name}");
+    let mut checks = Vec::new();
+    for (name, requirement, bytes) in [
+        ("read.one-byte", "dynamixel2.read.status", &FOUR[..1]),
+        ("read.two-bytes", "dynamixel2.read.status", &FOUR[..2]),
+        ("read.many-bytes", "dynamixel2.read.status", &[0x5A; 60]),
+        ("read.stuffed", "dynamixel2.stuffing.receive", &PATTERN),
+    ] {
+        let length = u16::try_from(bytes.len()).unwrap_or_default();
+        let right = Right::new(
+            read(1, 132, length),
+            status(1, 0, bytes),
+            all([data(1, bytes)]),
+            [requirement; 2],
+        );
+        let steps = vec![right.step()];
+        checks.push(author.returned(id(&format!("{name}/result")), requirement, steps, right.due));
+    }
+    let written = [&116_u16.to_le_bytes()[..], &PATTERN].concat();
+    let stuffed = Right::done(instruction(1, 0x03, written), ["dynamixel2.stuffing.transmit"; 2]);
+    let [requirement, _] = stuffed.requirements;
+    checks.push(author.sent(id("write.stuffed/sent"), requirement, vec![stuffed.step()]));
+    for (name, code, params) in [
+        ("write", 0x03, [&116_u16.to_le_bytes()[..], &FOUR].concat()),
+        ("action", 0x05, Vec::new()),
+        ("reboot", 0x08, Vec::new()),
+    ] {
+        let requirement = "dynamixel2.response.broadcast.silence";
+        let steps = vec![step(instruction(BROADCAST, code, params), Vec::new())];
+        let id = id(&format!("{name}.broadcast/result"));
+        checks.push(author.returned(id, requirement, steps, all([])));
+    }
+    checks
+}
+
+/// A Read after each call: the answer to the call is not taken for the one to the Read.
+pub(super) fn after(author: &Author<'_>) -> Vec<Check> {
+    let check = |right: Right| {
+        let read = Right::new(
+            read(1, 140, 4),
+            status(1, 0, &OTHER_FOUR),
+            all([data(1, &OTHER_FOUR)]),
+            ["dynamixel2.status-packet.parameters"; 2],
+        );
+        let id = format!("dynamixel2.host.after.{}/read", right.call().replace('_', "-"));
+        let [requirement, _] = read.requirements;
+        author.returned(id, requirement, vec![right.step(), read.step()], read.due)
+    };
+    every().into_iter().map(check).collect()
+}
