@@ -21,6 +21,7 @@ use actucheck_spec::model::Level;
 use self::again::Again;
 use self::merge::Merge;
 use self::worker::Worker;
+pub(crate) use self::worker::not_offered;
 use crate::subject::{Answer, Subject};
 use crate::suite::plan::{Group, Plan};
 use crate::verdict::{Outcome, Verdict};

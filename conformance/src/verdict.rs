@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use actucheck_spec::model::{HexBytes, Level};
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::adapter::{Output, Question};
+use crate::adapter::{Course, Output, Question, Step, Wire};
 use crate::explain::mistake;
 
 /// The result of a check in one word.
@@ -155,12 +155,14 @@ pub struct Outcome {
     pub reason: Option<String>,
     /// The request; only if the check did not pass.
     #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "question")]
+    #[schemars(schema_with = "requested")]
     pub request: Option<Question>,
     /// The expected answer; only if another one came.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub expected: Option<Output>,
     /// The actual answer.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(schema_with = "answered")]
     pub actual: Option<Output>,
     /// What the subject does where the documents leave it unspecified; only for
     /// [`Verdict::Recorded`].
@@ -218,6 +220,29 @@ pub struct Behaviour {
     pub question: String,
     /// The behaviour in a few words.
     pub answer: String,
+}
+
+/// A question to an adapter, or a conversation, which no adapter gets as one request.
+fn requested(generator: &mut SchemaGenerator) -> Schema {
+    let (question, wire) =
+        (generator.subschema_for::<Question>(), generator.subschema_for::<Wire>());
+    let steps = generator.subschema_for::<Vec<Step>>();
+    json_schema!({ "anyOf": [question, { "type": "null" }, {
+        "type": "object",
+        "properties": { "op": { "const": "converse" }, "wire": wire, "steps": steps },
+        "required": ["op", "wire", "steps"],
+    }] })
+}
+
+/// An adapter's answer, or what became of a conversation.
+fn answered(generator: &mut SchemaGenerator) -> Schema {
+    let output = generator.subschema_for::<Output>();
+    let courses = generator.subschema_for::<Vec<Course>>();
+    json_schema!({ "anyOf": [output, { "type": "null" }, {
+        "type": "object",
+        "properties": { "conversation": courses },
+        "required": ["conversation"],
+    }] })
 }
 
 /// Earlier reports name an op that does not exist, too.

@@ -171,7 +171,7 @@ fn unsafe_code_is_in_few_places() {
 
 /// The places outside a wire's own folders that name it: registries, with one line per wire, and
 /// code that is about one wire by its nature.
-const NAMED: [(&str, &str); 27] = [
+const NAMED: [(&str, &str); 29] = [
     ("spec/src/wire/mod.rs", "registry"),
     ("spec/src/generate/device.rs", "control tables are of one wire"),
     ("codec/src/lib.rs", "registry"),
@@ -182,6 +182,7 @@ const NAMED: [(&str, &str); 27] = [
     ("codec/examples/", "a program for a device is for one wire"),
     ("conformance/src/device/", "control tables are of one wire"),
     ("conformance/src/suite/codec/mod.rs", "registry"),
+    ("conformance/src/suite/host/mod.rs", "registry"),
     ("conformance/src/subject/builtin/mod.rs", "registry"),
     ("conformance/src/bus/mod.rs", "registry"),
     ("conformance/src/compose/mod.rs", "registry"),
@@ -191,6 +192,7 @@ const NAMED: [(&str, &str); 27] = [
     ("conformance/src/command/codec.rs", "an example in a help text"),
     ("conformance/src/command/decode.rs", "an example in a help text"),
     ("conformance/src/command/encode.rs", "an example in a help text"),
+    ("conformance/src/command/host.rs", "an example in a help text"),
     ("conformance/src/command/list.rs", "an example in a help text"),
     ("conformance/src/command/replay.rs", "an example in a help text"),
     ("conformance/src/command/show.rs", "an example in a help text"),

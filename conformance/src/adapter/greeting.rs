@@ -15,6 +15,25 @@ const OPS: [&str; 13] = [
     "call", "close", "bye",
 ];
 
+/// The calls that `hello` may name.
+const CALLS: [&str; 15] = [
+    "ping",
+    "read",
+    "write",
+    "reg_write",
+    "action",
+    "factory_reset",
+    "reboot",
+    "clear",
+    "control_table_backup",
+    "sync_read",
+    "sync_write",
+    "fast_sync_read",
+    "fast_sync_write",
+    "bulk_read",
+    "bulk_write",
+];
+
 /// The roles that an adapter may play. A role of `codec` would say nothing: every library is one.
 const ROLES: [Role; 2] = [Role::Host, Role::Device];
 
@@ -36,6 +55,9 @@ pub struct Greeting {
     /// The ops that it offers.
     #[schemars(schema_with = "ops")]
     pub ops: Vec<String>,
+    /// The calls that there are, if it says so. What is missing is not asked.
+    #[schemars(schema_with = "calls")]
+    pub calls: Option<Vec<String>>,
     /// The maximum number of outstanding requests.
     #[serde(default = "one")]
     pub max_in_flight: usize,
@@ -59,6 +81,10 @@ fn roles(_: &mut SchemaGenerator) -> Schema {
 
 fn ops(_: &mut SchemaGenerator) -> Schema {
     json_schema!({ "type": "array", "items": { "enum": OPS } })
+}
+
+fn calls(_: &mut SchemaGenerator) -> Schema {
+    json_schema!({ "type": ["array", "null"], "items": { "enum": CALLS } })
 }
 
 /// A statement in `hello` that contradicts another one, or means nothing.
@@ -87,9 +113,13 @@ impl Greeting {
     pub fn meant(self) -> (Hello, Vec<Contradiction>) {
         let mut found = Vec::new();
         let roles = self.roles_meant(&mut found);
-        let Self { protocol, implementation, mut wires, mut ops, max_in_flight, limits, .. } = self;
+        let Self { protocol, implementation, mut wires, mut ops, mut calls, .. } = self;
+        let Self { max_in_flight, limits, .. } = self;
         known(&mut wires, "wires", &Wire::ALL.map(|wire| wire.id()), &mut found);
         known(&mut ops, "ops", &OPS, &mut found);
+        if let Some(calls) = &mut calls {
+            known(calls, "calls", &CALLS, &mut found);
+        }
         if max_in_flight == 0 {
             found.push(Contradiction {
                 what: "`max_in_flight` is 0".to_owned(),
@@ -103,7 +133,9 @@ impl Greeting {
         let limits = limits.meant(shortest, &mut found);
         let max_in_flight = max_in_flight.max(1);
         let implementation = implementation.legible();
-        (Hello { protocol, implementation, wires, ops, roles, max_in_flight, limits }, found)
+        let hello =
+            Hello { protocol, implementation, wires, ops, roles, calls, max_in_flight, limits };
+        (hello, found)
     }
 
     fn roles_meant(&self, found: &mut Vec<Contradiction>) -> Vec<Role> {

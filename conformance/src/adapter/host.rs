@@ -20,6 +20,10 @@ pub struct Step {
     /// What comes after the call has returned, and before the next one.
     #[serde(default, skip_serializing_if = "is_empty")]
     pub late: HexBytes,
+    /// Whether the next call follows at once, whatever is still on its way. Else it follows when all has
+    /// come.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub hurries: bool,
 }
 
 fn is_empty(bytes: &HexBytes) -> bool {

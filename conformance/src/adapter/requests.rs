@@ -304,6 +304,8 @@ pub struct Hello {
     pub ops: Vec<String>,
     /// The roles that it plays.
     pub roles: Vec<Role>,
+    /// The calls that there are, if it says so.
+    pub calls: Option<Vec<String>>,
     /// The maximum number of outstanding requests.
     pub max_in_flight: usize,
     /// The limits of the implementation.

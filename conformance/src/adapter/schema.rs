@@ -1,11 +1,11 @@
-//! JSON Schemas of the lines between the suite and an adapter, in version 2 of the adapter protocol.
+//! JSON Schemas of the lines between the suite and an adapter, in version 3 of the adapter protocol.
 //! `ACCEPT=1 cargo test -p actucheck --test reports` rewrites the files in `conformance/schema`.
 
 use actucheck_spec::schema::{of_read, of_written};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Greeting, Output, Rejection, Request};
+use super::{CallError, Greeting, Output, Rejection, Reported, Request};
 
 /// Each schema's name and text.
 #[must_use]
@@ -53,8 +53,8 @@ pub struct ReplyLine {
 pub enum Answer {
     /// The result.
     Ok(Success),
-    /// The library rejects the bytes or the packet.
-    Err(Rejection),
+    /// The library rejects what is asked.
+    Err(Problem),
     /// The library does not offer this.
     Skip(Skipped),
 }
@@ -65,8 +65,34 @@ pub enum Answer {
 pub enum Success {
     /// Of `hello`.
     Hello(Greeting),
+    /// Of `call`.
+    Called(Called),
+    /// Of `open` and `close`.
+    Done(Done),
     /// Of any other op.
     Output(Output),
+}
+
+/// What a call returns.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct Called {
+    /// What the library's user gets, an entry a device that answered.
+    pub devices: Vec<Reported>,
+}
+
+/// Nothing.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Done {}
+
+/// Why a request is rejected.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Problem {
+    /// Of `open`, `call` and `close`.
+    Call(CallError),
+    /// Of any other op: why the bytes or the packet are rejected.
+    Rejection(Rejection),
 }
 
 /// Why a request is skipped.

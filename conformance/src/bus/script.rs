@@ -24,6 +24,8 @@ struct Scene {
     /// The last bytes that were heard, as many as the packet has.
     heard: Vec<u8>,
     times: usize,
+    /// How often the line was looked at.
+    looks: u32,
     /// What comes without being asked.
     unasked: Vec<u8>,
     /// How many bytes are on their way.
@@ -40,6 +42,18 @@ impl Script {
     /// Whether the packet was heard.
     pub(crate) fn is_heard(&self) -> bool {
         self.scene().times > 0
+    }
+
+    /// The line is looked at.
+    pub(crate) fn look(&self) {
+        let mut scene = self.scene();
+        scene.looks = scene.looks.saturating_add(1);
+    }
+
+    /// How often the line was looked at since the script began. A busy machine may look late, so that
+    /// time tells less.
+    pub(crate) fn looks(&self) -> u32 {
+        self.scene().looks
     }
 
     /// Plays these bytes as soon as the line is served.

@@ -3,6 +3,7 @@
 use std::io::{self, Write as _};
 use std::process::ExitCode;
 
+use actucheck::suite;
 use actucheck::suite::check::Check;
 use clap::Args;
 
@@ -14,7 +15,7 @@ Examples:
   actucheck list --select '*stuffing.body*' | head
   actucheck list --wire innfos --skip '*negative*'";
 
-/// Lists the checks
+/// Lists the checks of codecs, then those of hosts
 #[derive(Debug, Args)]
 #[command(after_help = format!("{EXAMPLES}\n\n{WRITTEN}"))]
 pub(crate) struct List {
@@ -28,7 +29,9 @@ pub(crate) struct List {
 pub(crate) fn run(options: &List) -> Result<ExitCode, Failure> {
     let spec = shared::spec()?;
     let selection = &options.selection;
-    let mut plan = options.growth.plan(&spec, &selection.wires(), None);
+    let wires = selection.wires();
+    let hosts = suite::host_plan(&spec, &wires);
+    let mut plan = options.growth.plan(&spec, &wires, None).and(hosts);
     selection.restrict(&mut plan)?;
     let mut out = io::BufWriter::new(io::stdout().lock());
     let line = |check: Check| writeln!(out, "{}  {}  {}", check.id, check.level, check.requirement);

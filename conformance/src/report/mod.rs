@@ -5,11 +5,12 @@
 //! format or to [`compare`] it with others. [`jsonl`] has every outcome as it arrives.
 //!
 //! A module imports only from those before it in this order: [`model`]; `result`; `smallest`;
-//! [`collect`], [`read`]; `fit`, `words`, [`view`]; [`text`], [`json`], [`jsonl`], [`junit`],
+//! [`collect`], [`read`]; `fit`, `words`, `course`, [`view`]; [`text`], [`json`], [`jsonl`], [`junit`],
 //! [`markdown`], [`html`]; [`format`](mod@format), [`screen`]; [`compare`]; [`schema`].
 
 pub mod collect;
 pub mod compare;
+mod course;
 mod fit;
 pub mod format;
 pub mod html;

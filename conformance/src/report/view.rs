@@ -5,7 +5,7 @@ use std::fmt;
 use indexmap::IndexMap;
 
 use super::model::{Cause, CheckResult, NotPassed, Report, RequirementResult, Stopped, Tally};
-use super::words;
+use super::{course, words};
 use crate::adapter::Output;
 use crate::explain::diff::Row;
 use crate::verdict::{After, Outcome, Verdict};
@@ -235,6 +235,11 @@ impl CheckResult {
             Some(Output::Bytes(_)) if self.diff.is_some() => (rows, [None, None]),
             _ => (outputs, rows),
         };
+        // The rows of a conversation have all of it.
+        let rows = course::rows(&self.outcome);
+        let (request, got) = if rows.is_some() { (&None, None) } else { (request, got) };
+        let rows = rows.into_iter().flatten();
+        let rows = rows.map(|(label, row)| (label, Some(Evidence::Words(row))));
         let lines = [
             ("request", request.as_ref().map(|op| Evidence::Code(op.to_string()))),
             ("expected", expected),
@@ -256,7 +261,7 @@ impl CheckResult {
             let label = if place == 0 { "log" } else { "" };
             (label, Some(Evidence::Code(line.to_owned())))
         });
-        let lines = lines.into_iter().chain(log);
+        let lines = rows.chain(lines).chain(log);
         lines.filter_map(|(label, evidence)| Some((label, evidence?))).collect()
     }
 

@@ -423,7 +423,7 @@ impl Questions for Worker<'_, '_, '_> {
 }
 
 /// Why a check is not asked, according to the adapter's answer to `hello`.
-fn not_offered(hello: &Hello, check: &Check) -> Option<String> {
+pub(crate) fn not_offered(hello: &Hello, check: &Check) -> Option<String> {
     let name = check.question.name();
     if !hello.ops.iter().any(|op| op == name) {
         return Some(format!("the adapter offers no {name}"));
@@ -436,6 +436,11 @@ fn not_offered(hello: &Hello, check: &Check) -> Option<String> {
         && !hello.roles.contains(&role)
     {
         return Some(format!("only a {role} does this, and the adapter plays no {role}"));
+    }
+    if let (Question::Converse { steps, .. }, Some(offered)) = (&check.question, &hello.calls) {
+        let mut calls = steps.iter().filter_map(|step| Some(step.packet.call.as_ref()?.name));
+        let missing = calls.find(|name| !offered.iter().any(|call| call == name));
+        return missing.map(|name| format!("the library has no {name}"));
     }
     let limit = match check.question {
         Question::Encode { .. } => hello.limits.send(),

@@ -9,9 +9,7 @@ use std::time::Duration;
 
 use thiserror::Error;
 
-#[cfg(unix)]
-use super::host::converse;
-use super::{Answer, Questions, Subject};
+use super::{Answer, Questions, Subject, converse};
 use crate::adapter::conversation::{Conversation, Lost, Malformed, Reply, rejection};
 use crate::adapter::{
     Contradiction, Greeting, Hello, Misfit, Output, Question, Request, Settings, VERSIONS,
@@ -249,13 +247,8 @@ impl Subject for Process {
     }
 
     fn ask(&mut self, question: &Question) -> Answer {
-        #[cfg(unix)]
         if let Question::Converse { wire, steps } = question {
             return self.talk(|conversation, limit| converse(conversation, limit, *wire, steps));
-        }
-        #[cfg(not(unix))]
-        if let Question::Converse { .. } = question {
-            return Answer::Skipped("this system has no pseudo-terminals".to_owned());
         }
         self.say(&Request::Ask(question), |ok| Output::read(question, ok))
     }

@@ -22,12 +22,12 @@ use crate::link::{Links, Watch};
 
 /// The rate that the host is told. Bytes on the line take no time.
 const BAUD: u32 = 57_600;
-/// How long the packet of a call that has returned is awaited.
-const WRITTEN: Duration = Duration::from_millis(50);
+/// How often the line is looked at for the packet of a call that has returned.
+const WRITTEN: u32 = 50;
 /// How often it is looked whether something is to be played, or has passed.
 const LOOK: Duration = Duration::from_millis(1);
-/// How long what was written last takes through the terminal.
-const THROUGH: Duration = Duration::from_millis(3);
+/// How long what was written last takes through the terminal, on a busy machine.
+const THROUGH: Duration = Duration::from_millis(20);
 /// The most bytes of a step that are kept, and in how many pieces.
 const KEPT: (usize, usize) = (1024, 48);
 
@@ -88,6 +88,7 @@ impl Watch for Watcher {
         bus: &mut VirtualBus,
         now: Duration,
     ) -> ControlFlow<(), Option<Duration>> {
+        self.script.look();
         if self.script.is_waiting() {
             bus.send(&[], now);
         }
@@ -100,7 +101,7 @@ impl Watch for Watcher {
 ///
 /// # Errors
 /// If no later reply of the adapter can be trusted.
-pub(super) fn converse(
+pub(crate) fn converse(
     conversation: &mut Conversation,
     limit: Duration,
     wire: Wire,
@@ -147,10 +148,7 @@ impl Host<'_> {
             return Ok(problem);
         }
         let mut courses = Vec::new();
-        for (place, step) in steps.iter().enumerate() {
-            if place > 0 {
-                thread::sleep(THROUGH);
-            }
+        for step in steps {
             match self.step(step)? {
                 Ok(course) => courses.push(course),
                 Err(problem) => return Ok(problem),
@@ -177,8 +175,11 @@ impl Host<'_> {
         let reply = self.ask(&Request::Call { wire: self.wire, call: &call })?;
         let ms = milliseconds(asked.elapsed());
         // The host may have written without waiting for what becomes of it.
-        wait(WRITTEN, || self.script.is_heard());
-        wait(self.limit, || self.script.is_over());
+        let looks = self.script.looks();
+        wait(self.limit, || self.script.is_heard() || self.script.looks() > looks + WRITTEN);
+        if !step.hurries {
+            wait(self.limit, || self.script.is_over());
+        }
         let (line, more) = self.record.turn();
         let returned = match reply {
             Heard::Ok(ok) => match devices(&ok) {
@@ -194,6 +195,7 @@ impl Host<'_> {
         if !step.late.is_empty() {
             self.script.play(&step.late);
             wait(self.limit, || self.script.is_over());
+            thread::sleep(THROUGH);
         }
         Ok(Ok(Course { line, more, ms, returned }))
     }

@@ -5,10 +5,14 @@ mod builtin;
 #[cfg(unix)]
 mod host;
 
+#[cfg(not(unix))]
+use crate::adapter::conversation::{Conversation, Lost};
 use crate::adapter::{Hello, Output, Question, Rejection};
 
 pub use adapter::{Process, StartError};
 pub use builtin::Builtin;
+#[cfg(unix)]
+pub(crate) use host::converse;
 
 /// An implementation that can be asked.
 pub trait Subject {
@@ -86,4 +90,15 @@ pub enum Answer {
     Faulty(String),
     /// The adapter could not be restarted to ask it, or the program was interrupted.
     NotAsked(String),
+}
+
+/// This system has no pseudo-terminals.
+#[cfg(not(unix))]
+pub(crate) fn converse(
+    _: &mut Conversation,
+    _: std::time::Duration,
+    _: crate::adapter::Wire,
+    _: &[crate::adapter::Step],
+) -> Result<Answer, Lost> {
+    Ok(Answer::Skipped("this system has no pseudo-terminals".to_owned()))
 }

@@ -77,6 +77,13 @@ impl<'a> Plan<'a> {
         plan
     }
 
+    /// Adds the checks of another plan at the end.
+    #[must_use]
+    pub fn and(mut self, other: Self) -> Self {
+        self.families.extend(other.families);
+        self
+    }
+
     /// Adds these checks at the end, as one group.
     pub fn add(&mut self, checks: Vec<Check>) {
         let checks: Arc<[Check]> = checks.into();

@@ -33,6 +33,14 @@ const CHECKS: [(&str, &str); 20] = [
     ("innfos.iq.sixty-revolutions/message-frame", "frame of a message"),
 ];
 
+/// The checks whose calls an adapter with a port is asked for; the first of a wire that it offers.
+const CALLS: [&str; 1] = ["dynamixel2.host.basic.read/result"];
+
+/// The checks with calls.
+pub(super) fn calls(plans: &[Plan<'_>]) -> Vec<Check> {
+    CALLS.iter().filter_map(|id| plans.iter().find_map(|plan| plan.find(id))).collect()
+}
+
 /// A question from the suite, as it is sent to the adapter.
 #[derive(Clone, Debug)]
 pub(super) struct Example {
@@ -187,7 +195,9 @@ mod tests {
     #[test]
     fn every_question_is_there_with_its_right_answer() {
         let spec = Spec::embedded().unwrap();
-        let plans = [suite::plan(&spec, &Wire::ALL, &Options::new())];
+        let hosts = suite::host_plan(&spec, &Wire::ALL);
+        let plans = [suite::plan(&spec, &Wire::ALL, &Options::new()).and(hosts)];
+        assert_eq!(calls(&plans).len(), CALLS.len());
         let examples = Example::all(&plans);
         assert_eq!(examples.len(), CHECKS.len());
         for example in examples {

@@ -109,5 +109,5 @@ pub fn check(
     settings: &Settings,
     plans: &[Plan<'_>],
 ) -> Result<Report, std::io::Error> {
-    points::look(command, settings, &example::Example::all(plans))
+    points::look(command, settings, &example::Example::all(plans), &example::calls(plans))
 }

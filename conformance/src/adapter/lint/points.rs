@@ -9,7 +9,10 @@ use super::talk::{Answer, ONLY_REPLIES, TOO_LONG, Talk, interrupted};
 use super::{Point, Problem, Report, shape};
 use crate::adapter::conversation::ended;
 use crate::adapter::process::Line;
-use crate::adapter::{Contradiction, Greeting, Hello, Request, Settings, VERSIONS};
+use crate::adapter::{Contradiction, Greeting, Hello, Question, Request, Settings, VERSIONS};
+use crate::run::not_offered;
+use crate::subject;
+use crate::suite::check::Check;
 
 /// Size of a line, in bytes, that overflows any usual fixed buffer.
 const LONG: usize = 70_000;
@@ -29,6 +32,7 @@ pub(super) fn look(
     command: &[String],
     settings: &Settings,
     examples: &[Example],
+    calls: &[Check],
 ) -> io::Result<Report> {
     let mut points = Points { talk: Talk::start(command, settings)?, points: Vec::new() };
     let greeting = greet(&mut points.talk, settings);
@@ -42,7 +46,7 @@ pub(super) fn look(
         // The last point reports an early end of the conversation.
         let in_version = |example: &Example| example.in_version(hello.protocol);
         let examples: Vec<_> = examples.iter().map(in_version).collect();
-        let _ = points.look_on(hello, &examples, || another(command, settings, hello));
+        let _ = points.look_on(hello, &examples, calls, || another(command, settings, hello));
     }
     Ok(Report { hello, points: points.points, log: points.talk.log() })
 }
@@ -58,13 +62,14 @@ impl Points {
         &mut self,
         hello: &Hello,
         examples: &[Example],
+        calls: &[Check],
         another: impl FnOnce() -> Found,
     ) -> ControlFlow<()> {
         self.point("skips an op that it does not know", invented_op)?;
         self.point("skips a wire that it does not know", invented_wire)?;
         let (offered, others): (Vec<_>, Vec<_>) =
             examples.iter().partition(|example| example.is_offered(hello));
-        self.point("skips what it does not offer", |talk| not_offered(talk, &others))?;
+        self.point("skips what it does not offer", |talk| others_skipped(talk, &others))?;
         let (offered, of_other_role): (Vec<_>, Vec<_>) =
             offered.into_iter().partition(|example| example.fits_role(hello));
         if !of_other_role.is_empty() {
@@ -91,6 +96,9 @@ impl Points {
         self.point("answers as many at once as it says", |talk| {
             at_once(talk, hello.max_in_flight.min(MAX_AT_ONCE), &answered)
         })?;
+        if let Some(check) = calls.iter().find(|check| not_offered(hello, check).is_none()) {
+            self.point("makes a call through a port", |talk| through_a_port(talk, check))?;
+        }
         self.point("reads a long line", long_line)?;
         self.point("runs beside another of its kind", |_| another())?;
         self.point("writes nothing but replies", silence)?;
@@ -159,7 +167,7 @@ fn invented_wire(talk: &mut Talk) -> Found {
     must_skip(talk, r#"{"op":"crc","wire":"no-such-wire","bytes":"00"}"#, mend)
 }
 
-fn not_offered(talk: &mut Talk, others: &[&Example]) -> Found {
+fn others_skipped(talk: &mut Talk, others: &[&Example]) -> Found {
     let mend = "name the op and the wire in your answer to `hello`, or skip it";
     others.iter().try_fold(String::new(), |_, example| must_skip(talk, &example.request, mend))
 }
@@ -276,6 +284,20 @@ fn same(
         return Ok(());
     }
     Err(Problem::new(format!("{} is answered another way than before", example.name), mend))
+}
+
+/// What the library makes of the call is its own matter.
+fn through_a_port(talk: &mut Talk, check: &Check) -> Found {
+    let Question::Converse { wire, steps } = &check.question else { return Ok(String::new()) };
+    match talk.converse(*wire, steps)? {
+        subject::Answer::Faulty(what) => Err(Problem::new(
+            what,
+            "answer `open` and `close` with {\"ok\": {}}, and `call` with what the library's user gets: \
+             {\"ok\": {\"devices\": [{\"id\": 1, \"data\": \"a6000000\"}]}}",
+        )),
+        subject::Answer::Skipped(reason) => Ok(format!("skipped: {reason}")),
+        answer => Ok(check.clone().judge(answer).detail),
+    }
 }
 
 fn long_line(talk: &mut Talk) -> Found {

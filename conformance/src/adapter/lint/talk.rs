@@ -9,7 +9,9 @@ use serde_json::Value;
 use super::{Problem, Said};
 use crate::adapter::conversation::{Conversation, Lost, Malformed, Reply, ended, rejection};
 use crate::adapter::process::Line;
-use crate::adapter::{Misfit, Rejection, Settings, reading};
+use crate::adapter::{Misfit, Rejection, Settings, Step, Wire, reading};
+use crate::subject;
+use crate::subject::converse;
 
 pub(super) const ONLY_REPLIES: &str = "write nothing but replies to standard output, a JSON object a line; \
     messages go to standard error";
@@ -35,6 +37,16 @@ impl Talk {
         let mut conversation = Conversation::start(command, settings)?;
         conversation.keep_lines();
         Ok(Self { conversation, limit: settings.timeouts.request })
+    }
+
+    /// Lets the adapter make calls through a port.
+    pub(super) fn converse(
+        &mut self,
+        wire: Wire,
+        steps: &[Step],
+    ) -> Result<subject::Answer, Problem> {
+        let answer = converse(&mut self.conversation, self.limit, wire, steps);
+        answer.map_err(|lost| without_reply(&lost))
     }
 
     /// Sends a request and waits for its reply.

@@ -47,7 +47,8 @@ const WIDTH: usize = 400;
 /// Checks an adapter and prints the results.
 pub(crate) fn run(options: &Check) -> Result<ExitCode, Failure> {
     let spec = shared::spec()?;
-    let plan = suite::plan(&spec, &Wire::ALL, &Options::new());
+    let hosts = suite::host_plan(&spec, &Wire::ALL);
+    let plan = suite::plan(&spec, &Wire::ALL, &Options::new()).and(hosts);
     let interrupted = shared::interrupted()?;
     let settings = options.exchange.settings(&interrupted)?;
     let command = options.command.join(" ");
@@ -79,7 +80,11 @@ fn write(report: &Report, command: &str, verbose: bool, out: &mut impl Write) ->
         } else {
             "it offers no op yet; implement one, then run"
         };
-        return writeln!(out, "\n{style}well{style:#}  {next}: actucheck codec -- {command}");
+        let is_host_only = report.hello.as_ref().is_some_and(|hello| {
+            hello.ops.iter().all(|op| ["open", "call", "close", "hello", "bye"].contains(&&**op))
+        });
+        let what = if offers && is_host_only { "host" } else { "codec" };
+        return writeln!(out, "\n{style}well{style:#}  {next}: actucheck {what} -- {command}");
     }
     if !report.log.is_empty() {
         writeln!(out, "\nIts standard error ends with:")?;

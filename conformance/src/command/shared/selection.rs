@@ -119,12 +119,13 @@ impl Growth {
         hello: Option<&Hello>,
     ) -> Result<Check, Failure> {
         let longest = Self { body_length: Some(Options::LONGEST_BODY), ..*self };
-        let plan = longest.plan(spec, &Wire::ALL, hello);
-        let of_host = || suite::host_plan(spec, &Wire::ALL).find(id);
-        plan.find(id).or_else(of_host).ok_or_else(|| {
+        let hosts = || suite::host_plan(spec, &Wire::ALL);
+        let plan = longest.plan(spec, &Wire::ALL, hello).and(hosts());
+        plan.find(id).ok_or_else(|| {
             let hint = if spec.requirement(id).is_some() {
                 format!("it is a requirement's, which `actucheck spec show {id}` shows")
-            } else if let Some(other) = self.plan(spec, &Wire::ALL, hello).nearest(id) {
+            } else if let Some(other) = self.plan(spec, &Wire::ALL, hello).and(hosts()).nearest(id)
+            {
                 format!("did you mean `{other}`?")
             } else {
                 "`actucheck list` has them all".to_owned()

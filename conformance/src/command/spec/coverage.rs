@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use actucheck::adapter::Wire;
+use actucheck::adapter::{Question, Wire};
 use actucheck::suite::check::Check;
 use actucheck::suite::{self, Options};
 use actucheck_spec::Spec;
@@ -55,17 +55,19 @@ pub(super) fn text(spec: &Spec, options: &Coverage) -> Result<String, Failure> {
         return Ok(sentences::text(spec, document));
     }
     let role = options.role;
-    let plan = suite::plan(spec, &Wire::ALL, &Options::new());
+    let hosts = suite::host_plan(spec, &Wire::ALL);
+    let plan = suite::plan(spec, &Wire::ALL, &Options::new()).and(hosts);
     let with_facts = |check: Check| {
         let only_records = check.only_records();
-        (check.id, check.requirement, only_records)
+        let is_of_host = matches!(check.question, Question::Converse { .. });
+        let role = if is_of_host { Role::Host } else { Role::Codec };
+        (check.id, check.requirement, role, only_records)
     };
     let checks: Vec<_> = plan.checks().map(with_facts).collect();
-    // All checks of the suite are for codecs.
-    let names = checks.iter().map(|(id, requirement, only_records)| CheckName {
+    let names = checks.iter().map(|(id, requirement, role, only_records)| CheckName {
         id,
         requirement,
-        role: Role::Codec,
+        role: *role,
         only_records: *only_records,
     });
     let mut rows = coverage::matrix(spec, names);

@@ -49,6 +49,7 @@ impl Default for Builtin {
                 .map(str::to_owned)
                 .to_vec(),
             roles: vec![Role::Host, Role::Device],
+            calls: None,
             max_in_flight: 1,
             limits: Limits { max_packet: Some(MAX_FRAME), ..Limits::default() },
         };

@@ -192,18 +192,21 @@ pub(super) fn others(author: &Author<'_>) -> Vec<Check> {
     checks
 }
 
-/// A Read after each call: the answer to the call is not taken for the one to the Read.
+/// A Read right after each call: the answer to the call is not taken for the one to the Read. Devices
+/// take their time, so that a host that does not await the answer is met by it in the Read.
 pub(super) fn after(author: &Author<'_>) -> Vec<Check> {
+    const TIME_MS: u32 = 4;
+    let slow = |mut step: Step| {
+        step.answers.iter_mut().flatten().for_each(|burst| burst.after_ms = TIME_MS);
+        Step { hurries: true, ..step }
+    };
     let check = |right: Right| {
-        let read = Right::new(
-            read(1, 140, 4),
-            status(1, 0, &OTHER_FOUR),
-            all([data(1, &OTHER_FOUR)]),
-            ["dynamixel2.status-packet.parameters"; 2],
-        );
+        let due = all([data(1, &OTHER_FOUR)]);
+        let requirement = "dynamixel2.status-packet.parameters";
+        let answer = status(1, 0, &OTHER_FOUR);
+        let read = Right::new(read(1, 140, 4), answer, due, [requirement; 2]);
         let id = format!("dynamixel2.host.after.{}/read", right.call().replace('_', "-"));
-        let [requirement, _] = read.requirements;
-        author.returned(id, requirement, vec![right.step(), read.step()], read.due)
+        author.returned(id, requirement, vec![slow(right.step()), slow(read.step())], read.due)
     };
     every().into_iter().map(check).collect()
 }

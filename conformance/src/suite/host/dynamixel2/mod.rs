@@ -75,7 +75,7 @@ fn later(after_ms: u32, bytes: impl Into<Vec<u8>>) -> Burst {
 
 /// A call, and what answers it each time that it is sent.
 fn step(packet: Packet, answers: Vec<Vec<Burst>>) -> Step {
-    Step { packet: Called::from(packet), answers, late: HexBytes::default() }
+    Step { packet: Called::from(packet), answers, late: HexBytes::default(), hurries: false }
 }
 
 /// What a device's answer says that holds data.
