@@ -4,6 +4,7 @@ A call returns what the SDK's user gets: its values, its error byte, or its resu
 """
 
 from dynamixel_sdk import (
+    BROADCAST_ID,
     COMM_NOT_AVAILABLE,
     COMM_PORT_BUSY,
     COMM_RX_CORRUPT,
@@ -86,6 +87,13 @@ def told(call, result, error, **values):
 
 
 def ping(port, call):
+    if call["device"] == BROADCAST_ID:
+        found, result = SDK.broadcastPing(port)
+        done(result)
+        return [
+            {"id": i, "model_number": model_number, "firmware_version": version}
+            for i, (model_number, version) in found.items()
+        ]
     model_number, result, error = SDK.ping(port, call["device"])
     return told(call, result, error, model_number=model_number)
 
@@ -110,7 +118,7 @@ def reg_write(port, call):
 def told_if_answered(call, result, error):
     """The SDK waits for no answer of the broadcast ID."""
     devices = told(call, result, error)
-    return [] if call["device"] == 254 else devices
+    return [] if call["device"] == BROADCAST_ID else devices
 
 
 def action(port, call):

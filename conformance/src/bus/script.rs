@@ -11,6 +11,10 @@ use super::{Chunk, DeviceState, Devices};
 /// Bytes, and how long after the packet that they answer they are there.
 pub(crate) type Bursts = Vec<(Duration, Vec<u8>)>;
 
+/// The line is looked at each millisecond; a time-out that a machine may be too busy for is not much more
+/// than so long.
+const LATE: Duration = Duration::from_millis(10);
+
 /// A script for a line. Its clones are one script: who writes it need not be where the line is.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Script(Arc<Mutex<Scene>>);
@@ -24,8 +28,11 @@ struct Scene {
     /// The last bytes that were heard, as many as the packet has.
     heard: Vec<u8>,
     times: usize,
-    /// How often the line was looked at.
+    /// How often the line was looked at, and when last.
     looks: u32,
+    looked: Option<Duration>,
+    /// Whether it was looked at too late.
+    was_late: bool,
     /// What comes without being asked.
     unasked: Vec<u8>,
     /// How many bytes are on their way.
@@ -35,8 +42,9 @@ struct Scene {
 impl Script {
     /// Answers this packet from now on, and no other.
     pub(crate) fn begin(&self, packet: Vec<u8>, answers: impl IntoIterator<Item = Bursts>) {
-        let (answers, coming) = (answers.into_iter().collect(), self.scene().coming);
-        *self.scene() = Scene { packet, answers, coming, ..Scene::default() };
+        let (answers, mut scene) = (answers.into_iter().collect(), self.scene());
+        let Scene { coming, looked, was_late, .. } = *scene;
+        *scene = Scene { packet, answers, coming, looked, was_late, ..Scene::default() };
     }
 
     /// Whether the packet was heard.
@@ -45,9 +53,17 @@ impl Script {
     }
 
     /// The line is looked at.
-    pub(crate) fn look(&self) {
+    pub(crate) fn look(&self, now: Duration) {
         let mut scene = self.scene();
+        scene.was_late |= scene.looked.is_some_and(|last| now.saturating_sub(last) > LATE);
+        scene.looked = Some(now);
         scene.looks = scene.looks.saturating_add(1);
+    }
+
+    /// Whether the machine was too busy to look at the line all the time, so that a host that does not
+    /// wait long may have missed an answer.
+    pub(crate) fn was_late(&self) -> bool {
+        self.scene().was_late
     }
 
     /// How often the line was looked at since the script began. A busy machine may look late, so that

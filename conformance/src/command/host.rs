@@ -29,6 +29,7 @@ leave unspecified is recorded. `actucheck adapter guide` tells how an adapter op
 /// Checks a host: a library that talks with devices, behind an adapter
 #[derive(Debug, Args)]
 #[command(after_help = format!("{EXAMPLES}\n\n{EXIT}, {ENDED}"))]
+#[command(mut_arg("timeout", |arg| arg.default_value("3")))]
 pub(crate) struct Host {
     #[command(flatten)]
     selection: Selection,

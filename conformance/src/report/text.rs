@@ -79,6 +79,7 @@ pub fn check(spec: &Spec, check: &Check, out: &mut dyn Write) -> io::Result<()> 
         Demand::YieldOneOf(outputs) => (outputs.as_slice(), None),
         Demand::Reject(fault) => (&[][..], Some(format!("a rejection ({fault})"))),
         Demand::Send => (&[][..], Some("the packet of the last call, and nothing else".to_owned())),
+        Demand::Withhold => (&[][..], Some("not the packet of the last call".to_owned())),
         Demand::Return(due) => (&[][..], Some(due.to_string())),
         Demand::Record(unspecified) => return question(unspecified, out),
     };

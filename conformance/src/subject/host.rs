@@ -21,9 +21,11 @@ use crate::legible::{LONGEST_TEXT, legible};
 use crate::link::{Links, Watch};
 
 /// The rate that the host is told. Bytes on the line take no time.
-const BAUD: u32 = 57_600;
+const BAUD: u32 = 1_000_000;
 /// How often the line is looked at for the packet of a call that has returned.
 const WRITTEN: u32 = 50;
+/// How often a conversation is tried for which the machine is too busy.
+const TRIES: usize = 4;
 /// How often it is looked whether something is to be played, or has passed.
 const LOOK: Duration = Duration::from_millis(1);
 /// How long what was written last takes through the terminal, on a busy machine.
@@ -88,7 +90,7 @@ impl Watch for Watcher {
         bus: &mut VirtualBus,
         now: Duration,
     ) -> ControlFlow<(), Option<Duration>> {
-        self.script.look();
+        self.script.look(now);
         if self.script.is_waiting() {
             bus.send(&[], now);
         }
@@ -107,28 +109,45 @@ pub(crate) fn converse(
     wire: Wire,
     steps: &[Step],
 ) -> Result<Answer, Lost> {
+    let mut tries = 1..=TRIES;
+    loop {
+        let (answer, was_late) = once(conversation, limit, wire, steps)?;
+        if tries.next().is_none() || !was_late {
+            return Ok(answer);
+        }
+    }
+}
+
+/// The same, and whether the machine was too busy for the line.
+fn once(
+    conversation: &mut Conversation,
+    limit: Duration,
+    wire: Wire,
+    steps: &[Step],
+) -> Result<(Answer, bool), Lost> {
     let (script, record) = (Script::default(), Record::default());
     let mut links = Links::default();
     let opened = links.pty(None).map_err(|error| error.to_string());
     let ends = UnixStream::pair().map_err(|error| error.to_string());
     let (port, (stop, stopped)) = match (opened, ends) {
         (Ok(port), Ok(ends)) => (port.address, ends),
-        (Err(error), _) | (_, Err(error)) => return Ok(Answer::NotAsked(error)),
+        (Err(error), _) | (_, Err(error)) => return Ok((Answer::NotAsked(error), false)),
     };
     let Some(mut bus) = VirtualBus::scripted(wire, script.clone()) else {
-        return Ok(Answer::NotAsked(format!("there is no line for {wire}")));
+        return Ok((Answer::NotAsked(format!("there is no line for {wire}")), false));
     };
     let mut watcher = Watcher { script: script.clone(), record: record.clone() };
     thread::scope(|scope| {
         let line = scope.spawn(move || links.serve(&mut bus, stopped.as_fd(), &mut watcher));
-        let mut host = Host { conversation, limit, wire, script, record };
+        let mut host = Host { conversation, limit, wire, script: script.clone(), record };
         let answer = host.converse(&port, steps);
         drop(stop);
-        match line.join() {
-            Ok(Ok(_)) => answer,
-            Ok(Err(error)) => answer.map(|_| Answer::NotAsked(error.to_string())),
-            Err(_) => answer.map(|_| Answer::NotAsked("the line broke down".to_owned())),
-        }
+        let answer = match line.join() {
+            Ok(Ok(_)) => answer?,
+            Ok(Err(error)) => Answer::NotAsked(error.to_string()),
+            Err(_) => Answer::NotAsked("the line broke down".to_owned()),
+        };
+        Ok((answer, script.was_late()))
     })
 }
 

@@ -57,6 +57,8 @@ pub enum Demand {
     Reject(Fault),
     /// The last call of a conversation puts its packet on the line, and nothing else.
     Send,
+    /// The last call of a conversation does not put its packet on the line.
+    Withhold,
     /// What the last call of a conversation returns.
     Return(Due),
     /// Any answer: the documents leave it unspecified. The report shows what the subject does.
@@ -224,7 +226,7 @@ impl Check {
             Demand::Yield(output) | Demand::Near { output, .. } => Some(output),
             Demand::YieldOneOf(outputs) => outputs.first(),
             Demand::Record(unspecified) => unspecified.ways.first().map(|way| &way.output),
-            Demand::Reject(_) | Demand::Send | Demand::Return(_) => None,
+            Demand::Reject(_) | Demand::Send | Demand::Withhold | Demand::Return(_) => None,
         }
     }
 

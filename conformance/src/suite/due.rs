@@ -8,12 +8,16 @@ use super::check::Demand;
 use crate::adapter::{CallError, Course, Question, Reported, Returned, Step, Trouble};
 use crate::verdict::Verdict;
 
+/// How often a call may send its packet that is answered right.
+const ASKED: usize = 4;
+
 /// What a call must return.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Due {
-    /// What may be returned, and nothing else.
-    pub devices: Vec<Reported>,
+    /// What may be returned, and nothing else. If it is absent, the call must fail.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub devices: Option<Vec<Reported>>,
     /// Whether it may be a part of that. What says nothing but who answered may be missing anyway.
     #[serde(default)]
     pub partly: bool,
@@ -27,10 +31,13 @@ pub struct Due {
 impl fmt::Display for Due {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let part = if self.partly { "some of " } else { "" };
-        let returned = Returned::Devices(self.devices.clone());
-        write!(f, "{part}{returned}")?;
+        let devices = self.devices.as_ref();
+        let devices =
+            devices.map(|devices| format!("{part}{}", Returned::Devices(devices.clone())));
         let or: Vec<_> = self.or.iter().map(ToString::to_string).collect();
-        if or.is_empty() { Ok(()) } else { write!(f, ", or an error ({})", or.join(" or ")) }
+        let error = (!or.is_empty()).then(|| format!("an error ({})", or.join(" or ")));
+        let all: Vec<_> = devices.into_iter().chain(error).collect();
+        f.write_str(&all.join(", or "))
     }
 }
 
@@ -42,14 +49,21 @@ pub(super) fn judge(question: &Question, demand: &Demand, courses: &[Course]) ->
     };
     let frame = wire.encode(&packet.packet).unwrap_or_default();
     let sent = course.sent();
+    let has = |sent: &[u8]| sent.windows(frame.len().max(1)).any(|part| part == frame);
     match demand {
         Demand::Send if sent.is_empty() => fail("the call sends nothing"),
         // A host that is not content with the answer may ask again.
-        Demand::Send if sent.chunks(frame.len().max(1)).all(|chunk| chunk == frame) => {
+        Demand::Send
+            if course.more == 0
+                && sent.len() <= ASKED * frame.len()
+                && sent.chunks(frame.len().max(1)).all(|chunk| chunk == frame) =>
+        {
             (Verdict::Pass, String::new())
         }
+        Demand::Withhold if has(&sent) => fail(format!("sends {}", packet_of(&frame))),
+        Demand::Withhold => (Verdict::Pass, String::new()),
         Demand::Send => fail(format!("the call must send {}", packet_of(&frame))),
-        Demand::Return(_) if !sent.windows(frame.len().max(1)).any(|part| part == frame) => {
+        Demand::Return(_) if !has(&sent) => {
             fail(format!("nothing answers, as the call does not send {}", packet_of(&frame)))
         }
         Demand::Return(due) => due.judge(&course.returned),
@@ -84,20 +98,27 @@ impl Due {
             Returned::Err(CallError { class, .. }) => {
                 (Verdict::Warn, format!("failed as {class}, but must return {self}"))
             }
-            Returned::Devices(devices) => {
-                let right =
-                    |reported: &Reported| self.devices.iter().any(|device| reported.fits(device));
-                let is_there = |device: &&Reported| {
-                    let bare = Reported { id: device.id, ..Reported::default() };
-                    **device == bare || devices.iter().any(|reported| reported.fits(device))
-                };
-                let missing = self.devices.iter().find(|device| !is_there(device));
-                match (devices.iter().find(|reported| !right(reported)), missing) {
-                    (Some(wrong), _) => fail(format!("returned {wrong}, but must return {self}")),
-                    (None, Some(missing)) if !self.partly => fail(format!("{missing} is missing")),
-                    _ => (Verdict::Pass, String::new()),
-                }
+            Returned::Devices(devices) => match &self.devices {
+                None => fail(format!("returned {returned}, but must return {self}")),
+                Some(due) => self.judge_devices(devices, due),
+            },
+        }
+    }
+
+    fn judge_devices(&self, returned: &[Reported], due: &[Reported]) -> (Verdict, String) {
+        let is_right = |reported: &&Reported| due.iter().any(|device| reported.fits(device));
+        let is_there = |device: &&Reported| {
+            let bare = Reported { id: device.id, ..Reported::default() };
+            **device == bare || returned.iter().any(|reported| reported.fits(device))
+        };
+        let wrong = returned.iter().find(|reported| !is_right(reported));
+        let missing = due.iter().find(|device| !is_there(device));
+        match (wrong, missing) {
+            (Some(wrong), _) => fail(format!("returned {wrong}, but must return {self}")),
+            (None, Some(missing)) if !self.partly => {
+                fail(format!("{missing} is missing; it must return {self}"))
             }
+            _ => (Verdict::Pass, String::new()),
         }
     }
 }

@@ -5,7 +5,7 @@ use actucheck_spec::wire::dynamixel2::{Block, Packet, WIRE};
 use super::{BROADCAST, all, burst, data, frame, instruction, read, status, step};
 use crate::adapter::{Burst, Called, Reported, Step};
 use crate::suite::Author;
-use crate::suite::check::Check;
+use crate::suite::check::{Check, Demand};
 use crate::suite::due::Due;
 use crate::suite::host::{BASIC, basic};
 
@@ -163,7 +163,9 @@ pub(super) fn others(author: &Author<'_>) -> Vec<Check> {
         ("read.one-byte", "dynamixel2.read.status", &FOUR[..1]),
         ("read.two-bytes", "dynamixel2.read.status", &FOUR[..2]),
         ("read.many-bytes", "dynamixel2.read.status", &[0x5A; 60]),
+        ("read.zeros", "dynamixel2.read.status", &[0; 4]),
         ("read.stuffed", "dynamixel2.stuffing.receive", &PATTERN),
+        ("read.like-stuffing", "dynamixel2.stuffing.receive", &[0xFD, 0xFD, 0xFF, 0xFD]),
     ] {
         let length = u16::try_from(bytes.len()).unwrap_or_default();
         let right = Right::new(
@@ -179,6 +181,17 @@ pub(super) fn others(author: &Author<'_>) -> Vec<Check> {
     let stuffed = Right::done(instruction(1, 0x03, written), ["dynamixel2.stuffing.transmit"; 2]);
     let [requirement, _] = stuffed.requirements;
     checks.push(author.sent(id("write.stuffed/sent"), requirement, vec![stuffed.step()]));
+    for device in [0, 252] {
+        let right = Right::new(
+            read(device, 132, 4),
+            status(device, 0, &FOUR),
+            all([data(device, &FOUR)]),
+            ["dynamixel2.packet.id.range"; 2],
+        );
+        let [requirement, _] = right.requirements;
+        let id = id(&format!("read.id-{device}/result"));
+        checks.push(author.returned(id, requirement, vec![right.step()], right.due));
+    }
     for (name, code, params) in [
         ("write", 0x03, [&116_u16.to_le_bytes()[..], &FOUR].concat()),
         ("action", 0x05, Vec::new()),
@@ -188,6 +201,72 @@ pub(super) fn others(author: &Author<'_>) -> Vec<Check> {
         let steps = vec![step(instruction(BROADCAST, code, params), Vec::new())];
         let id = id(&format!("{name}.broadcast/result"));
         checks.push(author.returned(id, requirement, steps, all([])));
+    }
+    checks.extend(of_several(author));
+    let steps = vec![step(read(BROADCAST, 132, 4), Vec::new())];
+    let question = "What does a Read of the broadcast ID return, which nothing answers?";
+    let broadcast = id("read.broadcast/result");
+    let broadcast = author.returned(broadcast, "dynamixel2.read.broadcast", steps, all([]));
+    checks.push(Check { demand: Demand::record(question, []), ..broadcast });
+    checks
+}
+
+/// Calls of several devices, each with registers of its own, or of one that is named twice.
+fn of_several(author: &Author<'_>) -> Vec<Check> {
+    let id = |name: &str| format!("dynamixel2.host.call.{name}");
+    let register = |address: u16, length: u16| [address, length].map(u16::to_le_bytes).concat();
+    let (four, two) = (register(132, 4), register(146, 2));
+    let both = all([data(1, &FOUR), data(2, &OTHER_FOUR[..2])]);
+    let read = Right::new(
+        instruction(BROADCAST, 0x92, [&[1], &four[..], &[2], &two].concat()),
+        [status(1, 0, &FOUR), status(2, 0, &OTHER_FOUR[..2])].concat(),
+        both,
+        ["dynamixel2.bulk-read.parameters", "dynamixel2.status-packet.parameters"],
+    );
+    let write = Right::new(
+        instruction(
+            BROADCAST,
+            0x93,
+            [&[1], &four[..], &FOUR, &[2], &two, &OTHER_FOUR[..2]].concat(),
+        ),
+        Vec::new(),
+        all([]),
+        ["dynamixel2.bulk-write.parameters"; 2],
+    );
+    let pinged = |id| Reported { id, model_number: Some(0x145A), ..Reported::default() };
+    let pinged = [1, 2].map(|id| Reported { firmware_version: Some(0x26), ..pinged(id) });
+    let answers = [1, 2].map(|id| status(id, 0, &[0x5A, 0x14, 0x26])).concat();
+    let ping = step(instruction(BROADCAST, 0x01, []), vec![vec![burst(answers)]]);
+    let [read_sent, read_result] = read.requirements;
+    let [write_sent, _] = write.requirements;
+    let mut checks = vec![
+        author.sent(id("bulk-read.own-registers/sent"), read_sent, vec![read.step()]),
+        author.returned(
+            id("bulk-read.own-registers/result"),
+            read_result,
+            vec![read.step()],
+            read.due,
+        ),
+        author.sent(id("bulk-write.own-registers/sent"), write_sent, vec![write.step()]),
+        author.returned(
+            id("ping.broadcast/result"),
+            "dynamixel2.ping.status",
+            vec![ping],
+            all(pinged),
+        ),
+    ];
+    for (name, code, device) in [
+        ("bulk-read", 0x92, [&[1], &four[..]].concat()),
+        ("bulk-write", 0x93, [&[1], &four[..], &FOUR].concat()),
+    ] {
+        let twice = instruction(BROADCAST, code, [device.clone(), device].concat());
+        let requirement = format!("dynamixel2.{name}.no-repeat");
+        let sent = author.sent(
+            id(&format!("{name}.repeat/sent")),
+            &requirement,
+            vec![step(twice, Vec::new())],
+        );
+        checks.push(Check { demand: Demand::Withhold, ..sent });
     }
     checks
 }

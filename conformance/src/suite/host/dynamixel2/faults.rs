@@ -1,8 +1,8 @@
 //! Answers to Read that are damaged, late, or of something else; and the next Read after each.
 
-use actucheck_spec::wire::dynamixel2::Packet;
+use actucheck_spec::wire::dynamixel2::{Packet, WIRE};
 
-use super::{NO_ANSWER, all, burst, data, frame, later, read, status, step};
+use super::{NO_ANSWER, all, burst, data, failed, frame, later, read, status, step};
 use crate::adapter::{Burst, Reported, Step, Trouble};
 use crate::suite::check::{Check, Demand};
 use crate::suite::due::Due;
@@ -106,6 +106,14 @@ fn cases() -> Vec<Case> {
     let instruction =
         Packet::Instruction { id: 1, instruction: 0x03, params: [&[0], &HELD[..]].concat().into() };
     cases.push(Case::bad("instruction-packet", LAYOUT, frame(instruction)));
+    let mut reserved = changed(&answer, 3, |_| 0x01);
+    WIRE.repair(&mut reserved);
+    cases.push(Case::bad("other-reserved", "dynamixel2.packet.reserved", reserved));
+    for length in 0..=3 {
+        let mut short = changed(&answer, 5, |_| length);
+        WIRE.repair(&mut short);
+        cases.push(Case::bad(format!("length-{length}"), "dynamixel2.packet.length.status", short));
+    }
     let silent = Case::bad("late", "dynamixel2.receive.length", Vec::new());
     cases.push(Case { late: answer, next: PARAMETERS, ..silent });
     for number in 1..=7 {
@@ -138,7 +146,25 @@ pub(super) fn checks(author: &Author<'_>) -> Vec<Check> {
     };
     let mut checks: Vec<_> = cases().into_iter().flat_map(both).collect();
     checks.extend(alert(author));
+    checks.extend(nothing(author));
     checks
+}
+
+/// No answer, however often it is asked for, after one that was right.
+fn nothing(author: &Author<'_>) -> Vec<Check> {
+    let packet = || read(1, ADDRESS, 4);
+    let right = step(packet(), vec![vec![burst(answer())]]);
+    let damaged = vec![burst(changed(&answer(), 9, |byte| byte ^ 0x10))];
+    let damaged = vec![damaged.clone(), damaged.clone(), damaged];
+    let cases = [
+        ("silence-after-right", PARAMETERS, Vec::new()),
+        ("damaged-after-right", "dynamixel2.receive.crc", damaged),
+    ];
+    let check = |(name, requirement, answers): (&str, &str, _)| {
+        let id = format!("dynamixel2.host.read.{name}/result");
+        author.returned(id, requirement, vec![right.clone(), step(packet(), answers)], failed())
+    };
+    cases.into_iter().map(check).collect()
 }
 
 /// An answer with data and with the alert. What a call makes of the alert is unspecified.

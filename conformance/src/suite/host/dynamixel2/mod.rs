@@ -2,11 +2,13 @@
 //!
 //! - calls: each call with a right answer, what comes after it, and calls that nothing answers;
 //! - faults: answers to Read that are damaged, late, or of something else;
+//! - writes: answers to Write that are damaged, or tell an error;
 //! - several: devices that are missing, swapped or damaged among several.
 
 mod calls;
 mod faults;
 mod several;
+mod writes;
 
 use actucheck_spec::model::HexBytes;
 use actucheck_spec::wire::dynamixel2::reference::BROADCAST;
@@ -27,8 +29,10 @@ pub(super) fn families(author: Author<'_>) -> Vec<Family<'_>> {
         Family::of("dynamixel2.host.call.", move || calls::others(&author)),
         Family::of("dynamixel2.host.after.", move || calls::after(&author)),
         Family::of("dynamixel2.host.read.", move || faults::checks(&author)),
+        Family::of("dynamixel2.host.write.", move || writes::checks(&author)),
         Family::of("dynamixel2.host.sync-read.", move || several::sync(&author)),
         Family::of("dynamixel2.host.bulk-read.", move || several::bulk(&author)),
+        Family::of("dynamixel2.host.fast-sync-read.", move || several::fast(&author)),
     ]
 }
 
@@ -85,5 +89,10 @@ fn data(id: u8, data: &[u8]) -> Reported {
 
 /// These devices are returned, and no error.
 fn all(devices: impl Into<Vec<Reported>>) -> Due {
-    Due { devices: devices.into(), ..Due::default() }
+    Due { devices: Some(devices.into()), ..Due::default() }
+}
+
+/// The call fails, as it has no answer.
+fn failed() -> Due {
+    Due { or: NO_ANSWER.to_vec(), ..Due::default() }
 }

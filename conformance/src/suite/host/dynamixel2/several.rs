@@ -1,8 +1,8 @@
 //! Devices that are missing, swapped or damaged among several that are read at once.
 
-use actucheck_spec::wire::dynamixel2::Packet;
+use actucheck_spec::wire::dynamixel2::{Block, Packet, WIRE};
 
-use super::{BROADCAST, NO_ANSWER, burst, data, instruction, status, step};
+use super::{BROADCAST, NO_ANSWER, all, burst, data, failed, frame, instruction, status, step};
 use crate::suite::check::Check;
 use crate::suite::due::Due;
 use crate::suite::{Author, changed};
@@ -28,28 +28,80 @@ pub(super) fn bulk(author: &Author<'_>) -> Vec<Check> {
 fn checks(author: &Author<'_>, call: &str, packet: &Packet) -> Vec<Check> {
     let [first, second, third] = DEVICES.map(|(id, held)| status(id, 0, &held));
     let damaged = changed(&second, 9, |byte| byte ^ 0x10);
-    let parameters = "dynamixel2.status-packet.parameters";
-    let (all, without_second) = (&[1, 2, 3][..], &[1, 3][..]);
+    let uninvited = status(9, 0, &[0x5A; 4]);
+    let (stream, parameters) = ("dynamixel2.receive.stream", "dynamixel2.status-packet.parameters");
+    // What is missing may be told by an error, but what has come is not lost without one.
+    let missing = [
+        ("first-missing", vec![&second, &third], &[2, 3][..]),
+        ("second-missing", vec![&first, &third], &[1, 3]),
+        ("last-missing", vec![&first, &second], &[1, 2]),
+    ];
+    let partly = [
+        ("swapped", parameters, vec![&second, &first, &third], &[1, 2, 3][..]),
+        ("damaged", "dynamixel2.receive.crc", vec![&first, &damaged, &third], &[1, 3]),
+        ("uninvited", parameters, vec![&first, &uninvited, &second, &third], &[1, 2, 3]),
+    ];
+    let asked = |played: &[&Vec<u8>]| {
+        step(
+            packet.clone(),
+            vec![vec![burst(played.iter().copied().flatten().copied().collect::<Vec<_>>())]],
+        )
+    };
+    let id = |name: &str| format!("dynamixel2.host.{call}.{name}/result");
+    let mut checks = Vec::new();
+    for (name, played, there) in missing {
+        let due = Due { or: NO_ANSWER.to_vec(), ..these(there) };
+        checks.push(author.returned(id(name), stream, vec![asked(&played)], due));
+    }
+    for (name, requirement, played, there) in partly {
+        let due = Due { partly: true, or: NO_ANSWER.to_vec(), ..these(there) };
+        checks.push(author.returned(id(name), requirement, vec![asked(&played)], due));
+    }
+    let before = DEVICES.map(|(id, _)| status(id, 0, &[0x5A; 4]));
+    let steps = vec![asked(&before.iter().collect::<Vec<_>>()), asked(&[&first, &third])];
+    let due = Due { partly: true, or: NO_ANSWER.to_vec(), ..these(&[1, 3]) };
+    checks.push(author.returned(id("missing-after-right"), parameters, steps, due));
+    checks
+}
+
+/// What these devices hold.
+fn these(ids: &[u8]) -> Due {
+    let there = DEVICES.iter().filter(|(id, _)| ids.contains(id));
+    all(there.map(|(id, held)| data(*id, held)).collect::<Vec<_>>())
+}
+
+/// Fast Sync Read, whose devices answer with one packet.
+pub(super) fn fast(author: &Author<'_>) -> Vec<Check> {
+    let register = [132_u16, 4].map(u16::to_le_bytes).concat();
+    let packet = instruction(BROADCAST, 0x8A, [&register[..], &[1, 2]].concat());
+    let [first, second, _] = DEVICES;
+    let pattern = [0xFF, 0xFF, 0xFD, 0xFD];
+    let right = blocks(&[first, second]);
+    // The first CRC follows the first block's data.
+    let mut damaged = changed(&right, 14, |byte| byte ^ 0x10);
+    WIRE.repair(&mut damaged);
+    let last = changed(&right, right.len() - 1, |byte| byte ^ 0x10);
+    let status = "ja40.fast-sync-read.status";
+    let swapped = Due { partly: true, or: NO_ANSWER.to_vec(), ..these(&[1, 2]) };
+    let raw = all([data(1, &pattern), data(2, &second.1)]);
     [
-        ("first-missing", parameters, [&second[..], &third].concat(), &[2, 3][..]),
-        ("second-missing", parameters, [&first[..], &third].concat(), without_second),
-        ("last-missing", parameters, [&first[..], &second].concat(), &[1, 2]),
-        ("swapped", parameters, [&second[..], &first, &third].concat(), all),
-        (
-            "damaged",
-            "dynamixel2.receive.crc",
-            [&first[..], &damaged, &third].concat(),
-            without_second,
-        ),
+        ("swapped", status, blocks(&[second, first]), swapped),
+        ("first-crc", status, damaged, failed()),
+        ("last-crc", status, last, failed()),
+        ("pattern", "ja40.fast-sync-read.unstuffed", blocks(&[(1, pattern), second]), raw),
     ]
     .into_iter()
-    .map(|(name, requirement, played, there)| {
-        let there = DEVICES.iter().filter(|(id, _)| there.contains(id));
-        let devices = there.map(|(id, held)| data(*id, held)).collect();
-        let due = Due { devices, partly: true, or: NO_ANSWER.to_vec() };
-        let steps = vec![step(packet.clone(), vec![vec![burst(played)]])];
-        let id = format!("dynamixel2.host.{call}.{name}/result");
+    .map(|(name, requirement, played, due)| {
+        let answer = vec![burst(played)];
+        let steps = vec![step(packet.clone(), vec![answer.clone(), answer.clone(), answer])];
+        let id = format!("dynamixel2.host.fast-sync-read.{name}/result");
         author.returned(id, requirement, steps, due)
     })
     .collect()
+}
+
+fn blocks(held: &[(u8, [u8; 4])]) -> Vec<u8> {
+    let block =
+        |(id, data): &(u8, [u8; 4])| Block { error: 0, id: *id, data: data.to_vec().into() };
+    frame(Packet::FastStatus { blocks: held.iter().map(block).collect() })
 }
