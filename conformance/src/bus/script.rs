@@ -60,6 +60,16 @@ impl Script {
         scene.looks = scene.looks.saturating_add(1);
     }
 
+    /// Whether the line is served.
+    pub(crate) fn is_served(&self) -> bool {
+        self.scene().looked.is_some()
+    }
+
+    /// What passes on the line came too late.
+    pub(crate) fn be_late(&self) {
+        self.scene().was_late = true;
+    }
+
     /// Whether the machine was too busy to look at the line all the time, so that a host that does not
     /// wait long may have missed an answer.
     pub(crate) fn was_late(&self) -> bool {

@@ -162,6 +162,7 @@ struct Host<'a> {
 
 impl Host<'_> {
     fn converse(&mut self, port: &str, steps: &[Step]) -> Result<Answer, Lost> {
+        wait(self.limit, || self.script.is_served());
         let open = Request::Open { wire: self.wire, port, baud: BAUD };
         if let Some(problem) = other_than_ok(self.ask(&open)?, "open the port") {
             return Ok(problem);
@@ -193,6 +194,10 @@ impl Host<'_> {
         let asked = Instant::now();
         let reply = self.ask(&Request::Call { wire: self.wire, call: &call })?;
         let ms = milliseconds(asked.elapsed());
+        if !self.script.is_heard() && !step.answers.is_empty() {
+            // Either the host did not send it, or gave up before it was heard.
+            self.script.be_late();
+        }
         // The host may have written without waiting for what becomes of it.
         let looks = self.script.looks();
         wait(self.limit, || self.script.is_heard() || self.script.looks() > looks + WRITTEN);
