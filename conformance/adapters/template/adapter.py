@@ -22,10 +22,30 @@ class Skipped(Exception):
 #         return {"crc": my_library.crc(bytes.fromhex(request["bytes"]))}
 #
 #     OPS = {"crc": crc}
+#
+# A library that opens a port and talks with devices has the ops `open`, `call` and `close`, and is checked by
+# `actucheck host`, for example:
+#
+#     def open_port(request):
+#         global port
+#         port = my_library.open(request["port"], request["baud"])
+#         return {}
+#
+#     def call(request):
+#         call = request["call"]
+#         if call["name"] != "read":
+#             raise Skipped(f"no {call['name']}")
+#         try:
+#             data = port.read(call["device"], call["address"], call["length"])
+#         except my_library.Timeout as error:
+#             raise Rejected(str(error), "timeout")
+#         return {"devices": [{"id": call["device"], "data": data.hex()}]}
+#
+#     OPS = {"open": open_port, "call": call, "close": close_port}
 OPS = {}
 
 HELLO = {
-    "protocol": 2,
+    "protocol": 3,
     "implementation": {"name": "my_library", "version": "0", "language": "Python"},
     # A host builds requests and reads replies, a device the reverse; name both if it does both.
     "roles": ["host"],
@@ -38,6 +58,8 @@ HELLO = {
 
 def role(request):
     """The role that does this; None if both do."""
+    if request["op"] in ("open", "call", "close"):
+        return "host"
     direction = request.get("message", request).get("direction")
     if request["op"] == "encode":
         is_request = request["packet"]["kind"] in ("instruction", "request")

@@ -64,7 +64,7 @@ pub enum Answer {
 #[serde(untagged)]
 pub enum Success {
     /// Of `hello`.
-    Hello(Greeting),
+    Hello(Box<Greeting>),
     /// Of `call`.
     Called(Called),
     /// Of `open` and `close`.

@@ -43,8 +43,8 @@ impl Script {
     /// Answers this packet from now on, and no other.
     pub(crate) fn begin(&self, packet: Vec<u8>, answers: impl IntoIterator<Item = Bursts>) {
         let (answers, mut scene) = (answers.into_iter().collect(), self.scene());
-        let Scene { coming, looked, was_late, .. } = *scene;
-        *scene = Scene { packet, answers, coming, looked, was_late, ..Scene::default() };
+        let Scene { looked, was_late, coming, .. } = *scene;
+        *scene = Scene { packet, answers, looked, was_late, coming, ..Scene::default() };
     }
 
     /// Whether the packet was heard.

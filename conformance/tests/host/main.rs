@@ -1,0 +1,118 @@
+//! Hosts on a line that plays a script: a right one, and some that are wrong in one way.
+
+#![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
+#![cfg(unix)]
+
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+const HOST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/host/host.py");
+
+struct Run {
+    output: Output,
+    report: Value,
+}
+
+impl Run {
+    fn total(&self, verdict: &str) -> u64 {
+        self.report["totals"][verdict].as_u64().unwrap()
+    }
+
+    /// The ids of checks with this verdict, as far as the report names them.
+    fn ids(&self, verdict: &str) -> Vec<&str> {
+        let rows = self.report["not_passed"].as_array().unwrap().iter();
+        let rows = rows.filter(|row| row["verdict"] == verdict);
+        rows.flat_map(|row| row["smallest"].as_array().unwrap())
+            .map(|check| check["id"].as_str().unwrap())
+            .collect()
+    }
+}
+
+/// Checks a host that is wrong in this way.
+fn check(wrong: &str, options: &[&str]) -> Run {
+    let folder = tempfile::tempdir().unwrap();
+    let report = folder.path().join("json");
+    let output = Command::new(env!("CARGO_BIN_EXE_actucheck"))
+        .args(["host", "--report", &format!("json={}", report.display())])
+        .args(options)
+        .args(["--", "python3", HOST, wrong])
+        .output()
+        .unwrap();
+    let report = std::fs::read_to_string(report).unwrap_or_default();
+    Run { output, report: serde_json::from_str(&report).unwrap_or(Value::Null) }
+}
+
+#[test]
+fn a_right_host_passes() {
+    let run = check("right", &["--jobs", "2"]);
+    let text = String::from_utf8_lossy(&run.output.stdout);
+    assert_eq!(run.output.status.code(), Some(0), "{text}");
+    assert!(run.total("pass") > 150, "{text}");
+    assert_eq!(run.total("warn"), 0, "{text}");
+    assert!(run.total("skip") > 10, "it has few calls: {text}");
+}
+
+#[test]
+fn a_wrong_host_is_found_by_a_check_of_its_fault() {
+    for (wrong, id) in [
+        ("no-stuffing", "dynamixel2.host.call.write.stuffed/sent"),
+        ("no-crc", "dynamixel2.host.read.flip-13/result"),
+        ("any-device", "dynamixel2.host.read.other-device/result"),
+        ("no-drain", "dynamixel2.host.read.late/next"),
+        ("waits-for-all", "dynamixel2.host.call.write.broadcast/result"),
+    ] {
+        let run = check(wrong, &["--select", id, "--select", "*.basic.*"]);
+        assert_eq!(run.ids("fail"), [id], "{wrong}");
+        assert_eq!(run.output.status.code(), Some(1), "{wrong}");
+    }
+}
+
+/// A host that waits for ever is ended, and the run goes on.
+#[test]
+fn a_call_that_does_not_return_is_a_timeout() {
+    let checks = ["--select", "*.read.cut-05/*", "--select", "*.basic.read/*"];
+    let run = check("no-limit", &[&checks[..], &["--timeout", "0.5"]].concat());
+    assert_eq!(run.total("timeout"), 2);
+    assert_eq!(run.total("pass"), 2);
+}
+
+#[test]
+fn an_adapter_without_a_port_is_no_host() {
+    let run = check("no-port", &[]);
+    assert_eq!(run.output.status.code(), Some(2));
+    let said = String::from_utf8_lossy(&run.output.stderr);
+    assert!(said.contains("no host to check"), "{said}");
+    let run = check("opens-nothing", &["--select", "*.basic.read/*"]);
+    assert_eq!((run.total("adapter-fault"), run.output.status.code()), (2, Some(3)));
+}
+
+#[test]
+fn calls_that_hello_does_not_name_are_not_asked() {
+    let run = check("no-reboot", &["--select", "*.basic.reboot/*"]);
+    assert_eq!(run.total("skip"), 2);
+}
+
+/// The report shows the conversation, and the line that asks it again.
+#[test]
+fn a_conversation_is_shown_in_rows_and_can_be_replayed() {
+    let id = "dynamixel2.host.read.late/next";
+    let run = check("no-drain", &["--select", id, "-v"]);
+    let text = String::from_utf8_lossy(&run.output.stdout).into_owned();
+    for row in [
+        "  call      read of device 1: address 132, length 4\n",
+        "  sent      FF FF FD 00 01 07 00 02 84 00 04 00 1D 15 at ",
+        "  returned  an error (timeout: ) after ",
+        "  late      FF FF FD 00 01 08 00 55 00 A6 01 02 83 91 4F\n",
+        "  call      read of device 1: address 140, length 4\n",
+        "but must return device 1: data 1728394a\n",
+    ] {
+        assert!(text.contains(row), "{row:?} is not in\n{text}");
+    }
+    let replayed = Command::new(env!("CARGO_BIN_EXE_actucheck"))
+        .args(["replay", id, "--", "python3", HOST, "no-drain"])
+        .output()
+        .unwrap();
+    let text = String::from_utf8_lossy(&replayed.stdout).into_owned();
+    assert_eq!(replayed.status.code(), Some(1), "{text}");
+}
