@@ -9,7 +9,7 @@ use actucheck::report::{Format, json, read};
 use actucheck::suite::check::{Check, Demand};
 use actucheck::suite::expect::{Expectations, Failures};
 use actucheck::suite::plan::Plan;
-use actucheck::suite::{Options, plan, saved};
+use actucheck::suite::{Options, host_plan, plan, saved};
 use actucheck_spec::Spec;
 use actucheck_spec::wire::Wire;
 use serde::Deserialize;
@@ -35,12 +35,16 @@ static SPEC: LazyLock<Spec> = LazyLock::new(|| Spec::embedded().unwrap());
 static CHECKS: LazyLock<BTreeMap<String, Check>> = LazyLock::new(|| {
     let options = Options { cases: 10, ..Options::new().with_bodies(1) };
     let mut first = BTreeMap::new();
-    for check in plan(&SPEC, &Wire::ALL, &options).checks() {
+    let of_codecs = plan(&SPEC, &Wire::ALL, &options);
+    for check in of_codecs.checks().chain(host_plan(&SPEC, &Wire::ALL).checks()) {
         let demand = match check.demand {
             Demand::Yield(_) => "yield",
             Demand::Near { .. } => "near",
             Demand::YieldOneOf(_) => "one-of",
             Demand::Reject(_) => "reject",
+            Demand::Send => "send",
+            Demand::Withhold => "withhold",
+            Demand::Return(_) => "return",
             Demand::Record(_) => "record",
         };
         let (wire, op) = (check.question.wire(), check.question.name());
