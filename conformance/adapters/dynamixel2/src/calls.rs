@@ -1,42 +1,61 @@
-//! `encode`: the function of the library that sends an instruction.
+//! The function of the library that makes a call.
 
 use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
-use actucheck_adapter::{Call, Device, Refusal};
+use actucheck_adapter::{Call, Device, Hex, Reported};
 use dynamixel2::instructions::packet_id::BROADCAST;
-use dynamixel2::instructions::{BulkReadData, BulkWriteData, FactoryResetKind, SyncWriteData};
-use dynamixel2::{TransferError, WriteError};
+use dynamixel2::instructions::{
+    BulkReadData, BulkWriteData, FactoryResetKind, Ping, SyncWriteData,
+};
+use dynamixel2::{Response, TransferError, WriteError};
 
-use crate::line::{Buffered, broken};
+use crate::line::Buffered;
 
 /// The parameters that `clear_revolution_counter` sends.
 const CLEAR_REVOLUTIONS: [u8; 5] = [0x01, 0x44, 0x58, 0x4C, 0x22];
 
-/// Calls the function for the instruction; `None` if there is none.
-pub(crate) fn send(bus: &mut Buffered, id: u8, call: &Call) -> Option<Result<(), Refusal>> {
-    if for_several(call) && id != BROADCAST {
-        return Some(Err(Refusal::skipped("the library sends it to the broadcast ID only")));
+/// Why a call returns nothing.
+pub(crate) enum Failure {
+    /// The library has no function for it, for this reason.
+    Missing(&'static str),
+    /// The library refuses it with a panic, as its documentation says.
+    Refused(&'static str),
+    Failed(TransferError),
+}
+
+impl<E: Into<TransferError>> From<E> for Failure {
+    fn from(error: E) -> Self {
+        Self::Failed(error.into())
     }
-    Some(match call {
-        Call::Ping if id == BROADCAST => written(bus.scan()),
-        Call::Ping => transferred(bus.ping(id)),
-        Call::Read { address, length } => transferred(bus.read(id, *address, *length)),
-        Call::Write { address, data } => transferred(bus.write(id, *address, data)),
-        Call::RegWrite { address, data } => transferred(bus.reg_write(id, *address, data)),
-        Call::Action => transferred(bus.action(id)),
+}
+
+/// Calls the function for the instruction, and returns what it returns; `None` if there is none.
+pub(crate) fn make(
+    bus: &mut Buffered,
+    id: u8,
+    call: &Call,
+) -> Option<Result<Vec<Reported>, Failure>> {
+    if for_several(call) && id != BROADCAST {
+        return Some(Err(Failure::Missing("the library sends it to the broadcast ID only")));
+    }
+    let result = match call {
+        Call::Ping if id == BROADCAST => scan(bus),
+        Call::Ping => bus.ping(id).map(|response| vec![found(&response)]).map_err(Failure::from),
+        Call::Read { address, length } => one(bus.read(id, *address, *length)),
+        Call::Write { address, data } => done(bus.write(id, *address, data)),
+        Call::RegWrite { address, data } => done(bus.reg_write(id, *address, data)),
+        Call::Action => done(bus.action(id)),
         Call::FactoryReset { option } => match kind(*option) {
-            Some(kind) => transferred(bus.factory_reset(id, kind)),
-            None => Err(Refusal::skipped("the library has no such kind of factory reset")),
+            Some(kind) => done(bus.factory_reset(id, kind)),
+            None => Err(Failure::Missing("the library has no such kind of factory reset")),
         },
-        Call::Reboot => transferred(bus.reboot(id)),
+        Call::Reboot => done(bus.reboot(id)),
         Call::Clear { params } if **params == CLEAR_REVOLUTIONS => {
-            transferred(bus.clear_revolution_counter(id))
+            done(bus.clear_revolution_counter(id))
         }
-        Call::Clear { .. } => Err(Refusal::skipped("the library clears the revolutions only")),
-        Call::SyncRead { address, length, ids } => {
-            transferred(bus.sync_read(ids, *address, *length))
-        }
+        Call::Clear { .. } => Err(Failure::Missing("the library clears the revolutions only")),
+        Call::SyncRead { address, length, ids } => each(bus.sync_read(ids, *address, *length)),
         Call::SyncWrite { address, length, devices } => {
             let data = devices
                 .iter()
@@ -51,10 +70,9 @@ pub(crate) fn send(bus: &mut Buffered, id: u8, call: &Call) -> Option<Result<(),
             });
             let reads: Vec<_> = reads.collect();
             match catch_unwind(AssertUnwindSafe(|| bus.bulk_read(&reads))) {
-                Ok(result) => transferred(result),
-                // The library refuses a repeated ID with a panic, as its documentation says.
+                Ok(result) => each(result),
                 Err(_) if repeats(devices) => {
-                    Err(Refusal::rejected("parameter", "panicked on an ID that is there twice"))
+                    Err(Failure::Refused("panicked on an ID that is there twice"))
                 }
                 Err(panic) => resume_unwind(panic),
             }
@@ -71,7 +89,8 @@ pub(crate) fn send(bus: &mut Buffered, id: u8, call: &Call) -> Option<Result<(),
         | Call::FastSyncRead { .. }
         | Call::FastSyncWrite { .. }
         | Call::Instruction { .. } => return None,
-    })
+    };
+    Some(result)
 }
 
 /// Sends parameters as they are.
@@ -80,7 +99,7 @@ pub(crate) fn send_raw(
     id: u8,
     instruction: u8,
     params: &[u8],
-) -> Result<(), Refusal> {
+) -> Result<Vec<Reported>, Failure> {
     let copied = |buffer: &mut [u8]| buffer.copy_from_slice(params);
     written(bus.write_instruction(id, instruction, params.len(), copied))
 }
@@ -104,18 +123,41 @@ fn kind(option: Option<u8>) -> Option<FactoryResetKind> {
     }
 }
 
-/// The answer that the function waits for does not arrive: only sending counts.
-fn transferred<T>(result: Result<T, TransferError>) -> Result<(), Refusal> {
-    match result {
-        Ok(_) | Err(TransferError::ReadError(_)) => Ok(()),
-        Err(TransferError::WriteError(error)) => written(Err::<(), _>(error)),
-    }
+/// All that answer within the time that all devices have together.
+fn scan(bus: &mut Buffered) -> Result<Vec<Reported>, Failure> {
+    let found = bus.scan()?.into_iter().map(|response| Ok(found(&response?)));
+    found.collect::<Result<_, TransferError>>().map_err(Failure::from)
 }
 
-fn written<T>(result: Result<T, WriteError>) -> Result<(), Refusal> {
-    match result {
-        Ok(_) => Ok(()),
-        Err(WriteError::BufferTooSmall(error)) => Err(Refusal::rejected("oversize", error)),
-        Err(error) => Err(broken(error)),
-    }
+fn found(response: &Response<Ping>) -> Reported {
+    let Ping { model, firmware } = response.data;
+    let (model_number, firmware_version) = (Some(model), Some(firmware));
+    Reported { model_number, firmware_version, ..reported(response) }
+}
+
+/// Devices with data.
+fn each(result: Result<Vec<Response<Vec<u8>>>, TransferError>) -> Result<Vec<Reported>, Failure> {
+    let with_data = |response: Response<Vec<u8>>| Reported {
+        data: Some(Hex(response.data.clone())),
+        ..reported(&response)
+    };
+    Ok(result?.into_iter().map(with_data).collect())
+}
+
+fn one(result: Result<Response<Vec<u8>>, TransferError>) -> Result<Vec<Reported>, Failure> {
+    each(result.map(|response| vec![response]))
+}
+
+/// The library makes up an answer of the broadcast ID, which is that of no device.
+fn done(result: Result<Response<()>, TransferError>) -> Result<Vec<Reported>, Failure> {
+    let response = result?;
+    Ok(if response.motor_id == BROADCAST { Vec::new() } else { vec![reported(&response)] })
+}
+
+fn reported<T>(response: &Response<T>) -> Reported {
+    Reported { id: response.motor_id, alert: Some(response.alert), ..Reported::default() }
+}
+
+fn written(result: Result<(), WriteError>) -> Result<Vec<Reported>, Failure> {
+    Ok(result.map(|()| Vec::new())?)
 }

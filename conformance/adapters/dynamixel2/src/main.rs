@@ -4,24 +4,28 @@
 #![forbid(unsafe_code)]
 
 mod calls;
+mod host;
 mod line;
 
 use std::process::ExitCode;
 
 use actucheck_adapter::{Fast, Hex, Identity, Library, Packet, Refusal, locked_version, serve};
-use dynamixel2::{InvalidMessage, ReadError, StatusPacket, checksum};
+use calls::Failure;
+use dynamixel2::{InvalidMessage, ReadError, StatusPacket, TransferError, WriteError, checksum};
 use line::Line;
 
 struct Dynamixel2;
 
 impl Library for Dynamixel2 {
+    type Port = host::Host;
+
     fn identity() -> Identity {
         Identity {
             name: "dynamixel2",
             version: locked_version(include_str!("../Cargo.lock"), "dynamixel2"),
             url: "https://github.com/robohouse-delft/dynamixel2-rs",
             roles: &["host"],
-            ops: &["crc", "encode", "decode", "stream"],
+            ops: &["crc", "encode", "decode", "stream", "open", "call", "close"],
             max_send: Some(line::BUFFER),
             max_receive: Some(line::BUFFER),
         }
@@ -38,8 +42,9 @@ impl Library for Dynamixel2 {
         line::sent(|bus| {
             // The function is public and stuffs, so it serves for instructions that have no
             // function of their own.
-            calls::send(bus, *id, call)
+            calls::make(bus, *id, call)
                 .unwrap_or_else(|| calls::send_raw(bus, *id, *instruction, params))
+                .map_or_else(unsent, |_| Ok(()))
         })
     }
 
@@ -72,6 +77,19 @@ impl Library for Dynamixel2 {
             }
         }
         Ok(packets)
+    }
+}
+
+/// The answer that a function waits for does not arrive: only sending counts.
+fn unsent(failure: Failure) -> Result<(), Refusal> {
+    match failure {
+        Failure::Missing(reason) => Err(Refusal::skipped(reason)),
+        Failure::Refused(detail) => Err(Refusal::rejected("parameter", detail)),
+        Failure::Failed(TransferError::ReadError(_)) => Ok(()),
+        Failure::Failed(TransferError::WriteError(WriteError::BufferTooSmall(error))) => {
+            Err(Refusal::rejected("oversize", error))
+        }
+        Failure::Failed(error) => Err(line::broken(error)),
     }
 }
 

@@ -4,6 +4,7 @@
 #![forbid(unsafe_code)]
 
 mod calls;
+mod host;
 mod memory_port;
 
 use std::error::Error;
@@ -13,6 +14,7 @@ use std::process::ExitCode;
 use actucheck_adapter::{
     Block, Fast, Hex, Identity, Library, Packet, Refusal, locked_version, serve,
 };
+use calls::Failure;
 use memory_port::MemoryPort;
 use rustypot::{CommunicationErrorKind, DynamixelProtocolHandler, SyncReadError};
 
@@ -22,13 +24,15 @@ const ID: usize = 4;
 struct Rustypot;
 
 impl Library for Rustypot {
+    type Port = host::Host;
+
     fn identity() -> Identity {
         Identity {
             name: "rustypot",
             version: locked_version(include_str!("../Cargo.lock"), "rustypot"),
             url: "https://github.com/pollen-robotics/rustypot",
             roles: &["host"],
-            ops: &["encode", "decode"],
+            ops: &["encode", "decode", "open", "call", "close"],
             max_send: None,
             max_receive: None,
         }
@@ -38,7 +42,13 @@ impl Library for Rustypot {
         let Packet::Instruction { id, call, .. } = packet else {
             return Err(Refusal::skipped("the library sends no status packets"));
         };
-        calls::sent(*id, call)
+        // The answer that the function may wait for does not arrive.
+        let mut port = MemoryPort::default();
+        match calls::make(&mut port, *id, call) {
+            Err(Failure::Missing(refusal)) => Err(refusal),
+            Err(Failure::Failed(error)) if port.written.is_empty() => Err(refusal(error.as_ref())),
+            _ => Ok(port.written),
+        }
     }
 
     fn decode(frame: &[u8], fast: Option<&Fast>) -> Result<Packet, Refusal> {
@@ -74,10 +84,7 @@ fn fast_status(frame: &[u8], fast: &Fast) -> Result<Packet, Refusal> {
 }
 
 fn refusal(error: &(dyn Error + 'static)) -> Refusal {
-    let cause = match error.downcast_ref::<SyncReadError>() {
-        Some(SyncReadError { cause, .. }) => cause.as_ref(),
-        None => error,
-    };
+    let cause = cause(error);
     let class = match cause.downcast_ref::<CommunicationErrorKind>() {
         Some(CommunicationErrorKind::ChecksumError) => "crc",
         Some(CommunicationErrorKind::IncorrectId(..)) => "id",
@@ -89,6 +96,11 @@ fn refusal(error: &(dyn Error + 'static)) -> Refusal {
         None => "internal",
     };
     Refusal::rejected(class, error)
+}
+
+/// Why reading several devices failed at one of them; otherwise the error itself.
+fn cause<'a>(error: &'a (dyn Error + 'static)) -> &'a (dyn Error + 'static) {
+    error.downcast_ref().map_or(error, |SyncReadError { cause, .. }| cause.as_ref())
 }
 
 fn main() -> ExitCode {

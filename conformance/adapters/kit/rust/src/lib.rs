@@ -6,6 +6,7 @@
 mod hex;
 mod identity;
 mod packet;
+mod port;
 mod serve;
 
 use std::fmt::Display;
@@ -13,14 +14,18 @@ use std::fmt::Display;
 pub use hex::Hex;
 pub use identity::{Identity, locked_version};
 pub use packet::{Block, Call, Device, Fast, Packet};
+pub use port::{Port, Reported};
 pub use serve::serve;
 
 /// A library under test, on the wire `dynamixel2`.
 ///
 /// Ops that an adapter does not implement are skipped; [`Identity::ops`] names those that it
-/// implements. Calls are independent of each other, and a panic is reported as the error class
-/// `internal`.
+/// implements. All but those of [`Port`] are independent of each other. A panic is reported as the
+/// error class `internal`.
 pub trait Library {
+    /// The library with an open port, for the ops `open`, `call` and `close`.
+    type Port: Port;
+
     /// The adapter's statement about the library.
     fn identity() -> Identity;
 

@@ -8,7 +8,7 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value, json};
 
-use crate::{Fast, Hex, Library, Packet, Refusal};
+use crate::{Call, Fast, Hex, Library, Packet, Port, Refusal};
 
 /// A request. Its other fields depend on the op.
 #[derive(Deserialize)]
@@ -25,14 +25,15 @@ struct Request {
 /// If a line is not a request, so that no answer is possible, or if a pipe breaks.
 pub fn serve<L: Library>() -> io::Result<()> {
     let mut replies = io::stdout().lock();
+    let mut port = None;
     for line in io::stdin().lock().lines() {
         let request: Request = serde_json::from_str(&line?)?;
         if request.op == "bye" {
             break;
         }
         let id = request.id;
-        // The library's state after a panic does not matter, as the next request starts anew.
-        let answer = catch_unwind(AssertUnwindSafe(|| answer::<L>(request)))
+        // Nothing else is asked of the port after a panic, and all other requests start anew.
+        let answer = catch_unwind(AssertUnwindSafe(|| answer::<L>(request, &mut port)))
             .unwrap_or_else(|panic| Err(Refusal::rejected("internal", told(panic.as_ref()))));
         let reply = match answer {
             Ok(ok) => json!({ "id": id, "ok": ok }),
@@ -47,7 +48,10 @@ pub fn serve<L: Library>() -> io::Result<()> {
     Ok(())
 }
 
-fn answer<L: Library>(Request { op, fields, .. }: Request) -> Result<Value, Refusal> {
+fn answer<L: Library>(
+    Request { op, fields, .. }: Request,
+    port: &mut Option<L::Port>,
+) -> Result<Value, Refusal> {
     #[derive(Deserialize)]
     struct Bytes {
         bytes: Hex,
@@ -64,6 +68,21 @@ fn answer<L: Library>(Request { op, fields, .. }: Request) -> Result<Value, Refu
     #[derive(Deserialize)]
     struct Stream {
         chunks: Vec<Hex>,
+    }
+    #[derive(Deserialize)]
+    struct Open {
+        port: String,
+        baud: u32,
+    }
+    #[derive(Deserialize)]
+    struct Calling {
+        call: CallTo,
+    }
+    #[derive(Deserialize)]
+    struct CallTo {
+        device: u8,
+        #[serde(flatten)]
+        call: Call,
     }
 
     if op == "hello" {
@@ -92,6 +111,21 @@ fn answer<L: Library>(Request { op, fields, .. }: Request) -> Result<Value, Refu
             Ok(json!({ "packet": L::decode(&bytes, fast.as_ref())? }))
         }
         "stream" => Ok(json!({ "packets": L::stream(&read::<Stream>(fields)?.chunks)? })),
+        "open" => {
+            let Open { port: path, baud } = read(fields)?;
+            *port = None; // closes it
+            *port = Some(L::Port::open(&path, baud)?);
+            Ok(json!({}))
+        }
+        "call" => {
+            let Calling { call: CallTo { device, call } } = read(fields)?;
+            let port = port.as_mut().ok_or_else(|| Refusal::rejected("port", "no port is open"))?;
+            Ok(json!({ "devices": port.call(device, &call)? }))
+        }
+        "close" => {
+            *port = None;
+            Ok(json!({}))
+        }
         other => Err(Refusal::skipped(format!("the adapter offers no {other}"))),
     }
 }
