@@ -19,6 +19,7 @@ from dxl2.v2 import (
 
 from adapter_kit import Rejected, Skipped, serve, unhex
 from calls import CALLS, sync_read_params
+from host import OPS as HOST
 from memory_serial import MemorySerial
 
 # What stands before and after the parameters of a status packet.
@@ -125,5 +126,5 @@ if __name__ == "__main__":
         },
         ["host"],
         "dynamixel2",
-        {op.__name__: op for op in (crc, stuff, unstuff, encode, decode, stream)},
+        {op.__name__: op for op in (crc, stuff, unstuff, encode, decode, stream)} | HOST,
     )

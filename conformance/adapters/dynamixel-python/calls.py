@@ -1,7 +1,6 @@
-"""encode's calls: one function each, named as in the adapter protocol.
+"""The calls: one function each, named as in the adapter protocol. It returns what the library does.
 
-The library takes data as numbers; these are made of the bytes, low byte first. What it answers does
-not matter: no answer comes.
+The library takes data as numbers; these are made of the bytes, low byte first.
 """
 
 from dxl2.v2 import BROADCAST_ID, BulkParams, SyncParams
@@ -23,51 +22,50 @@ def number(data):
 
 def ping(bus, dxl_id, call):
     if dxl_id == BROADCAST_ID:
-        bus.broadcast_ping()
-    else:
-        bus.ping(dxl_id)
+        return bus.broadcast_ping()
+    return bus.ping(dxl_id)
 
 
 def read(bus, dxl_id, call):
-    bus.read(dxl_id, call["address"], call["length"])
+    return bus.read(dxl_id, call["address"], call["length"])
 
 
 def write(bus, dxl_id, call):
     data = unhex(call["data"])
-    bus.write(dxl_id, call["address"], len(data), number(data))
+    return bus.write(dxl_id, call["address"], len(data), number(data))
 
 
 def reg_write(bus, dxl_id, call):
     data = unhex(call["data"])
-    bus.reg_write(dxl_id, call["address"], len(data), number(data))
+    return bus.reg_write(dxl_id, call["address"], len(data), number(data))
 
 
 def action(bus, dxl_id, call):
-    bus.action(dxl_id)
+    return bus.action(dxl_id)
 
 
 def factory_reset(bus, dxl_id, call):
-    one_of(bus, FACTORY_RESETS, call.get("option"))(dxl_id)
+    return one_of(bus, FACTORY_RESETS, call.get("option"))(dxl_id)
 
 
 def reboot(bus, dxl_id, call):
-    bus.reboot(dxl_id)
+    return bus.reboot(dxl_id)
 
 
 def clear(bus, dxl_id, call):
-    one_of(bus, CLEARS, call["params"])(dxl_id)
+    return one_of(bus, CLEARS, call["params"])(dxl_id)
 
 
 def control_table_backup(bus, dxl_id, call):
-    one_of(bus, BACKUPS, call["params"])(dxl_id)
+    return one_of(bus, BACKUPS, call["params"])(dxl_id)
 
 
 def sync_read(bus, dxl_id, call):
-    bus.sync_read(sync_read_params(dxl_id, call))
+    return bus.sync_read(sync_read_params(dxl_id, call))
 
 
 def fast_sync_read(bus, dxl_id, call):
-    bus.fast_sync_read(sync_read_params(dxl_id, call))
+    return bus.fast_sync_read(sync_read_params(dxl_id, call))
 
 
 def sync_read_params(dxl_id, call):
@@ -83,7 +81,7 @@ def sync_write(bus, dxl_id, call):
     params = SyncParams(call["address"], call["length"])
     for device in call["devices"]:
         params.add_value(device["id"], number(unhex(device["data"])))
-    bus.sync_write(params)
+    return bus.sync_write(params)
 
 
 def bulk_read(bus, dxl_id, call):
@@ -91,7 +89,7 @@ def bulk_read(bus, dxl_id, call):
     params = BulkParams()
     for device in call["devices"]:
         params.add_address(device["id"], device["address"], device["length"])
-    bus.bulk_read(params)
+    return bus.bulk_read(params)
 
 
 def bulk_write(bus, dxl_id, call):
@@ -100,7 +98,7 @@ def bulk_write(bus, dxl_id, call):
     for device in call["devices"]:
         data = unhex(device["data"])
         params.add_value(device["id"], device["address"], len(data), number(data))
-    bus.bulk_write(params)
+    return bus.bulk_write(params)
 
 
 def one_of(bus, methods, parameters):
