@@ -1,0 +1,126 @@
+"""Conformance adapter for `dynamixel-api`, which reads and writes registers by their names.
+
+The library is used as published, on a port that it opens by itself. What it puts on the line and what it
+returns is its work, its mistakes included; it has no other calls than Read and Write.
+"""
+
+import termios
+from importlib.metadata import version
+
+from dynamixel_api import (
+    DynamixelCommunicationError,
+    DynamixelConnectionError,
+    DynamixelConnector,
+    DynamixelError,
+    DynamixelPacketError,
+    Field,
+)
+from dynamixel_sdk import (
+    COMM_NOT_AVAILABLE,
+    COMM_RX_CORRUPT,
+    COMM_RX_TIMEOUT,
+    COMM_TX_ERROR,
+    COMM_TX_FAIL,
+)
+from serial import SerialException
+
+from adapter_kit import Rejected, Skipped, serve, unhex
+
+# The library's data types, by the number of bytes.
+TYPES = {1: "B", 2: "H", 4: "I", 8: "Q"}
+
+
+def register(address, length):
+    return f"{length} bytes at {address}"
+
+
+# A control table as its users write one for a motor of their own: here all registers that there may be
+# in 1024 bytes. To disconnect, the library needs `torque_enable`.
+FIELDS = [
+    Field(address, data_type, register(address, length), "", True, None)
+    for address in range(1024)
+    for length, data_type in TYPES.items()
+] + [Field(64, "B", "torque_enable", "", True, 0)]
+NAMES = {field.name for field in FIELDS}
+
+# The result codes as classes of what went wrong in a call.
+TROUBLE = {
+    COMM_RX_CORRUPT: "corrupt",
+    COMM_RX_TIMEOUT: "timeout",
+    COMM_TX_ERROR: "refused",
+    COMM_TX_FAIL: "port",
+    COMM_NOT_AVAILABLE: "refused",
+}
+
+_port = None
+_connectors = {}
+
+
+def open_port(request):
+    global _port
+    close_port(request)
+    _port = {"device": request["port"], "baud_rate": request["baud"]}
+    connector(1)
+    return {}
+
+
+def connector(device):
+    """The library has a connector for each device; it opens the port."""
+    if _port is None:
+        raise Rejected("port", "no port is open")
+    if device not in _connectors:
+        new = DynamixelConnector(FIELDS, dynamixel_id=device, **_port)
+        try:
+            new.connect()
+        except (DynamixelConnectionError, SerialException) as error:
+            raise Rejected("port", str(error)) from None
+        _connectors[device] = new
+    return _connectors[device]
+
+
+def close_port(request):
+    global _port
+    _port = None
+    while _connectors:
+        _, open_connector = _connectors.popitem()
+        try:
+            open_connector.disconnect()
+        except (DynamixelError, termios.error, OSError):
+            pass  # it writes `torque_enable` first, which nothing answers, or to a line that is gone
+    return {}
+
+
+def call(request):
+    call = request["call"]
+    if call["name"] not in ("read", "write"):
+        raise Skipped("the library reads and writes registers, and nothing else")
+    data = unhex(call["data"]) if call["name"] == "write" else None
+    length = call["length"] if data is None else len(data)
+    name, device = register(call["address"], length), call["device"]
+    if name not in NAMES:
+        raise Skipped("a register has 1, 2, 4 or 8 bytes, and this one's control table 1024")
+    try:
+        if data is None:
+            number = connector(device).read_field(name)
+            return {"devices": [{"id": device, "data": number.to_bytes(length, "little").hex()}]}
+        connector(device).write_field(name, int.from_bytes(data, "little"))
+        return {"devices": [{"id": device}]}
+    except DynamixelCommunicationError as error:
+        raise Rejected(TROUBLE.get(error.communication_result, "internal"), str(error)) from None
+    except DynamixelPacketError as error:
+        raise Rejected("status", str(error)) from None
+    except SerialException as error:
+        raise Rejected("port", str(error)) from None
+
+
+if __name__ == "__main__":
+    serve(
+        {
+            "name": "dynamixel-api",
+            "version": version("dynamixel-api"),
+            "url": "https://github.com/TimSchneider42/dynamixel-api",
+        },
+        ["host"],
+        "dynamixel2",
+        {"open": open_port, "call": call, "close": close_port},
+    )
