@@ -26,6 +26,8 @@ from serial import SerialException
 
 from adapter_kit import Rejected, Skipped, serve, unhex
 
+CALLS = ("read", "write")
+
 # The library's data types, by the number of bytes.
 TYPES = {1: "B", 2: "H", 4: "I", 8: "Q"}
 
@@ -92,7 +94,7 @@ def close_port(request):
 
 def call(request):
     call = request["call"]
-    if call["name"] not in ("read", "write"):
+    if call["name"] not in CALLS:
         raise Skipped("the library reads and writes registers, and nothing else")
     data = unhex(call["data"]) if call["name"] == "write" else None
     length = call["length"] if data is None else len(data)
@@ -123,4 +125,5 @@ if __name__ == "__main__":
         ["host"],
         "dynamixel2",
         {"open": open_port, "call": call, "close": close_port},
+        calls=CALLS,
     )

@@ -127,4 +127,5 @@ if __name__ == "__main__":
         ["host"],
         "dynamixel2",
         {op.__name__: op for op in (crc, stuff, unstuff, encode, decode, stream)} | HOST,
+        calls=CALLS,
     )

@@ -53,8 +53,8 @@ def _role(request):
     return "host" if builds == (direction == "request") else "device"
 
 
-def serve(implementation, roles, wire, ops, limits=None):
-    """Answers requests until `bye` or the end of standard input."""
+def serve(implementation, roles, wire, ops, limits=None, calls=None):
+    """Answers requests until `bye` or the end of standard input. `calls` are those of the op `call`."""
     hello = {
         "protocol": 3,
         "implementation": {"language": "Python", **implementation},
@@ -63,6 +63,8 @@ def serve(implementation, roles, wire, ops, limits=None):
         "ops": list(ops),
         "limits": limits or {},
     }
+    if calls:
+        hello["calls"] = list(calls)
     try:
         _loop(hello, wire, ops)
     except (BrokenPipeError, KeyboardInterrupt):
