@@ -22,7 +22,7 @@ class Skipped(Exception):
 #         return {"crc": my_library.crc(bytes.fromhex(request["bytes"]))}
 #
 #     OPS = {"crc": crc}
-#
+
 # A library that opens a port and talks with devices has the ops `open`, `call` and `close`, and is checked by
 # `actucheck host`, for example:
 #

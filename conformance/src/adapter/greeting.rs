@@ -56,6 +56,7 @@ pub struct Greeting {
     #[schemars(schema_with = "ops")]
     pub ops: Vec<String>,
     /// The calls that there are, if it says so. What is missing is not asked.
+    #[serde(default)]
     #[schemars(schema_with = "calls")]
     pub calls: Option<Vec<String>>,
     /// The maximum number of outstanding requests.

@@ -66,7 +66,7 @@ pub enum Success {
     /// Of `hello`.
     Hello(Box<Greeting>),
     /// Of `call`.
-    Called(Called),
+    CallResult(CallResult),
     /// Of `open` and `close`.
     Done(Done),
     /// Of any other op.
@@ -75,7 +75,7 @@ pub enum Success {
 
 /// What a call returns.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
-pub struct Called {
+pub struct CallResult {
     /// What the library's user gets, an entry a device that answered.
     pub devices: Vec<Reported>,
 }

@@ -10,7 +10,7 @@ const REPORT: &[&[&str]] = &[
     &["result"],
     &["smallest"],
     &["collect", "read"],
-    &["fit", "words"],
+    &["fit", "words", "course"],
     &["view"],
     &["json", "jsonl", "junit", "markdown", "html", "text"],
     &["format", "screen"],

@@ -122,15 +122,19 @@ fn first(names: &[String]) -> Option<String> {
     Some(if more.is_empty() { first.clone() } else { format!("{first} and {} more", more.len()) })
 }
 
-/// What checks the requirement. Checks of a role that it does not bind are named, but do not count. A test
+/// What checks the requirement. Checks of a role that it does not bind do not count, and are
+/// named if there are no others. One role's have an example. A test
 /// is named if there is no check.
 fn checked_by(row: &Row<'_>) -> String {
     let mut parts = Vec::new();
-    for (role, checks) in &row.checks {
+    let binds = |role: &Role| row.requirement.binds.contains(role);
+    let is_checked = row.checks.keys().any(binds);
+    for (role, checks) in row.checks.iter().filter(|(role, _)| !is_checked || binds(role)) {
         let word = if checks.count == 1 { "check" } else { "checks" };
         let many = format!("{} {word} of a {role}", checks.count);
         let many = if checks.only_record() { format!("only recorded: {many}") } else { many };
-        parts.push(match row.requirement.binds.contains(role) {
+        parts.push(match binds(role) {
+            true if !parts.is_empty() => many,
             true if checks.count == 1 => format!("{many}, {}", checks.example),
             true => format!("{many}, such as {}", checks.example),
             false => format!("{NOTHING}; {many} name it, such as {}", checks.example),
