@@ -1,6 +1,7 @@
 //! The adapter protocol: its requests and replies, the adapter's process, and the check of an
 //! adapter.
 
+mod called;
 pub(crate) mod conversation;
 mod greeting;
 mod host;
@@ -20,6 +21,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
+pub use called::Called;
 pub use greeting::{Contradiction, Greeting};
 pub use host::{Burst, CallError, CallTo, Course, Passed, Reported, Returned, Step, Trouble};
 pub use message::Told;
@@ -27,8 +29,7 @@ pub use reading::Misfit;
 #[cfg(unix)]
 pub(crate) use reading::devices;
 pub use requests::{
-    Called, Hello, Implementation, Limits, Output, Question, Rejection, Request, VERSION, VERSIONS,
-    Wire,
+    Hello, Implementation, Limits, Output, Question, Rejection, Request, VERSION, VERSIONS, Wire,
 };
 pub use trace::Trace;
 pub use value::{Given, RegisterOf};

@@ -5,11 +5,11 @@
 use std::fmt;
 
 use actucheck_spec::model::{Fault, HexBytes, Role};
-use actucheck_spec::wire::{self, Call, Context, Direction, Form, Message, Number, Packet};
+use actucheck_spec::wire::{self, Context, Direction, Form, Message, Number, Packet};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
 
+use super::called::Called;
 use super::host::{self, CallTo, Course, Step};
 use super::message::Told;
 use super::value::{Given, RegisterOf};
@@ -259,35 +259,6 @@ impl Question {
 impl fmt::Display for Question {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&json(self)?)
-    }
-}
-
-/// A packet, with the call that sends it for libraries that have functions instead of packets.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
-pub struct Called {
-    /// The packet.
-    #[serde(flatten)]
-    pub packet: Packet,
-    /// The same as a call. It is missing in requests of version 1 only, if it is a general one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub call: Option<Call>,
-}
-
-impl<'de> Deserialize<'de> for Called {
-    /// The call is derived from the packet again, as it has the same content.
-    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let mut fields = serde_json::Map::deserialize(deserializer)?;
-        fields.remove("call");
-        let packet: Packet =
-            serde_json::from_value(Value::Object(fields)).map_err(serde::de::Error::custom)?;
-        Ok(packet.into())
-    }
-}
-
-impl<P: Into<Packet>> From<P> for Called {
-    fn from(packet: P) -> Self {
-        let packet = packet.into();
-        Self { call: packet.wire().call(&packet), packet }
     }
 }
 

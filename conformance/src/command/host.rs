@@ -57,6 +57,11 @@ fn plan<'a>(
     }
     let wires = selection.offered_wires(hello)?;
     let plan = suite::host_plan(spec, &wires);
+    if plan.size() == 0 {
+        let wires: Vec<_> = wires.iter().map(|wire| wire.id()).collect();
+        let message = format!("there are no checks of hosts on {} yet", wires.join(" and "));
+        return Err(Failure::usage(message));
+    }
     let widest = suite::host_plan(spec, &wires);
     Ok(Planned { wires, plan, widest, records: BTreeMap::new(), options: Options::new() })
 }

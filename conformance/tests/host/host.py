@@ -72,7 +72,7 @@ def drain(port):
 def ask(port, device, instruction, params):
     if WRONG != "no-drain":
         drain(port)
-    os.write(port, packet(device, instruction, params))
+    os.write(port, packet(device, instruction, params) * (6 if WRONG == "floods" else 1))
     if device == 254 and WRONG != "waits-for-all":
         return None
     error, data = answer(port, device)

@@ -68,6 +68,13 @@ fn a_wrong_host_is_found_by_a_check_of_its_fault() {
     }
 }
 
+/// One that asks again is right, but not one that does so without end.
+#[test]
+fn a_request_that_is_answered_is_not_sent_again_and_again() {
+    let run = check("floods", &["--select", "*.basic.read/sent"]);
+    assert_eq!(run.ids("fail"), ["dynamixel2.host.basic.read/sent"]);
+}
+
 /// A host that waits for ever is ended, and the run goes on.
 #[test]
 fn a_call_that_does_not_return_is_a_timeout() {
