@@ -13,7 +13,7 @@ pub(crate) type Bursts = Vec<(Duration, Vec<u8>)>;
 
 /// The line is looked at each millisecond; a time-out that a machine may be too busy for is not much more
 /// than so long.
-const LATE: Duration = Duration::from_millis(10);
+const LATE: Duration = Duration::from_millis(5);
 
 /// A script for a line. Its clones are one script: who writes it need not be where the line is.
 #[derive(Clone, Debug, Default)]

@@ -25,7 +25,7 @@ const BAUD: u32 = 1_000_000;
 /// How often the line is looked at for the packet of a call that has returned.
 const WRITTEN: u32 = 50;
 /// How often a conversation is tried for which the machine is too busy.
-const TRIES: usize = 4;
+const TRIES: usize = 5;
 /// How often it is looked whether something is to be played, or has passed.
 const LOOK: Duration = Duration::from_millis(1);
 /// How long what was written last takes through the terminal, on a busy machine.
