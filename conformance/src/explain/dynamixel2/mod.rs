@@ -96,11 +96,13 @@ fn fast_status(
         table.take(1, "error", |_| error_words(block.error));
         table.take(1, "ID", |_| block.id.to_string());
         if !block.data.is_empty() {
-            let register = tables.of(block.id).zip(address).and_then(|(device, address)| {
+            let device = tables.of(block.id);
+            let register = device.zip(address).and_then(|(device, address)| {
                 device.register(address).filter(|row| row.decode(block.data).is_some())
             });
             table.take(block.data.len(), "data", |bytes| {
-                let value = register.and_then(|row| Some(value_words(row, row.decode(bytes)?)));
+                let value =
+                    register.and_then(|row| Some(value_words(row, row.decode(bytes)?, device)));
                 value.unwrap_or_else(|| numbers(bytes))
             });
         }
@@ -261,7 +263,7 @@ fn data(
             table.push(wire.place(start + next), text, name, &unknown(gap, "no register"));
         }
         let value = bytes.get(from..to).and_then(|bytes| register.decode(bytes));
-        let meaning = value.map_or_else(String::new, |value| value_words(register, value));
+        let meaning = value.map_or_else(String::new, |value| value_words(register, value, device));
         let text = wire.text(start + from, start + to);
         table.push(wire.place(start + from), text, name, &meaning);
         next = to;

@@ -3,15 +3,17 @@
 use std::fmt::Write as _;
 
 use actucheck_codec::dynamixel2::{BROADCAST_ID, StatusError};
-use actucheck_codec::register::{Row as Register, Unit};
+use actucheck_codec::register::{Device, Row as Register, Unit};
 
 use super::super::table::rounded;
 
-/// `Goal Position = 2000 (2000 count)`, with the names of the value or of its bits.
-pub(super) fn value_words(register: &Register, value: i64) -> String {
+/// `Goal Position = 2000 (2000 count)`, with the names of the value or of its bits, or of what it points
+/// at in its device's table.
+pub(super) fn value_words(register: &Register, value: i64, device: Option<&Device>) -> String {
     let mut words = format!("{} = {value}", register.name);
     let mut notes = Vec::new();
     notes.extend(register.value_name(value).map(str::to_owned));
+    notes.extend(device.and_then(|device| target(register, value, device)));
     let physical = |unit: Unit| {
         // Registers have 32 bits at most, which a double holds exactly.
         #[allow(clippy::cast_precision_loss)]
@@ -36,6 +38,21 @@ pub(super) fn value_words(register: &Register, value: i64) -> String {
         let _ = write!(words, " ({})", notes.join(", "));
     }
     words
+}
+
+/// What an indirect address names.
+fn target(register: &Register, value: i64, device: &Device) -> Option<String> {
+    register.name.strip_prefix("Indirect Address ")?;
+    let address = u16::try_from(value).ok()?;
+    let place =
+        |row: &Register| address.checked_sub(row.address).filter(|at| *at < row.kind.size());
+    let named = |row: &&Register| {
+        Some(match (row.kind.size(), place(row)?) {
+            (1, _) => row.name.to_owned(),
+            (size, at) => format!("byte {} of {size} of {}", at + 1, row.name),
+        })
+    };
+    device.registers.iter().find_map(named)
 }
 
 /// 1, 2 or 4 bytes as an unsigned and a signed number.
