@@ -21,6 +21,7 @@ mod cases;
 mod faults;
 mod host;
 mod inbox;
+mod killing;
 mod line;
 mod packet;
 mod port;
@@ -34,7 +35,7 @@ use std::time::Duration;
 use libtest_mimic::{Arguments, Failed, Trial};
 
 use self::adapter::Adapter;
-use self::faults::{FAULTS, Switch};
+use self::faults::{FAULTS, Judged, Switch};
 use self::shown::CASES;
 
 /// How long a call waits for its answer, in milliseconds.
@@ -76,7 +77,11 @@ fn tests() -> ExitCode {
     };
     let cases =
         CASES.iter().map(|case| test(format!("fault::{}", case.fault), Box::new(|| case.wrong())));
-    let mut trials: Vec<_> = cases.collect();
+    let killed = FAULTS.iter().filter(|row| !matches!(row.judged, Judged::Unseen));
+    let killed =
+        killed.map(|row| test(format!("killed::{}", row.name), Box::new(|| killing::wrong(row))));
+    let mut trials: Vec<_> = cases.chain(killed).collect();
+    trials.push(test("killed::none_is_right".to_owned(), Box::new(killing::right)));
     trials.push(test("bus::every_call".to_owned(), Box::new(bus::every_call)));
     trials.push(test("faults::each_is_shown".to_owned(), Box::new(shown)));
     trials.push(test("faults::each_has_one_place".to_owned(), Box::new(one_place)));
@@ -108,15 +113,17 @@ fn shown() -> String {
 }
 
 fn print_table() -> ExitCode {
-    println!("| fault | the host | a run |");
+    println!("| fault | the host | found by |");
     println!("|---|---|---|");
     for row in FAULTS {
-        println!(
-            "| `{}` | {} | {} |",
-            row.name,
-            row.does,
-            format!("{:?}", row.judged).to_lowercase()
-        );
+        let found = match row.judged {
+            Judged::Fails(check) => format!("`{check}`"),
+            Judged::Warns(check) => format!("`{check}`, a warning"),
+            Judged::Recorded => "nothing: it is unspecified".to_owned(),
+            Judged::Passes => "nothing: it is right".to_owned(),
+            Judged::Unseen => "nothing yet".to_owned(),
+        };
+        println!("| `{}` | {} | {found} |", row.name, row.does);
     }
     ExitCode::SUCCESS
 }

@@ -1,0 +1,59 @@
+//! Each fault is found by the check that its row names, and the right host by none.
+
+use std::process::Command;
+
+use serde_json::Value;
+
+use super::faults::{Judged, Row};
+
+/// How long the right host waits when all is asked of it, in milliseconds: so long that a busy machine
+/// is no fault of it.
+const PATIENT: &str = "150";
+/// How long the others wait: what they get wrong may show only when they wait no longer.
+const HASTY: &str = "30";
+
+/// What a run comes to: its exit status, and the verdicts that are no pass.
+struct Run {
+    status: Option<i32>,
+    verdicts: Vec<String>,
+    text: String,
+}
+
+/// Checks the host with a fault by some checks.
+fn run(fault: &str, limit: &str, options: &[&str]) -> Run {
+    let own = std::env::current_exe().unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_actucheck"))
+        .args(["host", "--timeout", "1", "--report", "jsonl=-", "-q"])
+        .args(options)
+        .arg("--")
+        .arg(own)
+        .args(["adapter", fault, limit])
+        .output()
+        .unwrap();
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    let lines = text.lines().filter_map(|line| serde_json::from_str::<Value>(line).ok());
+    let verdicts = lines.filter_map(|line| Some(line["verdict"].as_str()?.to_owned()));
+    let verdicts = verdicts.filter(|verdict| !["pass", "recorded"].contains(&verdict.as_str()));
+    Run { status: output.status.code(), verdicts: verdicts.collect(), text }
+}
+
+/// What is wrong with the judgement of a fault; empty if nothing is.
+pub(crate) fn wrong(row: &Row) -> String {
+    let (check, expected, failures) = match row.judged {
+        Judged::Fails(check) => (check, 1, &["fail", "timeout", "crash"][..]),
+        Judged::Warns(check) => (check, 0, &["warn"][..]),
+        Judged::Recorded | Judged::Passes | Judged::Unseen => ("basic.*", 0, &[][..]),
+    };
+    let id = format!("dynamixel2.host.{check}");
+    let run = run(row.name, HASTY, &["--select", &id]);
+    let is_found = run.verdicts.iter().any(|verdict| failures.contains(&verdict.as_str()));
+    let is_right = run.status == Some(expected) && (is_found || failures.is_empty());
+    if is_right { String::new() } else { format!("{:?}: {}", run.status, run.text) }
+}
+
+/// What is said of the right host; empty if nothing is.
+pub(crate) fn right() -> String {
+    let run = run("none", PATIENT, &["--jobs", "2"]);
+    let is_right = run.status == Some(0) && run.verdicts.is_empty();
+    if is_right { String::new() } else { format!("{:?} {:?}", run.status, run.verdicts) }
+}
