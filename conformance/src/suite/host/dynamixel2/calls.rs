@@ -2,8 +2,8 @@
 
 use actucheck_spec::wire::dynamixel2::{Block, Packet, WIRE};
 
-use super::{BROADCAST, all, burst, data, frame, instruction, read, status, step};
-use crate::adapter::{Burst, Called, Reported, Step};
+use super::{BROADCAST, all, burst, data, failed, frame, instruction, read, status, step};
+use crate::adapter::{Burst, Called, Reported, Step, Trouble};
 use crate::suite::Author;
 use crate::suite::check::{Check, Demand};
 use crate::suite::due::Due;
@@ -18,6 +18,7 @@ const OTHER_FOUR: [u8; 4] = [0x17, 0x28, 0x39, 0x4A];
 const PATTERN: [u8; 4] = [0xFF, 0xFF, 0xFD, 0x11];
 
 /// A call that is answered right.
+#[derive(Clone)]
 struct Right {
     packet: Packet,
     /// The answer; empty if there is none.
@@ -288,4 +289,31 @@ pub(super) fn after(author: &Author<'_>) -> Vec<Check> {
         author.returned(id, requirement, vec![slow(right.step()), slow(read.step())], read.due)
     };
     every().into_iter().map(check).collect()
+}
+
+/// Each call to one device that it refuses, or that another device answers. Read and Write have checks of
+/// their own, and who answers a Ping is there, whatever it says.
+pub(super) fn unsuccessful(author: &Author<'_>) -> Vec<Check> {
+    let is_meant = |right: &Right| {
+        matches!(right.packet, Packet::Instruction { id: 1, instruction, .. }
+            if ![0x02, 0x03].contains(&instruction))
+    };
+    let both = |right: Right| {
+        let call = right.call().replace('_', "-");
+        let id = |what: &str| format!("dynamixel2.host.no-success.{call}/{what}");
+        let steps = |answer: Vec<u8>| vec![Right { answer, ..right.clone() }.step()];
+        let told = Reported { id: 1, error: Some(1), ..Reported::default() };
+        let due = Due { or: vec![Trouble::Status], ..all([told]) };
+        let fields = "dynamixel2.status-packet.error.fields";
+        let refused = author.returned(id("refused"), fields, steps(status(1, 1, &[])), due);
+        let parameters = "dynamixel2.status-packet.parameters";
+        let mut other = right.answer.clone();
+        if let Some(id) = other.get_mut(4) {
+            *id = 2;
+        }
+        WIRE.repair(&mut other);
+        let other = author.returned(id("other-device"), parameters, steps(other), failed());
+        [(call != "ping").then_some(refused), Some(other)]
+    };
+    every().into_iter().filter(is_meant).flat_map(both).flatten().collect()
 }

@@ -28,6 +28,7 @@ pub(super) fn families(author: Author<'_>) -> Vec<Family<'_>> {
         Family::of("dynamixel2.host.basic.", move || calls::basics(&author)),
         Family::of("dynamixel2.host.call.", move || calls::others(&author)),
         Family::of("dynamixel2.host.after.", move || calls::after(&author)),
+        Family::of("dynamixel2.host.no-success.", move || calls::unsuccessful(&author)),
         Family::of("dynamixel2.host.read.", move || faults::checks(&author)),
         Family::of("dynamixel2.host.write.", move || writes::checks(&author)),
         Family::of("dynamixel2.host.sync-read.", move || several::sync(&author)),
