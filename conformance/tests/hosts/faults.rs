@@ -88,7 +88,7 @@ faults! {
     NaiveHeaderSearch: "naive-header-search", Fails("read.noise-like-header-before/result"), "begins the search for a header anew behind a byte that does not fit, and misses FF FF FF FD 00";
     AnyReserved: "any-reserved", Fails("read.other-reserved/result"), "takes FF FF FD and any byte for a header";
     NoResync: "no-resync", Warns("read.false-header-before/result"), "skips as many bytes as a false header's length says";
-    FixedSize: "fixed-size", Fails("read.length-3/result"), "reads as many bytes as it expects, whatever the length says";
+    FixedSize: "fixed-size", Fails("read.length-0/result"), "reads as many bytes as it expects, whatever the length says";
     ReadsLengthHighByteFirst: "reads-length-high-byte-first", Fails("basic.reg-write/result"), "takes the first byte of a length for the high one";
     IgnoresCrc: "ignores-crc", Fails("read.flip-09/result"), "takes packets with a wrong CRC";
     UnstuffsBeforeCrc: "unstuffs-before-crc", Fails("call.read.stuffed/result"), "computes the CRC of what it has unstuffed";
