@@ -24,7 +24,7 @@ from dynamixel_sdk import (
 )
 from serial import SerialException
 
-from adapter_kit import Rejected, Skipped, serve, unhex
+from adapter_kit import Host, Rejected, Skipped, serve, unhex
 
 CALLS = ("read", "write")
 
@@ -54,46 +54,35 @@ TROUBLE = {
     COMM_NOT_AVAILABLE: "refused",
 }
 
-_port = None
-_connectors = {}
+
+class Port:
+    """The library has a connector for each device, which opens the port."""
+
+    def __init__(self, path, baud):
+        self.path, self.baud, self.connectors = path, baud, {}
+        self.connector(1)
+
+    def connector(self, device):
+        if device not in self.connectors:
+            new = DynamixelConnector(
+                FIELDS, dynamixel_id=device, device=self.path, baud_rate=self.baud
+            )
+            try:
+                new.connect()
+            except (DynamixelConnectionError, SerialException) as error:
+                raise Rejected("port", str(error)) from None
+            self.connectors[device] = new
+        return self.connectors[device]
+
+    def close(self):
+        for connector in self.connectors.values():
+            try:
+                connector.disconnect()
+            except (DynamixelError, termios.error, OSError):
+                pass  # it writes `torque_enable` first, which nothing answers, or to a line that is gone
 
 
-def open_port(request):
-    global _port
-    close_port(request)
-    _port = {"device": request["port"], "baud_rate": request["baud"]}
-    connector(1)
-    return {}
-
-
-def connector(device):
-    """The library has a connector for each device; it opens the port."""
-    if _port is None:
-        raise Rejected("port", "no port is open")
-    if device not in _connectors:
-        new = DynamixelConnector(FIELDS, dynamixel_id=device, **_port)
-        try:
-            new.connect()
-        except (DynamixelConnectionError, SerialException) as error:
-            raise Rejected("port", str(error)) from None
-        _connectors[device] = new
-    return _connectors[device]
-
-
-def close_port(request):
-    global _port
-    _port = None
-    while _connectors:
-        _, open_connector = _connectors.popitem()
-        try:
-            open_connector.disconnect()
-        except (DynamixelError, termios.error, OSError):
-            pass  # it writes `torque_enable` first, which nothing answers, or to a line that is gone
-    return {}
-
-
-def call(request):
-    call = request["call"]
+def make(port, call):
     if call["name"] not in CALLS:
         raise Skipped("the library reads and writes registers, and nothing else")
     data = unhex(call["data"]) if call["name"] == "write" else None
@@ -103,10 +92,10 @@ def call(request):
         raise Skipped("a register has 1, 2, 4 or 8 bytes, and this one's control table 1024")
     try:
         if data is None:
-            number = connector(device).read_field(name)
-            return {"devices": [{"id": device, "data": number.to_bytes(length, "little").hex()}]}
-        connector(device).write_field(name, int.from_bytes(data, "little"))
-        return {"devices": [{"id": device}]}
+            number = port.connector(device).read_field(name)
+            return [{"id": device, "data": number.to_bytes(length, "little").hex()}]
+        port.connector(device).write_field(name, int.from_bytes(data, "little"))
+        return [{"id": device}]
     except DynamixelCommunicationError as error:
         raise Rejected(TROUBLE.get(error.communication_result, "internal"), str(error)) from None
     except DynamixelPacketError as error:
@@ -124,6 +113,6 @@ if __name__ == "__main__":
         },
         ["host"],
         "dynamixel2",
-        {"open": open_port, "call": call, "close": close_port},
+        Host(Port, Port.close, make).ops,
         calls=CALLS,
     )

@@ -3,48 +3,29 @@
 from dxl2.v2 import BROADCAST_ID, HardwareError, MotorBus
 from serial import SerialException
 
-from adapter_kit import Rejected, Skipped
+from adapter_kit import Host, Rejected, function_of
 from calls import CALLS
 
-_bus = None
 
-
-def open_port(request):
-    global _bus
-    close_port(request)
-    bus = MotorBus(request["port"], request["baud"])
+def open_port(path, baud):
+    bus = MotorBus(path, baud)
     try:
         bus.connect()
     except SerialException as error:
         raise Rejected("port", str(error)) from None
-    _bus = bus
-    return {}
+    return bus
 
 
-def close_port(request):
-    global _bus
-    bus, _bus = _bus, None
-    if bus:
-        bus.disconnect()
-    return {}
-
-
-def call(request):
-    if _bus is None:
-        raise Rejected("port", "no port is open")
-    call = request["call"]
-    method = CALLS.get(call["name"])
-    if not method:
-        raise Skipped(f"the library has no {call['name']}")
+def make(bus, call):
     try:
-        response = method(_bus, call["device"], call)
+        response = function_of(CALLS, call)(bus, call["device"], call)
     except HardwareError as error:  # the alert
         raise Rejected("status", str(error)) from None
     except AssertionError as error:  # how the library refuses a call
         raise Rejected("refused", str(error)) from None
     except SerialException as error:
         raise Rejected("port", str(error)) from None
-    return {"devices": told(call, response)}
+    return told(call, response)
 
 
 def told(call, response):
@@ -80,4 +61,4 @@ def with_data(device, number, length):
     return {"id": device, "data": number.to_bytes(length, "little").hex()}
 
 
-OPS = {"open": open_port, "call": call, "close": close_port}
+OPS = Host(open_port, MotorBus.disconnect, make).ops

@@ -19,7 +19,7 @@ from dynamixel_sdk import (
     PortHandler,
 )
 
-from adapter_kit import Rejected, Skipped, unhex
+from adapter_kit import Host, Rejected, Skipped, function_of, unhex
 from calls import CLEAR_PARAMS
 from common import SDK
 
@@ -36,39 +36,20 @@ TROUBLE = {
 # The alert in the error byte that the SDK hands to its user.
 ALERT = 0x80
 
-_port = None
 
-
-def open_port(request):
-    global _port
-    close_port(request)
-    port = PortHandler(request["port"])
+def open_port(path, baud):
+    port = PortHandler(path)
     try:
-        opened = port.openPort() and port.setBaudRate(request["baud"])
+        opened = port.openPort() and port.setBaudRate(baud)
     except OSError as error:
         raise Rejected("port", str(error)) from None
     if not opened:
-        raise Rejected("port", f"{request['port']} at {request['baud']} bit/s")
-    _port = port
-    return {}
+        raise Rejected("port", f"{path} at {baud} bit/s")
+    return port
 
 
-def close_port(request):
-    global _port
-    port, _port = _port, None
-    if port:
-        port.closePort()
-    return {}
-
-
-def call(request):
-    if _port is None:
-        raise Rejected("port", "no port is open")
-    call = request["call"]
-    method = CALLS.get(call["name"])
-    if not method:
-        raise Skipped(f"the SDK has no {call['name']}")
-    return {"devices": method(_port, call)}
+def make(port, call):
+    return function_of(CALLS, call)(port, call)
 
 
 def done(result):
@@ -204,4 +185,4 @@ CALLS = {
     )
 }  # fmt: skip
 
-OPS = {"open": open_port, "call": call, "close": close_port}
+OPS = Host(open_port, PortHandler.closePort, make).ops

@@ -34,6 +34,42 @@ class Fields(dict):
         raise BadRequest(f"no field {name!r}")
 
 
+class Host:
+    """The ops of a host with one port at a time.
+
+    `open_port(path, baud)` returns a port, `close_port(port)` closes it, and `call(port, call)` makes a
+    call through it and returns an object for each device.
+    """
+
+    def __init__(self, open_port, close_port, call):
+        self._open, self._close, self._call = open_port, close_port, call
+        self._port = None
+        self.ops = {"open": self.open, "call": self.call, "close": self.close}
+
+    def open(self, request):
+        self.close(request)
+        self._port = self._open(request["port"], request["baud"])
+        return {}
+
+    def close(self, request):
+        port, self._port = self._port, None
+        if port is not None:
+            self._close(port)
+        return {}
+
+    def call(self, request):
+        if self._port is None:
+            raise Rejected("port", "no port is open")
+        return {"devices": self._call(self._port, request["call"])}
+
+
+def function_of(calls, call):
+    """The function that makes a call, in a dict of them by name."""
+    if call["name"] not in calls:
+        raise Skipped(f"the library has no {call['name']}")
+    return calls[call["name"]]
+
+
 def unhex(text):
     try:
         return bytes.fromhex(text)
