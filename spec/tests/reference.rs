@@ -130,18 +130,20 @@ const CALLS: [(&str, &str); 15] = [
 #[test]
 fn a_call_asks_what_the_printed_packet_does() {
     let spec = Spec::embedded().unwrap();
-    let mut codes = BTreeSet::new();
+    let (mut codes, mut names) = (BTreeSet::new(), BTreeSet::new());
     for (id, expected) in CALLS {
         let (_, vector) = spec.vectors().find(|(_, vector)| vector.id == id).unwrap();
         let packet = vector.packet.as_ref().unwrap();
         let call = packet.wire().call(packet);
         assert_eq!(serde_json::to_string(&call).unwrap(), expected, "{id}");
+        names.insert(call.unwrap().name);
         if let wire::Packet::Dynamixel2(Packet::Instruction { instruction, .. }) = packet {
             codes.insert(*instruction);
         }
     }
     let all = spec.wires.dynamixel2.content.instructions.iter().map(|instruction| instruction.code);
     assert_eq!(codes, all.collect(), "a call for each instruction");
+    assert_eq!(names, wire::dynamixel2::WIRE.calls().iter().copied().collect());
 }
 
 #[test]

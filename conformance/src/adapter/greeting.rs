@@ -16,23 +16,9 @@ const OPS: [&str; 13] = [
 ];
 
 /// The calls that `hello` may name.
-const CALLS: [&str; 15] = [
-    "ping",
-    "read",
-    "write",
-    "reg_write",
-    "action",
-    "factory_reset",
-    "reboot",
-    "clear",
-    "control_table_backup",
-    "sync_read",
-    "sync_write",
-    "fast_sync_read",
-    "fast_sync_write",
-    "bulk_read",
-    "bulk_write",
-];
+fn all_calls() -> Vec<&'static str> {
+    Wire::ALL.iter().flat_map(|wire| wire.calls()).copied().collect()
+}
 
 /// The roles that an adapter may play. A role of `codec` would say nothing: every library is one.
 const ROLES: [Role; 2] = [Role::Host, Role::Device];
@@ -85,7 +71,7 @@ fn ops(_: &mut SchemaGenerator) -> Schema {
 }
 
 fn calls(_: &mut SchemaGenerator) -> Schema {
-    json_schema!({ "type": ["array", "null"], "items": { "enum": CALLS } })
+    json_schema!({ "type": ["array", "null"], "items": { "enum": all_calls() } })
 }
 
 /// A statement in `hello` that contradicts another one, or means nothing.
@@ -119,7 +105,7 @@ impl Greeting {
         known(&mut wires, "wires", &Wire::ALL.map(|wire| wire.id()), &mut found);
         known(&mut ops, "ops", &OPS, &mut found);
         if let Some(calls) = &mut calls {
-            known(calls, "calls", &CALLS, &mut found);
+            known(calls, "calls", &all_calls(), &mut found);
         }
         if max_in_flight == 0 {
             found.push(Contradiction {

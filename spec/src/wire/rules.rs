@@ -95,6 +95,9 @@ pub trait Rules: Sync + RefUnwindSafe {
     /// What a packet says in words; `None` for a packet of another wire.
     fn call(&self, packet: &Packet) -> Option<Call>;
 
+    /// The names of the calls that are not general.
+    fn calls(&self) -> &'static [&'static str];
+
     /// The ID or the address that a packet carries.
     fn device(&self, packet: &Packet) -> u8;
 

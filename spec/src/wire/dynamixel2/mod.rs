@@ -128,6 +128,10 @@ impl Rules for This {
         own(packet).map(reference::call)
     }
 
+    fn calls(&self) -> &'static [&'static str] {
+        &reference::CALLS
+    }
+
     fn device(&self, packet: &super::Packet) -> u8 {
         match own(packet) {
             Some(Packet::Instruction { id, .. } | Packet::Status { id, .. }) => *id,

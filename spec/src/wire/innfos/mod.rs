@@ -120,6 +120,10 @@ impl Rules for This {
         own(packet).map(reference::call)
     }
 
+    fn calls(&self) -> &'static [&'static str] {
+        &[]
+    }
+
     fn device(&self, packet: &super::Packet) -> u8 {
         own(packet).map_or(0, |packet| packet.address)
     }

@@ -30,6 +30,25 @@ fn answer(block: &Block) -> Target {
     Target { id: block.id, error, data, ..Target::default() }
 }
 
+/// The names of the calls that are not general.
+pub const CALLS: [&str; 15] = [
+    "ping",
+    "read",
+    "write",
+    "reg_write",
+    "action",
+    "factory_reset",
+    "reboot",
+    "clear",
+    "control_table_backup",
+    "sync_read",
+    "sync_write",
+    "fast_sync_read",
+    "fast_sync_write",
+    "bulk_read",
+    "bulk_write",
+];
+
 /// The instruction's own call; `None` if it has none, or its parameters do not fit.
 fn own(id: u8, instruction: u8, params: &HexBytes) -> Option<Call> {
     let bytes = params.0.as_slice();

@@ -9,7 +9,7 @@ mod packet;
 mod stream;
 mod value;
 
-pub use call::call;
+pub use call::{CALLS, call};
 pub use packet::{
     crc, decode, decode_fast, encode, frame, is_unspecified, part, repair, stuff, unstuff,
 };
