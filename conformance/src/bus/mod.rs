@@ -171,6 +171,8 @@ pub struct VirtualBus {
     faults: Faults,
     /// What is on its way, by time, and to whom.
     coming: VecDeque<(Sender, Chunk)>,
+    /// When the last piece of an answer that was split is there. No other comes before that.
+    split: Duration,
 }
 
 /// What a bus is besides its devices.
@@ -198,7 +200,7 @@ impl VirtualBus {
         let devices = (own.connect)(spec, places, &setup)?;
         let Setup { echo, faults, seed, .. } = setup;
         let (faults, coming) = (Faults::new(faults, seed), VecDeque::new());
-        Ok(Self { own, devices, echo, faults, coming })
+        Ok(Self { own, devices, echo, faults, coming, split: Duration::ZERO })
     }
 
     /// A line on which nothing answers but a script; `None` if there is no such line for the wire.
@@ -206,7 +208,14 @@ impl VirtualBus {
     pub(crate) fn scripted(wire: Wire, script: Script) -> Option<Self> {
         let own = WIRES.iter().find(|own| own.wire == wire)?;
         let (devices, faults) = (Box::new(script), Faults::new(Vec::new(), 0));
-        Some(Self { own, devices, echo: false, faults, coming: VecDeque::new() })
+        Some(Self {
+            own,
+            devices,
+            echo: false,
+            faults,
+            coming: VecDeque::new(),
+            split: Duration::ZERO,
+        })
     }
 
     /// The wire of its devices.
@@ -227,14 +236,12 @@ impl VirtualBus {
         if self.echo && !bytes.is_empty() {
             self.put(sender, Chunk { at: heard, bytes: bytes.to_vec() });
         }
-        // No answer comes between the pieces of another.
-        let mut free = Duration::ZERO;
         for answer in answers {
             let pieces = self.struck(answer, now);
             let is_split = pieces.len() > 1;
             for Chunk { at, bytes } in pieces {
-                let at = at.max(free);
-                free = if is_split { at } else { free };
+                let at = at.max(self.split);
+                self.split = if is_split { at } else { self.split };
                 self.put(sender, Chunk { at, bytes });
             }
         }

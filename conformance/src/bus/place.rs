@@ -118,7 +118,7 @@ impl FromStr for Places {
 
     fn from_str(text: &str) -> Result<Self, PlaceError> {
         let ending = Path::new(text).extension();
-        if text.contains('@') || ending.is_none_or(|ending| ending != "yaml" && ending != "yml") {
+        if ending.is_none_or(|ending| ending != "yaml" && ending != "yml") {
             return Ok(Self(vec![text.parse()?]));
         }
         let failed = |error: String| PlaceError::File { path: legible(text, LONGEST_NAME), error };

@@ -58,7 +58,7 @@ pub(crate) struct Bus {
     /// The devices, each with its ID and, if they are to begin with others than the document's, values
     /// of registers. A device is one that `actucheck decode --device` knows, a YAML or .model file, or a
     /// model that `actucheck encode --actuator` knows. A YAML file without @ID has such words in a list,
-    /// `devices:`
+    /// `devices:`; files in it are named from the working directory
     #[arg(required = true, value_name = "DEVICE@ID[:REGISTER=VALUE,…]")]
     devices: Vec<Places>,
     #[command(flatten)]

@@ -115,6 +115,10 @@ fn words_that_make_no_bus_are_told() {
         ("dd-6010@1:speed=0.5", "no device begins with `speed=0.5`"),
         ("ja40@1:present-velocity=100", "no device begins with `present-velocity=100`"),
         ("ja40@1:torque-enable=7", "no device begins with `torque-enable=7`"),
+        (
+            "xm430-w210@1:indirect-address-1=116,indirect-data-1=5",
+            "no device begins with `indirect-data-1=5`",
+        ),
         ("dd-6011@6", "no device is called `dd-6011`; did you mean `dd-6010`?"),
         ("none@1", "no device is called `none`; there are "),
         ("1=ja40@2", "no device is called `1=ja40`; "),

@@ -2,13 +2,14 @@
 
 use std::time::Duration;
 
+use actucheck_codec::dynamixel2::HEADER;
 use actucheck_codec::dynamixel2::stream::{Event, Parser};
-use actucheck_codec::dynamixel2::{Frame, FrameError, HEADER};
 use actucheck_spec::wire::dynamixel2::reference::repair;
 
 use super::super::fault::Alarm;
 use super::super::{Chunk, DeviceState, Devices, QUIET};
 use super::LARGEST_ID;
+use super::damaged::Damaged;
 use super::device::VirtualDevice;
 use super::hearing::Hearing;
 use super::readings::{CrcError, LineReadings};
@@ -21,6 +22,7 @@ const BLOCKS: usize = 1025;
 /// A half-duplex line with its devices.
 pub(in super::super) struct Line {
     parser: Box<Parser<BLOCKS>>,
+    damaged: Damaged,
     /// When the last byte was heard.
     heard: Duration,
     devices: Vec<VirtualDevice>,
@@ -38,6 +40,7 @@ impl Line {
     ) -> Self {
         Self {
             parser: Box::new(Parser::with_max_packet(BLOCKS * 64)),
+            damaged: Damaged::default(),
             heard: Duration::ZERO,
             devices,
             readings,
@@ -49,10 +52,10 @@ impl Line {
 
 impl Devices for Line {
     fn hear(&mut self, bytes: &[u8], now: Duration, send: &mut dyn FnMut(Chunk)) -> Duration {
-        let Self { parser, devices, readings, clock, scratch, .. } = self;
         if now.saturating_sub(self.heard) > QUIET {
-            parser.idle();
+            self.quiet();
         }
+        let Self { parser, damaged, devices, readings, clock, scratch, .. } = self;
         self.heard = clock.carry(bytes.len(), now);
         parser.feed(bytes, |event| {
             // Bytes that are no packet are for nobody.
@@ -61,11 +64,11 @@ impl Devices for Line {
                 Hearing { devices, readings, clock, now, send }.hear(&frame, scratch);
             }
         });
-        if readings.crc_error == CrcError::Answer
-            && let Err(FrameError::Crc { .. }) = Frame::parse(bytes)
-        {
-            let readings = *readings;
-            Hearing { devices, readings, clock, now, send }.hear_damaged(bytes);
+        if readings.crc_error == CrcError::Answer {
+            damaged.feed(bytes, |packet| {
+                let readings = *readings;
+                Hearing { devices, readings, clock, now, send }.hear_damaged(packet);
+            });
         }
         self.heard
     }
@@ -107,6 +110,7 @@ impl Devices for Line {
 
     fn quiet(&mut self) {
         self.parser.idle();
+        self.damaged.quiet();
     }
 
     fn first(&self, bytes: &[u8]) -> usize {

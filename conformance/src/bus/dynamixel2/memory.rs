@@ -138,7 +138,9 @@ impl Memory {
     pub(super) fn holds(&self, address: u16, data: &[u8]) -> bool {
         let place = place(address, data.len());
         let may_hold = |row: &&Row| row.access == Access::ReadOnly || self.judge(row).is_ok();
-        self.bytes.get(place.clone()) == Some(data) && self.model.rows(&place).iter().all(may_hold)
+        let length = u16::try_from(data.len()).unwrap_or(u16::MAX);
+        self.read(address, length).is_ok_and(|held| held == data)
+            && self.model.rows(&place).iter().all(may_hold)
     }
 
     /// Writes whole registers, all of them or none.

@@ -1,6 +1,7 @@
 //! A half-duplex line with devices that have control tables (DYNAMIXEL Protocol 2.0; JA40 document).
 
 mod alarm;
+mod damaged;
 mod device;
 mod hearing;
 mod indirect;

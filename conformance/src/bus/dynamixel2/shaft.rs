@@ -243,10 +243,11 @@ impl Shaft {
         for (row, like) in
             [(roles.present_velocity, like), (roles.velocity_trajectory, roles.velocity_trajectory)]
         {
-            let scaled = like
-                .and_then(|like| like.from_physical(velocity / scale(like.unit?.symbol, model)?));
-            if let Some(count) = scaled {
-                memory.set(row, count);
+            if let Some(unit) = like.and_then(|like| like.unit)
+                && let Some(scale) = scale(unit.symbol, model)
+            {
+                #[allow(clippy::cast_possible_truncation)] // saturates, and so does the register
+                memory.set(row, (velocity / scale / unit.factor).round() as i64);
             }
         }
         for (limit, row) in

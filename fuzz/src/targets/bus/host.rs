@@ -135,8 +135,13 @@ fn plain(choices: &mut Unstructured<'_>) -> Result<Vec<u8>> {
     Ok(instruction(id(choices)?, code, params))
 }
 
-/// Bytes that are no packet.
+/// Bytes that are no packet, or a packet whose CRC is wrong.
 fn noise(choices: &mut Unstructured<'_>) -> Result<Vec<u8>> {
+    if choices.arbitrary()? {
+        let mut packet = plain(choices)?;
+        packet.last_mut().into_iter().for_each(|byte| *byte ^= 0x10);
+        return Ok(packet);
+    }
     let mut bytes = bytes(choices, 40)?;
     if events(&bytes, true, LONGEST).iter().any(|event| matches!(event, Event::Packet(..))) {
         bytes.clear();
