@@ -30,6 +30,7 @@ leave unspecified is recorded. `actucheck adapter guide` tells how an adapter op
 #[derive(Debug, Args)]
 #[command(after_help = format!("{EXAMPLES}\n\n{EXIT}, {ENDED}"))]
 #[command(mut_arg("timeout", |arg| arg.default_value("3")))]
+#[command(mut_arg("command", |arg| arg.help("The adapter's command with its arguments")))]
 pub(crate) struct Host {
     #[command(flatten)]
     selection: Selection,

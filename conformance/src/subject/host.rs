@@ -109,7 +109,7 @@ pub(crate) fn converse(
     wire: Wire,
     steps: &[Step],
 ) -> Result<Answer, Lost> {
-    let mut tries = 1..=TRIES;
+    let mut tries = 1..TRIES;
     loop {
         let (answer, was_late) = once(conversation, limit, wire, steps)?;
         if tries.next().is_none() || !was_late {
@@ -194,13 +194,19 @@ impl Host<'_> {
         let asked = Instant::now();
         let reply = self.ask(&Request::Call { wire: self.wire, call: &call })?;
         let ms = milliseconds(asked.elapsed());
-        if !self.script.is_heard() && !step.answers.is_empty() {
+        let is_refused = matches!(
+            &reply,
+            Heard::Other(_) | Heard::Err(CallError { class: Trouble::Refused, .. })
+        );
+        if !is_refused && !self.script.is_heard() && !step.answers.is_empty() {
             // Either the host did not send it, or gave up before it was heard.
             self.script.be_late();
         }
         // The host may have written without waiting for what becomes of it.
         let looks = self.script.looks();
-        wait(self.limit, || self.script.is_heard() || self.script.looks() > looks + WRITTEN);
+        wait(self.limit, || {
+            is_refused || self.script.is_heard() || self.script.looks() > looks + WRITTEN
+        });
         if !step.hurries {
             wait(self.limit, || self.script.is_over());
         }

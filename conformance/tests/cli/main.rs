@@ -224,7 +224,9 @@ fn succeed(examples: &str) -> usize {
 #[cfg(unix)]
 #[test]
 fn the_help_of_what_ctrl_c_ends_has_its_status() {
-    for command in [&["codec"][..], &["fuzz"], &["replay"], &["bus"], &["adapter", "check"], &[]] {
+    let commands =
+        [&["codec"][..], &["host"], &["fuzz"], &["replay"], &["bus"], &["adapter", "check"], &[]];
+    for command in commands {
         let help = actucheck(&[command, &["--help"]].concat()).1;
         let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(help.contains("130 another Ctrl-C ended it, a second after the first."), "{help}");

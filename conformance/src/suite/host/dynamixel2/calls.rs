@@ -2,8 +2,8 @@
 
 use actucheck_spec::wire::dynamixel2::{Block, Packet, WIRE};
 
-use super::{BROADCAST, all, burst, data, failed, frame, instruction, read, status, step};
-use crate::adapter::{Burst, Called, Reported, Step, Trouble};
+use super::{BROADCAST, all, burst, data, frame, instruction, read, refused, status, step, untold};
+use crate::adapter::{Burst, Called, Reported, Step};
 use crate::suite::Author;
 use crate::suite::check::{Check, Demand};
 use crate::suite::due::Due;
@@ -303,16 +303,16 @@ pub(super) fn unsuccessful(author: &Author<'_>) -> Vec<Check> {
         let id = |what: &str| format!("dynamixel2.host.no-success.{call}/{what}");
         let steps = |answer: Vec<u8>| vec![Right { answer, ..right.clone() }.step()];
         let told = Reported { id: 1, error: Some(1), ..Reported::default() };
-        let due = Due { or: vec![Trouble::Status], ..all([told]) };
         let fields = "dynamixel2.status-packet.error.fields";
-        let refused = author.returned(id("refused"), fields, steps(status(1, 1, &[])), due);
+        let refusal = steps(status(1, 1, &[]));
+        let refused = author.returned(id("refused"), fields, refusal, refused(told));
         let parameters = "dynamixel2.status-packet.parameters";
         let mut other = right.answer.clone();
         if let Some(id) = other.get_mut(4) {
             *id = 2;
         }
         WIRE.repair(&mut other);
-        let other = author.returned(id("other-device"), parameters, steps(other), failed());
+        let other = author.returned(id("other-device"), parameters, steps(other), untold());
         [(call != "ping").then_some(refused), Some(other)]
     };
     every().into_iter().filter(is_meant).flat_map(both).flatten().collect()

@@ -24,6 +24,8 @@ struct Case {
     name: String,
     requirement: &'static str,
     played: Vec<Burst>,
+    /// The answer to a host that asks again.
+    again: Vec<u8>,
     /// What comes only when the call has returned.
     late: Vec<u8>,
     due: Due,
@@ -40,14 +42,15 @@ impl Case {
     /// Something that is no answer: the call fails, or asks again.
     fn bad(name: impl Into<String>, requirement: &'static str, played: Vec<u8>) -> Self {
         let due = Due { or: NO_ANSWER.to_vec(), ..all([data(1, &LATER)]) };
-        let played = vec![burst(played)];
-        Self { name: name.into(), requirement, played, late: Vec::new(), due, next: RESUME }
+        let good = Self::good(name, requirement, vec![burst(played)]);
+        Self { again: status(1, 0, &LATER), due, next: RESUME, ..good }
     }
 
     /// Something in which the answer is found.
     fn good(name: impl Into<String>, requirement: &'static str, played: Vec<Burst>) -> Self {
-        let due = all([data(1, &HELD)]);
-        Self { name: name.into(), requirement, played, late: Vec::new(), due, next: STREAM }
+        let (name, due) = (name.into(), all([data(1, &HELD)]));
+        let (again, late) = (answer(), Vec::new());
+        Self { name, requirement, played, again, late, due, next: STREAM }
     }
 
     /// Something that must not be taken, before the answer, which need not be found.
@@ -58,7 +61,7 @@ impl Case {
     }
 
     fn step(&self) -> Step {
-        let again = vec![burst(status(1, 0, &LATER))];
+        let again = vec![burst(self.again.clone())];
         let answers = vec![self.played.clone(), again.clone(), again];
         let late = self.late.clone().into();
         Step { late, ..step(read(1, ADDRESS, 4), answers) }
@@ -123,10 +126,11 @@ fn cases() -> Vec<Case> {
     for number in 1..=7 {
         let told = Reported { id: 1, error: Some(number), ..Reported::default() };
         let due = Due { or: vec![Trouble::Status], ..all([told]) };
-        let played = vec![burst(status(1, number, &[]))];
+        let again = status(1, number, &[]);
         let name = format!("error-{number}");
         let fields = "dynamixel2.status-packet.error.fields";
-        cases.push(Case { due, ..Case::good(name, fields, played) });
+        let refused = Case::good(name, fields, vec![burst(again.clone())]);
+        cases.push(Case { again, due, ..refused });
     }
     for (name, held) in [("fewer-bytes", &HELD[..2]), ("more-bytes", &[HELD, OTHER].concat())] {
         let read = "dynamixel2.read.status";
@@ -175,7 +179,8 @@ fn nothing(author: &Author<'_>) -> Vec<Check> {
 fn alert(author: &Author<'_>) -> [Check; 2] {
     let id = |about: &str| format!("dynamixel2.host.read.alert/{about}");
     let fields = "dynamixel2.status-packet.error.fields";
-    let steps = vec![step(read(1, ADDRESS, 4), vec![vec![burst(status(1, 0x80, &HELD))]])];
+    let answer = vec![burst(status(1, 0x80, &HELD))];
+    let steps = vec![step(read(1, ADDRESS, 4), vec![answer.clone(), answer.clone(), answer])];
     let told = Reported { alert: Some(true), ..data(1, &HELD) };
     let due = Due { or: vec![Trouble::Status], ..all([told]) };
     let result = author.returned(id("result"), fields, steps, due);

@@ -93,6 +93,16 @@ fn all(devices: impl Into<Vec<Reported>>) -> Due {
     Due { devices: Some(devices.into()), ..Due::default() }
 }
 
+/// The call tells of no device, or fails: a host need not await an answer that has no data.
+fn untold() -> Due {
+    Due { or: NO_ANSWER.to_vec(), ..all([]) }
+}
+
+/// The call tells that a device refused it, or does not tell anything.
+fn refused(told: Reported) -> Due {
+    Due { partly: true, or: vec![Trouble::Status], ..all([told]) }
+}
+
 /// The call fails, as it has no answer.
 fn failed() -> Due {
     Due { or: NO_ANSWER.to_vec(), ..Due::default() }

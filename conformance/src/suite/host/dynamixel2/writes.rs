@@ -1,9 +1,8 @@
 //! Answers to Write that are damaged, missing, of another device, or tell an error.
 
-use super::{all, burst, failed, instruction, status, step};
-use crate::adapter::{Burst, Reported, Trouble};
+use super::{all, burst, instruction, refused, status, step, untold};
+use crate::adapter::{Burst, Reported};
 use crate::suite::check::{Check, Demand};
-use crate::suite::due::Due;
 use crate::suite::{Author, changed};
 
 const FIELDS: &str = "dynamixel2.status-packet.error.fields";
@@ -23,12 +22,11 @@ pub(super) fn checks(author: &Author<'_>) -> Vec<Check> {
     ]
     .into_iter()
     .map(|(name, requirement, answer)| {
-        author.returned(id(name), requirement, steps(vec![burst(answer)]), failed())
+        author.returned(id(name), requirement, steps(vec![burst(answer)]), untold())
     })
     .collect();
     let told = |name: &str, error: u8, told: Reported| {
-        let due = Due { or: vec![Trouble::Status], ..all([told]) };
-        author.returned(id(name), FIELDS, steps(vec![burst(status(1, error, &[]))]), due)
+        author.returned(id(name), FIELDS, steps(vec![burst(status(1, error, &[]))]), refused(told))
     };
     checks.extend((1..=7).map(|number| {
         let reported = Reported { id: 1, error: Some(number), ..Reported::default() };
