@@ -22,8 +22,10 @@ macro_rules! pattern {
     };
 }
 
-// What stands before // is no part of the comment. In a word, # is no comment: it ends root's prompt.
-pattern!(COMMENT, r"(?s)/\*.*?\*/|(?P<before>^|[^:])//.*$|(?:^|[\s,;])#.*$");
+// What stands before // is no part of the comment.
+pattern!(COMMENT, r"(?s)/\*.*?\*/|(?P<before>^|[^:])//.*$|#.*$");
+// A shell's: `[root@pi ~]# `, `pi@raspberrypi:~ $ `.
+pattern!(PROMPT, r"^\s*(?:\[\S+@[^\]]*\]|\S+@\S+)\s?[#$]\s");
 pattern!(
     TIME,
     r"(?x)^ \s* [\[(]? \s* (?:
@@ -65,9 +67,17 @@ pub(super) fn comment(text: &str) -> usize {
     }
 }
 
+/// What follows a shell's prompt.
+fn without_prompt(line: &str) -> &str {
+    let prompt = PROMPT.find(line).map_or(0, |found| found.end());
+    line.get(prompt..).unwrap_or_default()
+}
+
 /// Whether a place in a line is in a comment.
 pub(super) fn is_comment(line: &str, place: usize) -> bool {
-    COMMENT.find_iter(line).any(|found| {
+    let rest = without_prompt(line);
+    let place = place.saturating_sub(line.len() - rest.len());
+    COMMENT.find_iter(rest).any(|found| {
         let start = found.as_str().find(['/', '#']).unwrap_or_default();
         let begins = found.as_str().get(start..).is_some_and(|text| comment(text) > 0);
         begins && found.start() < place && place < found.end()
@@ -76,6 +86,7 @@ pub(super) fn is_comment(line: &str, place: usize) -> bool {
 
 /// The time of a line, and its parts. `before` is where they are looked for; `payload` follows it.
 pub(super) fn read(before: &str, payload: &str) -> (Option<Duration>, Vec<Marked>) {
+    let before = without_prompt(before);
     // In a literal every character is a byte.
     let before =
         if payload.is_empty() { COMMENT.replace_all(before, "$before ") } else { before.into() };

@@ -111,8 +111,8 @@ pub(super) fn tokens(
     let mut words = 0_usize;
     let mut after = None;
     let separator = |c: char| !c.is_alphanumeric() && !"._$-".contains(c);
-    // A prompt ends with $, and the path ./ has one dot.
-    let is_word = |word: &&str| !["", "$", "."].contains(word);
+    // The path ./ has one dot.
+    let is_word = |word: &&str| !["", "."].contains(word);
     for word in text.split(separator).flat_map(parts).filter(is_word) {
         match token(word, &mut bytes) {
             Token::Bytes => {
