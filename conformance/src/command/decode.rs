@@ -48,9 +48,9 @@ them. None is certain, and the likeliest is first.
 A warning tells what a document says against the meaning of a packet that is valid. Rules of
 registers need --device, or an answer to Ping before.
 
-Exit status: 0 every byte is in a valid packet, 1 some byte is in none, line noise included, or
-with --strict there is a warning, 2 wrong usage, or an input that can't be read to its end, 3 the
-output could not be written.";
+Exit status: 0 every byte is in a valid packet, 1 some byte is in none, line noise included, a
+fast status packet does not fit its request, or with --strict there is a warning, 2 wrong usage, or an
+input that can't be read to its end, 3 the output could not be written.";
 
 /// Explains packets field by field: one, or all in a log, a dump or a capture
 #[derive(Debug, Args)]

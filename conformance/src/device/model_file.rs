@@ -49,7 +49,7 @@ pub(super) fn read(id: &str, text: &str) -> Result<Device, Vec<Defect>> {
                 Err(format!("a row before the first section; [{TABLE}] comes before registers"))
             }
             Some(_) if is_first && is_head(&cells) => Ok(()),
-            Some(name) if is_first => Err(format!(
+            Some(name) if is_first && [TYPE, UNITS, TABLE].contains(&name) => Err(format!(
                 "[{name}] begins without a head; the names of the columns come first, with tabs between"
             )),
             Some(TABLE) => file.register(&cells, line),

@@ -53,7 +53,7 @@ fn damaged_packet(wire: Wire, asked: &Asked<'_>, error: &Invalid) -> String {
     fitted(&format!("{BOLD}no valid packet{BOLD:#}, {error}\n{fields}{fits}"), width())
 }
 
-/// The same as the lines of a stream that has nothing else.
+/// Lines as those of a stream, with the reason that one packet was expected.
 fn lines(wire: Wire, asked: &Asked<'_>, error: &Invalid, form: Form) -> Result<String, Failure> {
     let Asked { bytes, tables, address, .. } = *asked;
     let event = Event::Skipped(Skipped {
