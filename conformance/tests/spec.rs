@@ -126,7 +126,7 @@ fn a_row_of_the_matrix_fits_a_wide_screen() {
     let stdout = spec(&["coverage"]).1;
     let longest = stdout.lines().max_by_key(|line| line.chars().count()).unwrap();
     assert!(longest.chars().count() <= 280, "{longest}");
-    for words in [" and 1 more", "; not in packets\n"] {
+    for words in [" and 1 more", "; not in packets of a device\n"] {
         assert!(stdout.contains(words), "{words}");
     }
 }

@@ -23,8 +23,8 @@ pub struct CheckName<'a> {
 pub struct Row<'a> {
     /// The requirement.
     pub requirement: &'a Requirement,
-    /// The suite's checks that name it or the requirement that it is checked with, by the role that
-    /// they ask.
+    /// The suite's checks by the role that they ask: those that name it, or if there are none those that
+    /// name the requirement that it is checked with.
     pub checks: BTreeMap<Role, Checks>,
 }
 
@@ -44,7 +44,7 @@ pub struct Checks {
 pub enum Cover {
     /// Nothing yet.
     Nothing,
-    /// Nothing can: packets don't show whether a device obeys.
+    /// Nothing can: packets don't show whether the role obeys.
     Unseen,
     /// Checks of the suite that record the answer and judge none.
     Record,
@@ -67,13 +67,13 @@ impl Row<'_> {
     /// codec shows nothing about a device.
     #[must_use]
     pub fn cover(&self, role: Role) -> Cover {
-        let unseen = role == Role::Device && self.requirement.unseen.is_some();
+        let is_unseen = self.requirement.unseen.by(role).is_some();
         match self.checks.get(&role) {
             _ if !self.requirement.binds.contains(&role) => Cover::Nothing,
             Some(checks) if !checks.only_record() => Cover::Check,
             _ if self.requirement.is_tested(role) => Cover::Test,
             Some(_) => Cover::Record,
-            None if unseen => Cover::Unseen,
+            None if is_unseen => Cover::Unseen,
             None => Cover::Nothing,
         }
     }
@@ -106,9 +106,10 @@ pub fn matrix<'a, 'b>(
         .iter()
         .flat_map(|file| &file.content.requirements)
         .map(|requirement| {
-            let own = by_requirement.get(requirement.id.as_str());
-            let shared = requirement.checked_with.as_deref().and_then(|id| by_requirement.get(id));
-            Row { requirement, checks: own.or(shared).cloned().unwrap_or_default() }
+            let of = |id| by_requirement.get(id).cloned().unwrap_or_default();
+            let mut checks = requirement.checked_with.as_deref().map(of).unwrap_or_default();
+            checks.extend(of(requirement.id.as_str()));
+            Row { requirement, checks }
         })
         .collect()
 }
@@ -187,6 +188,23 @@ mod tests {
         let total = total(&rows, Role::Codec, Level::Must);
         assert_eq!(total.checked, 1);
         assert_eq!(total.unchecked() + total.tested + 1, total.requirements);
+    }
+
+    #[test]
+    fn checks_of_the_same_sentence_count_for_the_roles_that_no_check_of_its_own_asks() {
+        let spec = Spec::embedded().unwrap();
+        let (own, same) = ("ja40.ping.status", "dynamixel2.ping.status");
+        let check =
+            |id, requirement, role| CheckName { id, requirement, role, only_records: false };
+        let checks = [
+            check("own", own, Role::Codec),
+            check("other", same, Role::Codec),
+            check("host", same, Role::Host),
+        ];
+        let rows = matrix(&spec, checks);
+        let row = rows.iter().find(|row| row.requirement.id == own).unwrap();
+        assert_eq!(row.checks[&Role::Codec].example, "own");
+        assert_eq!(row.checks[&Role::Host].example, "host");
     }
 
     #[test]

@@ -39,7 +39,7 @@ fn the_json_has_what_the_documents_print() {
     let row = |list: &Value, key: &str, wanted: &Value| -> Value {
         list.as_array().unwrap().iter().find(|row| row[key] == *wanted).unwrap().clone()
     };
-    assert_eq!(json["version"], 3);
+    assert_eq!(json["version"], 4);
     let ja40 = row(&json["devices"], "device", &"ja40".into());
     assert_eq!(ja40["registers"].as_array().unwrap().len(), 40);
     let goal = row(&ja40["registers"], "name", &"Goal Position".into());

@@ -10,12 +10,12 @@ use crate::model::{Device, Document, Erratum, Requirement};
 use crate::wire::Wires;
 
 /// Version of the file's format. It changes when a field is removed or gets another meaning.
-pub const VERSION: u32 = 3;
+pub const VERSION: u32 = 4;
 
 /// What `actucheck spec export json` writes.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Export<'a> {
-    /// Version of the file's form; 2. It changes when a field goes or takes another meaning.
+    /// Version of the file's form, now 4. It changes when a field goes or takes another meaning.
     pub version: u32,
     /// The documents that citations point to.
     pub documents: Vec<&'a Document>,

@@ -39,10 +39,34 @@ pub struct Requirement {
     /// What else checks it; given if neither a vector nor a test names it.
     pub checked_by: Option<CheckedBy>,
     /// A requirement of another document that requires the same, so that its checks count for this
-    /// one too.
+    /// one too: those of each role that no check of this one asks.
     pub checked_with: Option<String>,
-    /// Why packets can't show whether a device obeys; absent if they can.
-    pub unseen: Option<String>,
+    /// Why packets can't show whether it is obeyed.
+    #[serde(default)]
+    pub unseen: Unseen,
+}
+
+/// Why packets can't show whether a requirement is obeyed, for each role. A reason is absent if they
+/// can, or if the role is not bound.
+#[derive(Clone, Debug, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Unseen {
+    /// Why they can't show it of a host.
+    pub host: Option<String>,
+    /// Why they can't show it of a device.
+    pub device: Option<String>,
+}
+
+impl Unseen {
+    /// The reason for a role. What a codec does always shows in its answers.
+    #[must_use]
+    pub fn by(&self, role: Role) -> Option<&str> {
+        match role {
+            Role::Codec => None,
+            Role::Host => self.host.as_deref(),
+            Role::Device => self.device.as_deref(),
+        }
+    }
 }
 
 impl Requirement {

@@ -1,7 +1,7 @@
 //! Rule: a vector or a test names each requirement, or its row says what else checks it. A
 //! requirement that is checked with another one is not stricter than that one, and binds no role
-//! that the other does not bind. A reason why packets can't show what a device does is given only
-//! where a device is bound and no conversation shows it.
+//! that the other does not bind. A reason why packets can't show what a role does is given only where
+//! the role is bound and no conversation shows it.
 
 use std::collections::BTreeSet;
 
@@ -20,12 +20,17 @@ pub(super) fn check(spec: &Spec) -> Vec<Diagnostic> {
                 let node = format!("requirements[{index}].checked_with");
                 defects.push(file.diagnostic(&node, format!("{} {message}", row.id)));
             }
-            if row.unseen.is_some()
-                && (row.is_tested(Role::Device) || !row.binds.contains(&Role::Device))
-            {
-                let node = format!("requirements[{index}].unseen");
-                let message = "binds no device, or a conversation shows it; leave `unseen` out";
-                defects.push(file.diagnostic(&node, format!("{} {message}", row.id)));
+            let needless = |role: &Role| {
+                row.unseen.by(*role).is_some()
+                    && (row.is_tested(*role) || !row.binds.contains(role))
+            };
+            for role in Role::ALL.into_iter().filter(needless) {
+                let node = format!("requirements[{index}].unseen.{role}");
+                let message = format!(
+                    "{} binds no {role}, or a conversation shows it; leave `unseen` out",
+                    row.id
+                );
+                defects.push(file.diagnostic(&node, message));
             }
             let used = named.contains(row.id.as_str())
                 || !row.tests.is_empty()

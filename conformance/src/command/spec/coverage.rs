@@ -147,7 +147,8 @@ fn checked_by(row: &Row<'_>) -> String {
         1 => Some("1 test".to_owned()),
         count => Some(format!("{count} tests")),
     });
-    parts.extend(row.requirement.unseen.as_ref().map(|_| UNSEEN.to_owned()));
+    let unseen = Role::ALL.into_iter().filter(|role| row.cover(*role) == Cover::Unseen);
+    parts.extend(unseen.map(|role| format!("{UNSEEN} of a {role}")));
     if parts.is_empty() { NOTHING.to_owned() } else { parts.join("; ") }
 }
 

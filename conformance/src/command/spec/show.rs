@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use actucheck::names::similar;
 use actucheck_spec::Spec;
 use actucheck_spec::model::{
-    Citation, Device, Document, Erratum, Register, Requirement, Vector, VectorsFile,
+    Citation, Device, Document, Erratum, Register, Requirement, Role, Vector, VectorsFile,
 };
 use actucheck_spec::rests;
 use actucheck_spec::wire::{Ask, Wire};
@@ -190,7 +190,8 @@ fn requirement(spec: &Spec, row: &Requirement) -> String {
     let own = vectors.filter(|vector| vector.requirement.as_ref() == Some(&row.id));
     block.lines("vectors", own.map(|vector| vector.id.clone()));
     block.lines("tests", row.tests.iter().cloned());
-    block.lines("not in packets", row.unseen.iter().cloned());
+    let unseen = |role: Role| row.unseen.by(role).map(|reason| format!("{role}: {reason}"));
+    block.lines("not in packets", Role::ALL.into_iter().filter_map(unseen));
     block.line("checked with", row.checked_with.as_deref().unwrap_or_default());
     block.0
 }
