@@ -1,6 +1,7 @@
 //! Asks subjects the checks of a plan, and passes each outcome on at once.
 
 mod again;
+mod batch;
 mod blame;
 mod history;
 mod ledger;

@@ -1,20 +1,21 @@
 //! A worker: takes batches of checks, asks its subject, and returns the outcomes.
 
-use std::collections::{HashMap, VecDeque};
+use std::collections::VecDeque;
 use std::num::NonZeroU32;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use super::again::{Doubt, Lost};
+use super::batch::{Batch, Past, REQUIRED_SKIPPED, Slot, State};
 use super::history::History;
 use super::merge::Judged;
-use super::repeat::{Heard, Repeated};
+use super::repeat::Heard;
 use super::{Work, lock};
 use crate::adapter::{Hello, Question};
 use crate::legible::excerpt;
 use crate::subject::{Answer, Questions, Subject};
 use crate::suite::check::Check;
-use crate::verdict::{Because, Outcome, Verdict};
+use crate::verdict::Verdict;
 
 /// How long outcomes may be held back while more arrive.
 const PATIENCE: Duration = Duration::from_millis(50);
@@ -38,63 +39,6 @@ pub(super) struct Worker<'r, 's, 'a> {
     /// The first place that is not loaded yet.
     end: usize,
     flushed: Instant,
-}
-
-/// Checks that were taken together: a batch.
-struct Batch {
-    number: u64,
-    /// The place of its first check.
-    first: usize,
-    slots: Vec<Slot>,
-    /// How many outcomes were returned.
-    given: usize,
-}
-
-struct Slot {
-    state: State,
-    /// The place in the batch of the check that it requires.
-    requires: Option<usize>,
-    /// The adapter does not offer it, so it says nothing about the checks that require it.
-    not_offered: bool,
-}
-
-enum State {
-    Open(Arc<Check>, Repeated),
-    Answered(Box<Judged>),
-    Given(Past),
-}
-
-/// What of an outcome matters to the checks that require it.
-enum Past {
-    /// The subject skipped it.
-    Skipped,
-    Failed(Verdict, Because),
-    Other,
-}
-
-const REQUIRED_SKIPPED: &str = "the check that it requires is skipped too";
-
-impl Slot {
-    /// Whether the subject skipped it, as far as is known.
-    const fn is_skipped(&self) -> bool {
-        match &self.state {
-            State::Open(..) => false,
-            State::Answered(judged) => {
-                matches!(judged.outcome.verdict, Verdict::Skip) && !self.not_offered
-            }
-            State::Given(past) => matches!(past, Past::Skipped),
-        }
-    }
-}
-
-impl Past {
-    fn of(outcome: &Outcome, not_offered: bool) -> Self {
-        match outcome.verdict {
-            Verdict::Skip if !not_offered => Self::Skipped,
-            verdict if verdict.is_fine() => Self::Other,
-            verdict => Self::Failed(verdict, outcome.cause()),
-        }
-    }
 }
 
 impl<'r, 's, 'a> Worker<'r, 's, 'a> {
@@ -148,20 +92,10 @@ impl<'r, 's, 'a> Worker<'r, 's, 'a> {
         if groups.is_empty() {
             return false;
         }
-        let mut slots = Vec::new();
-        for group in groups {
-            let checks = self.work.plan.build(group);
-            let required = required(&checks, slots.len());
-            let slot = |(check, requires)| Slot {
-                state: State::Open(Arc::new(check), Repeated::new(self.times)),
-                requires,
-                not_offered: false,
-            };
-            slots.extend(checks.into_iter().zip(required).map(slot));
-        }
-        let first = self.end;
-        self.end += slots.len();
-        self.batches.push_back(Batch { number, first, slots, given: 0 });
+        let groups = groups.into_iter().map(|group| self.work.plan.build(group));
+        let batch = Batch::new(number, self.end, groups, self.times);
+        self.end += batch.slots.len();
+        self.batches.push_back(batch);
         true
     }
 
@@ -273,74 +207,6 @@ impl Drop for Worker<'_, '_, '_> {
             self.work.merge.end();
         }
     }
-}
-
-impl Batch {
-    /// Removes the outcomes that have no unanswered question before them.
-    fn take(&mut self) -> Vec<Judged> {
-        let mut outcomes = Vec::new();
-        while let Some((earlier, [slot, ..])) = self.slots.split_at_mut_checked(self.given)
-            && matches!(slot.state, State::Answered(_))
-        {
-            let other = State::Given(Past::Other);
-            if let State::Answered(mut judged) = std::mem::replace(&mut slot.state, other) {
-                let required = slot.requires.and_then(|place| earlier.get(place));
-                if let Some(Slot { state: State::Given(past), .. }) = required {
-                    follow(&mut judged, past);
-                }
-                slot.state = State::Given(Past::of(&judged.outcome, slot.not_offered));
-                outcomes.push(*judged);
-            }
-            self.given += 1;
-        }
-        outcomes
-    }
-}
-
-/// Lets an outcome follow from that of the check that it requires. While that one was outstanding,
-/// this one was asked although the subject does not do such things.
-fn follow(judged: &mut Judged, required: &Past) {
-    let outcome = &mut judged.outcome;
-    match required {
-        Past::Skipped if outcome.verdict != Verdict::Skip => {
-            let Outcome { id, requirement, level, .. } = outcome;
-            *outcome = Outcome {
-                id: std::mem::take(id),
-                requirement: std::mem::take(requirement),
-                level: *level,
-                verdict: Verdict::Skip,
-                detail: REQUIRED_SKIPPED.to_owned(),
-                because: None,
-                reason: None,
-                request: None,
-                expected: None,
-                actual: None,
-                behaviour: None,
-                after: None,
-                log: None,
-            };
-            judged.doubt = None;
-        }
-        Past::Failed(verdict, cause) if verdict.explains(outcome.verdict) => {
-            outcome.because = Some(cause.clone());
-        }
-        _ => {}
-    }
-}
-
-/// For each check of a group, the place in the batch of the check that it requires, if that comes
-/// before it. `first` is the place of the first check.
-fn required(checks: &[Check], first: usize) -> Vec<Option<usize>> {
-    let mut places = HashMap::new();
-    let requires = checks.iter().any(|check| check.requires.is_some());
-    let place = |(place, check): (usize, &'_ Check)| {
-        let earlier = check.requires.as_ref().and_then(|id| places.get(id.as_str()).copied());
-        if requires {
-            places.insert(check.id.clone(), first + place);
-        }
-        earlier
-    };
-    checks.iter().enumerate().map(place).collect()
 }
 
 impl Questions for Worker<'_, '_, '_> {

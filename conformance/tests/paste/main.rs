@@ -2,13 +2,14 @@
 //! and what the program says. `ACCEPT=1` writes the latter anew; then every line of it is compared with
 //! the documents by eye.
 //!
-//! `mistakes` makes packets wrong on purpose. The fuzz target `forms` writes bytes in every form and reads
+//! `mistakes` makes packets wrong on purpose, as `made` has it. The fuzz target `forms` writes bytes in every form and reads
 //! them again.
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
 mod answers;
 mod bad;
+mod made;
 mod mistakes;
 mod vectors;
 
