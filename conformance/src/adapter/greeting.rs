@@ -10,9 +10,9 @@ use super::{Hello, Implementation, Limits, VERSIONS, Wire};
 use crate::legible::{LONGEST_NAME, legible};
 
 /// The ops that `hello` may name. Every adapter has `hello` and `bye`, so they need not be listed.
-const OPS: [&str; 13] = [
+const OPS: [&str; 14] = [
     "hello", "crc", "stuff", "unstuff", "encode", "decode", "stream", "value", "message", "open",
-    "call", "close", "bye",
+    "call", "exchange", "close", "bye",
 ];
 
 /// The calls that `hello` may name.
@@ -144,6 +144,13 @@ impl Greeting {
             instead: BOTH,
         });
         ROLES.to_vec()
+    }
+}
+
+impl Hello {
+    /// Whether the adapter offers this op.
+    pub(crate) fn offers(&self, op: &str) -> bool {
+        self.ops.iter().any(|offered| offered == op)
     }
 }
 

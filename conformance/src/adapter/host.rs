@@ -7,7 +7,8 @@ use actucheck_spec::wire::{Call, Direction};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Called;
+use super::{Called, Wire};
+use crate::legible::{LONGEST_TEXT, legible};
 
 /// A call of a host, and what the line does about it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -48,6 +49,47 @@ pub struct CallTo {
     pub call: Call,
     /// The ID or the address that the packet goes to.
     pub device: u8,
+}
+
+/// A call on a port in memory, and what the line does about it: the fields of the op `exchange`.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Exchange<'a> {
+    /// The wire.
+    pub wire: Wire,
+    /// The call.
+    pub call: CallTo,
+    /// The packet that the line answers.
+    pub frame: HexBytes,
+    /// What the line plays when it hears the packet: the first time, the second time, and so on. After
+    /// that it is silent.
+    pub answers: &'a [Vec<Burst>],
+    /// What comes after the call has returned, and before the next one.
+    pub late: &'a HexBytes,
+    /// Whether the next call follows at once, whatever is still on its way. Else it follows when all has
+    /// come.
+    pub hurries: bool,
+}
+
+/// What came of a call on a port in memory: the `ok` of `exchange`. Its times are those of the adapter's
+/// clock.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct Exchanged {
+    /// What the library sent, in order.
+    pub sent: Vec<Sent>,
+    /// How many milliseconds the call took.
+    pub ms: u64,
+    /// What it returned.
+    #[serde(flatten)]
+    pub returned: Returned,
+}
+
+/// Bytes that a library sent on a port in memory.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct Sent {
+    /// How many milliseconds after the call began.
+    pub at_ms: u64,
+    /// The bytes.
+    pub bytes: HexBytes,
 }
 
 /// What became of a step. It is the same as another if the same was sent and returned, whatever time it
@@ -161,7 +203,14 @@ pub struct CallError {
     pub detail: String,
 }
 
-/// What went wrong in a call; these are the error classes of the ops `open`, `call` and `close`.
+impl CallError {
+    /// The same with an explanation that is legible and short.
+    pub(crate) fn legible(self) -> Self {
+        Self { detail: legible(&self.detail, LONGEST_TEXT), ..self }
+    }
+}
+
+/// What went wrong in a call; these are the error classes of the ops of a host.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Trouble {

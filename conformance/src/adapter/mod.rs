@@ -23,11 +23,15 @@ use std::time::Duration;
 
 pub use called::Called;
 pub use greeting::{Contradiction, Greeting};
-pub use host::{Burst, CallError, CallTo, Course, Passed, Reported, Returned, Step, Trouble};
+pub use host::{
+    Burst, CallError, CallTo, Course, Exchange, Exchanged, Passed, Reported, Returned, Sent, Step,
+    Trouble,
+};
 pub use message::Told;
 pub use reading::Misfit;
 #[cfg(unix)]
 pub(crate) use reading::devices;
+pub(crate) use reading::exchanged;
 pub use requests::{
     Hello, Implementation, Limits, Output, Question, Rejection, Request, VERSION, VERSIONS, Wire,
 };

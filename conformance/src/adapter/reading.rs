@@ -8,7 +8,7 @@ use serde_json::Value;
 use thiserror::Error;
 
 use super::value::Given;
-use super::{Greeting, Output, Question, Reported, Told, VERSIONS};
+use super::{Exchanged, Greeting, Output, Question, Reported, Told, VERSIONS};
 use crate::legible::{LONGEST_TEXT, legible};
 
 /// The most bytes of an `ok` whose form is looked at. No right one is nearly as long. A longer one
@@ -41,12 +41,12 @@ impl Output {
             return Self::of(question, &object(ok)?);
         }
         let mut text = serde_json::Deserializer::from_str(ok);
-        typed(question, &mut text).map_err(|error| unfit(question, &error))
+        typed(question, &mut text).map_err(|error| unfit(question.name(), &error))
     }
 
     /// The same for an `ok` whose fields are read already.
     pub(super) fn of(question: &Question, ok: &Value) -> Result<Self, Misfit> {
-        let output = typed(question, ok.clone()).map_err(|error| unfit(question, &error))?;
+        let output = typed(question, ok.clone()).map_err(|error| unfit(question.name(), &error))?;
         lowercase(ok)?;
         let packets = match &output {
             Self::Crc(crc) if *crc > u64::from(u16::MAX) => {
@@ -115,13 +115,24 @@ pub(crate) fn devices(ok: &str) -> Result<Vec<Reported>, Misfit> {
     }
     let ok = object(ok)?;
     lowercase(&ok)?;
-    let Devices { devices } = Devices::deserialize(&ok).map_err(|error| {
-        Misfit::new(
-            format!("`ok` does not fit call: {error}"),
-            "`actucheck adapter guide` has a table of what `ok` holds",
-        )
-    })?;
-    Ok(devices)
+    let devices = Devices::deserialize(&ok).map_err(|error| unfit("call", &error));
+    devices.map(|Devices { devices }| devices)
+}
+
+/// Reads the `ok` of a reply to `exchange`: what was sent, and what was returned.
+///
+/// # Errors
+/// What is wrong with it.
+pub(crate) fn exchanged(ok: &str) -> Result<Exchanged, Misfit> {
+    let ok = object(ok)?;
+    lowercase(&ok)?;
+    if ok.get("devices").is_some() && ok.get("err").is_some() {
+        return Err(Misfit::new(
+            "`ok` has `devices` and `err`",
+            "answer with `devices` if the call succeeded, and with `err` if it failed",
+        ));
+    }
+    Exchanged::deserialize(&ok).map_err(|error| unfit("exchange", &error))
 }
 
 /// The fields of an `ok`.
@@ -198,9 +209,9 @@ fn typed<'de, D: Deserializer<'de>>(question: &Question, ok: D) -> Result<Output
     })
 }
 
-fn unfit(question: &Question, error: &impl std::fmt::Display) -> Misfit {
+fn unfit(op: &str, error: &impl std::fmt::Display) -> Misfit {
     Misfit::new(
-        format!("`ok` does not fit {}: {error}", question.name()),
+        format!("`ok` does not fit {op}: {error}"),
         "`actucheck adapter guide` has a table of what `ok` holds",
     )
 }

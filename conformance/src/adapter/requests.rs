@@ -10,7 +10,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::called::Called;
-use super::host::{self, CallTo, Course, Step};
+use super::host::{self, CallTo, Course, Exchange, Step};
 use super::message::Told;
 use super::value::{Given, RegisterOf};
 
@@ -35,7 +35,8 @@ pub enum Request<'a> {
     Open {
         /// The wire that is spoken there.
         wire: Wire,
-        /// The path of a terminal; `tcp://HOST:PORT` or `udp://HOST:PORT` for a socket.
+        /// The path of a terminal; `tcp://HOST:PORT` or `udp://HOST:PORT` for a socket; `memory` for the
+        /// adapter's own port, of which only `exchange` makes use.
         port: &'a str,
         /// The rate in bit/s, if the port has one.
         baud: u32,
@@ -47,6 +48,8 @@ pub enum Request<'a> {
         /// The call.
         call: &'a CallTo,
     },
+    /// Make a call through the port in memory.
+    Exchange(&'a Exchange<'a>),
     /// Close the port.
     Close {
         /// The wire.
@@ -155,7 +158,7 @@ pub enum Question {
         told: Told,
     },
     /// What becomes of calls on a line that plays a script. No adapter gets it: it is asked for one call
-    /// after the other, with the ops `open`, `call` and `close`.
+    /// after the other, with the ops `open`, `call` or `exchange`, and `close`.
     #[schemars(skip)]
     Converse {
         /// The wire.

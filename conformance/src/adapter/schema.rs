@@ -5,7 +5,7 @@ use actucheck_spec::schema::{of_read, of_written};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{CallError, Greeting, Output, Rejection, Reported, Request};
+use super::{CallError, Exchanged, Greeting, Output, Rejection, Reported, Request};
 
 /// Each schema's name and text.
 #[must_use]
@@ -65,6 +65,8 @@ pub enum Answer {
 pub enum Success {
     /// Of `hello`.
     Hello(Box<Greeting>),
+    /// Of `exchange`.
+    Exchanged(Exchanged),
     /// Of `call`.
     CallResult(CallResult),
     /// Of `open` and `close`.
@@ -89,7 +91,7 @@ pub struct Done {}
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Problem {
-    /// Of `open`, `call` and `close`.
+    /// Of `open`, `call`, `exchange` and `close`.
     Call(CallError),
     /// Of any other op: why the bytes or the packet are rejected.
     Rejection(Rejection),

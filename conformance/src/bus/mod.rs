@@ -17,6 +17,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod answers;
 mod dynamixel2;
 mod fault;
 mod innfos;
@@ -37,13 +38,14 @@ use actucheck_spec::wire::{self, Wire};
 
 use crate::device;
 
+pub(crate) use self::answers::{Answers, Bursts};
 pub use self::dynamixel2::VirtualDevice;
 use self::fault::{Alarm, Faults, OnDevice, What};
 pub use self::fault::{Fault, FaultError};
 pub use self::place::{Place, PlaceError, Places, tables};
 pub use self::readings::{Reading, ReadingError, Readings};
 #[cfg(unix)]
-pub(crate) use self::script::{Bursts, Script};
+pub(crate) use self::script::Script;
 
 /// Bytes that devices send, and when the last of them is there.
 #[derive(Clone, Debug, PartialEq, Eq)]

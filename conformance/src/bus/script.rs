@@ -1,15 +1,12 @@
 //! A line on which nothing answers but a script.
 
-use std::collections::VecDeque;
 use std::mem;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
+use super::answers::{Answers, Bursts};
 use super::fault::Alarm;
 use super::{Chunk, DeviceState, Devices};
-
-/// Bytes, and how long after the packet that they answer they are there.
-pub(crate) type Bursts = Vec<(Duration, Vec<u8>)>;
 
 /// The line is looked at each millisecond; a time-out that a machine may be too busy for is not much more
 /// than so long.
@@ -21,13 +18,8 @@ pub(crate) struct Script(Arc<Mutex<Scene>>);
 
 #[derive(Debug, Default)]
 struct Scene {
-    /// The packet that is answered.
-    packet: Vec<u8>,
-    /// What answers it, each time that it is heard.
-    answers: VecDeque<Bursts>,
-    /// The last bytes that were heard, as many as the packet has.
-    heard: Vec<u8>,
-    times: usize,
+    answers: Answers,
+    is_heard: bool,
     /// How often the line was looked at, and when last.
     looks: u32,
     looked: Option<Duration>,
@@ -42,14 +34,14 @@ struct Scene {
 impl Script {
     /// Answers this packet from now on, and no other.
     pub(crate) fn begin(&self, packet: Vec<u8>, answers: impl IntoIterator<Item = Bursts>) {
-        let (answers, mut scene) = (answers.into_iter().collect(), self.scene());
+        let (answers, mut scene) = (Answers::to(packet, answers), self.scene());
         let Scene { looked, was_late, coming, .. } = *scene;
-        *scene = Scene { packet, answers, looked, was_late, coming, ..Scene::default() };
+        *scene = Scene { answers, looked, was_late, coming, ..Scene::default() };
     }
 
     /// Whether the packet was heard.
     pub(crate) fn is_heard(&self) -> bool {
-        self.scene().times > 0
+        self.scene().is_heard
     }
 
     /// The line is looked at.
@@ -118,12 +110,9 @@ impl Devices for Script {
             bursts.push((Duration::ZERO, mem::take(&mut play)));
         }
         for byte in bytes {
-            scene.heard.push(*byte);
-            let surplus = scene.heard.len().saturating_sub(scene.packet.len());
-            scene.heard.drain(..surplus);
-            if scene.heard == scene.packet {
-                scene.times += 1;
-                bursts.extend(scene.answers.pop_front().unwrap_or_default());
+            if let Some(answer) = scene.answers.hear(*byte) {
+                scene.is_heard = true;
+                bursts.extend(answer);
             }
         }
         for (after, bytes) in bursts {
@@ -148,7 +137,7 @@ impl Devices for Script {
     }
 
     fn quiet(&mut self) {
-        self.scene().heard.clear();
+        self.scene().answers.quiet();
     }
 
     fn first(&self, bytes: &[u8]) -> usize {

@@ -51,9 +51,10 @@ fn plan<'a>(
     subjects: &Subjects,
 ) -> Result<Planned<'a>, Failure> {
     let hello = &subjects.hello;
-    if !["open", "call"].iter().all(|op| hello.ops.iter().any(|offered| offered == op)) {
+    let offers = |op: &&str| hello.ops.iter().any(|offered| offered == op);
+    if !offers(&"open") || !["call", "exchange"].iter().any(offers) {
         let message = "no host to check: give after `--` the command of an adapter with the ops `open` \
-            and `call`, as `actucheck adapter guide` describes them";
+            and `call`, or `open` and `exchange`, as `actucheck adapter guide` describes them";
         return Err(Failure::usage(message));
     }
     let wires = selection.offered_wires(hello)?;

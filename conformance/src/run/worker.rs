@@ -291,7 +291,9 @@ impl Questions for Worker<'_, '_, '_> {
 /// Why a check is not asked, according to the adapter's answer to `hello`.
 pub(crate) fn not_offered(hello: &Hello, check: &Check) -> Option<String> {
     let name = check.question.name();
-    if !hello.ops.iter().any(|op| op == name) {
+    // A call may be made in either way.
+    let is_offered = hello.offers(name) || name == "call" && hello.offers("exchange");
+    if !is_offered {
         return Some(format!("the adapter offers no {name}"));
     }
     let wire = check.question.wire();

@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use thiserror::Error;
 
-use super::{Answer, Questions, Subject, converse};
+use super::{Answer, Line, Questions, Subject};
 use crate::adapter::conversation::{Conversation, Lost, Malformed, Reply, rejection};
 use crate::adapter::{
     Contradiction, Greeting, Hello, Misfit, Output, Question, Request, Settings, VERSIONS,
@@ -248,7 +248,9 @@ impl Subject for Process {
 
     fn ask(&mut self, question: &Question) -> Answer {
         if let Question::Converse { wire, steps } = question {
-            return self.talk(|conversation, limit| converse(conversation, limit, *wire, steps));
+            let line = Line::of(&self.hello);
+            return self
+                .talk(|conversation, limit| line.converse(conversation, limit, *wire, steps));
         }
         self.say(&Request::Ask(question), |ok| Output::read(question, ok))
     }

@@ -7,21 +7,18 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use actucheck_spec::model::Fault;
 use actucheck_spec::wire::{Direction, Wire};
 
-use super::Answer;
-use crate::adapter::conversation::{Conversation, Lost, Reply, error};
+use super::heard::{Heard, ask, own};
+use super::passing::{Passing, milliseconds};
+use super::{Answer, BAUD, bursts};
+use crate::adapter::conversation::{Conversation, Lost};
 use crate::adapter::{
-    Burst, CallError, CallTo, Course, Output, Passed, Rejection, Request, Returned, Step, Trouble,
-    devices,
+    CallError, CallTo, Course, Output, Request, Returned, Step, Trouble, devices,
 };
-use crate::bus::{Bursts, Script, VirtualBus};
-use crate::legible::{LONGEST_TEXT, legible};
+use crate::bus::{Script, VirtualBus};
 use crate::link::{Links, Watch};
 
-/// The rate that the host is told. Bytes on the line take no time.
-const BAUD: u32 = 1_000_000;
 /// How often the line is looked at for the packet of a call that has returned.
 const WRITTEN: u32 = 50;
 /// How often a conversation is tried for which the machine is too busy.
@@ -30,8 +27,6 @@ const TRIES: usize = 5;
 const LOOK: Duration = Duration::from_millis(1);
 /// How long what was written last takes through the terminal, on a busy machine.
 const THROUGH: Duration = Duration::from_millis(20);
-/// The most bytes of a step that are kept, and in how many pieces.
-const KEPT: (usize, usize) = (1024, 48);
 
 /// What passes in a step.
 #[derive(Clone, Default)]
@@ -41,31 +36,22 @@ struct Record(Arc<Mutex<Recorded>>);
 struct Recorded {
     /// When the call was asked.
     begun: Option<Instant>,
-    line: Vec<Passed>,
-    more: usize,
+    passing: Passing,
 }
 
 impl Record {
     /// Ends a step. Returns what passed in it.
-    fn turn(&self) -> (Vec<Passed>, usize) {
-        let new = Recorded { begun: Some(Instant::now()), ..Recorded::default() };
+    fn turn(&self) -> Passing {
+        let new = Recorded { begun: Some(Instant::now()), passing: Passing::default() };
         let old =
             std::mem::replace(&mut *self.0.lock().unwrap_or_else(PoisonError::into_inner), new);
-        (old.line, old.more)
+        old.passing
     }
 
     fn add(&self, direction: Direction, bytes: &[u8]) {
         let mut recorded = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let size: usize = recorded.line.iter().map(|passed| passed.bytes.len()).sum();
-        let (bytes_left, pieces_left) = (KEPT.0.saturating_sub(size), recorded.line.len() < KEPT.1);
-        let kept = bytes.get(..bytes_left).unwrap_or(bytes);
-        let kept = if pieces_left { kept } else { &[] };
-        recorded.more += bytes.len() - kept.len();
         let at_ms = recorded.begun.map_or(0, |begun| milliseconds(begun.elapsed()));
-        if kept.is_empty() {
-            return;
-        }
-        recorded.line.push(Passed { at_ms, direction, bytes: kept.to_vec().into() });
+        recorded.passing.add(at_ms, direction, bytes);
     }
 }
 
@@ -164,7 +150,7 @@ impl Host<'_> {
     fn converse(&mut self, port: &str, steps: &[Step]) -> Result<Answer, Lost> {
         wait(self.limit, || self.script.is_served());
         let open = Request::Open { wire: self.wire, port, baud: BAUD };
-        if let Some(problem) = other_than_ok(self.ask(&open)?, "open the port") {
+        if let Some(problem) = self.ask(&open)?.problem("open the port") {
             return Ok(problem);
         }
         let mut courses = Vec::new();
@@ -174,9 +160,8 @@ impl Host<'_> {
                 Err(problem) => return Ok(problem),
             }
         }
-        if let Some(problem) =
-            other_than_ok(self.ask(&Request::Close { wire: self.wire })?, "close the port")
-        {
+        let close = Request::Close { wire: self.wire };
+        if let Some(problem) = self.ask(&close)?.problem("close the port") {
             return Ok(problem);
         }
         Ok(Answer::Ok(Output::Conversation(courses)))
@@ -188,7 +173,7 @@ impl Host<'_> {
         let (Some(frame), Some(call)) = (self.wire.encode(packet), &step.packet.call) else {
             return Ok(Err(Answer::NotAsked("no call sends this packet".to_owned())));
         };
-        self.script.begin(frame, step.answers.iter().map(|bursts| timed(bursts)));
+        self.script.begin(frame, bursts(&step.answers));
         self.record.turn();
         let call = CallTo { call: call.clone(), device: self.wire.device(packet) };
         let asked = Instant::now();
@@ -210,16 +195,16 @@ impl Host<'_> {
         if !step.hurries {
             wait(self.limit, || self.script.is_over());
         }
-        let (line, more) = self.record.turn();
+        let Passing { line, more } = self.record.turn();
         let returned = match reply {
             Heard::Ok(ok) => match devices(&ok) {
                 Ok(devices) => Returned::Devices(devices),
                 Err(misfit) => return Ok(Err(Answer::Faulty(misfit.what))),
             },
-            Heard::Err(CallError { class: Trouble::Internal, detail }) => {
-                return Ok(Err(Answer::Rejected(Rejection { class: Fault::Internal, detail })));
-            }
-            Heard::Err(error) => Returned::Err(error),
+            Heard::Err(error) => match own(error) {
+                Ok(error) => Returned::Err(error),
+                Err(answer) => return Ok(Err(answer)),
+            },
             Heard::Other(answer) => return Ok(Err(answer)),
         };
         if !step.late.is_empty() {
@@ -231,44 +216,8 @@ impl Host<'_> {
     }
 
     fn ask(&mut self, request: &Request<'_>) -> Result<Heard, Lost> {
-        self.conversation.send(request);
-        let (_, reply) = self.conversation.receive(self.limit)?;
-        Ok(match reply {
-            Ok(Reply::Ok(ok)) => Heard::Ok(ok.get().to_owned()),
-            Ok(Reply::Err(raw)) => match error::<CallError>(&raw) {
-                Ok(CallError { class, detail }) => {
-                    Heard::Err(CallError { class, detail: legible(&detail, LONGEST_TEXT) })
-                }
-                Err(malformed) => Heard::Other(Answer::Faulty(malformed.to_string())),
-            },
-            Ok(Reply::Skip(reason)) => Heard::Other(Answer::Skipped(reason)),
-            Err(malformed) => Heard::Other(Answer::Faulty(malformed.to_string())),
-        })
+        ask(self.conversation, self.limit, request)
     }
-}
-
-/// A reply of an adapter for a host.
-enum Heard {
-    Ok(String),
-    Err(CallError),
-    Other(Answer),
-}
-
-/// Why a port is not open, or not closed.
-fn other_than_ok(heard: Heard, what: &str) -> Option<Answer> {
-    match heard {
-        Heard::Ok(_) => None,
-        Heard::Err(CallError { class, detail }) => {
-            Some(Answer::Faulty(format!("it did not {what} ({class}: {detail})")))
-        }
-        Heard::Other(answer) => Some(answer),
-    }
-}
-
-fn timed(bursts: &[Burst]) -> Bursts {
-    let timed =
-        |burst: &Burst| (Duration::from_millis(burst.after_ms.into()), burst.bytes.0.clone());
-    bursts.iter().map(timed).collect()
 }
 
 /// Waits until something is done, so long at most.
@@ -277,8 +226,4 @@ fn wait(limit: Duration, is_done: impl Fn() -> bool) {
     while !is_done() && begun.elapsed() < limit {
         thread::sleep(LOOK);
     }
-}
-
-fn milliseconds(time: Duration) -> u64 {
-    u64::try_from(time.as_millis()).unwrap_or(u64::MAX)
 }

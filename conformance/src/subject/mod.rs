@@ -2,17 +2,27 @@
 
 mod adapter;
 mod builtin;
+mod exchange;
+pub(crate) mod heard;
 #[cfg(unix)]
 mod host;
+mod passing;
 
-#[cfg(not(unix))]
+use std::time::Duration;
+
+use actucheck_spec::wire::Wire;
+
 use crate::adapter::conversation::{Conversation, Lost};
-use crate::adapter::{Hello, Output, Question, Rejection};
+use crate::adapter::{Burst, Hello, Output, Question, Rejection, Step};
+use crate::bus::Bursts;
+#[cfg(unix)]
+use crate::link::Links;
 
 pub use adapter::{Process, StartError};
 pub use builtin::Builtin;
-#[cfg(unix)]
-pub(crate) use host::converse;
+
+/// The rate that a host is told. Bytes on its line take no time.
+const BAUD: u32 = 1_000_000;
 
 /// An implementation that can be asked.
 pub trait Subject {
@@ -92,13 +102,75 @@ pub enum Answer {
     NotAsked(String),
 }
 
-/// This system has no pseudo-terminals.
-#[cfg(not(unix))]
-pub(crate) fn converse(
-    _: &mut Conversation,
-    _: std::time::Duration,
-    _: crate::adapter::Wire,
-    _: &[crate::adapter::Step],
-) -> Result<Answer, Lost> {
-    Ok(Answer::Skipped("this system has no pseudo-terminals".to_owned()))
+/// Where a host makes its calls.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Line {
+    /// On a port in memory, which the adapter has, with a clock of its own.
+    Memory,
+    /// On a port of the operating system.
+    System,
+}
+
+impl Line {
+    /// The best one of an adapter: on a port in memory nobody waits.
+    pub(crate) fn of(hello: &Hello) -> Self {
+        if hello.offers("exchange") { Self::Memory } else { Self::System }
+    }
+
+    /// Lets a host make calls on a line of its own. Returns what became of them, or what else the adapter
+    /// answers.
+    ///
+    /// # Errors
+    /// If no later reply of the adapter can be trusted.
+    pub(crate) fn converse(
+        self,
+        conversation: &mut Conversation,
+        limit: Duration,
+        wire: Wire,
+        steps: &[Step],
+    ) -> Result<Answer, Lost> {
+        match self {
+            Self::Memory => exchange::converse(conversation, limit, wire, steps),
+            #[cfg(unix)]
+            Self::System => host::converse(conversation, limit, wire, steps),
+            #[cfg(not(unix))]
+            Self::System => Ok(Answer::Skipped("this system has no pseudo-terminals".to_owned())),
+        }
+    }
+}
+
+/// A port that a host may open, and on which nobody plays devices.
+pub(crate) struct QuietPort {
+    /// What the host is told of it.
+    pub(crate) address: String,
+    #[cfg(unix)]
+    _links: Option<Links>,
+}
+
+impl QuietPort {
+    /// A port of such a line; an error is one sentence.
+    pub(crate) fn of(line: Line) -> Result<Self, String> {
+        match line {
+            Line::Memory => Ok(Self {
+                address: exchange::PORT.to_owned(),
+                #[cfg(unix)]
+                _links: None,
+            }),
+            #[cfg(unix)]
+            Line::System => {
+                let mut links = Links::default();
+                let port = links.pty(None).map_err(|error| error.to_string())?;
+                Ok(Self { address: port.address, _links: Some(links) })
+            }
+            #[cfg(not(unix))]
+            Line::System => Err("this system has no pseudo-terminals".to_owned()),
+        }
+    }
+}
+
+/// What answers a packet each time that it is heard, in the words of the bus.
+fn bursts(answers: &[Vec<Burst>]) -> impl Iterator<Item = Bursts> {
+    let timed =
+        |burst: &Burst| (Duration::from_millis(burst.after_ms.into()), burst.bytes.0.clone());
+    answers.iter().map(move |bursts| bursts.iter().map(timed).collect())
 }

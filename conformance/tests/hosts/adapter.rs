@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 use super::answer::Failure;
 use super::faults::{Fault, Switch};
 use super::host::Host;
+use super::memory::Play;
 use super::request::{CALLS, Call};
 
 /// The version of the adapter protocol.
@@ -17,7 +18,33 @@ const PROTOCOL: u32 = 3;
 pub(crate) struct Adapter {
     on: Switch,
     limit: Duration,
+    port: Kind,
     host: Option<Host>,
+}
+
+/// The ports that it opens, and the ops that it has for them.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Terminal,
+    Memory,
+}
+
+impl Kind {
+    /// The one with this name.
+    pub(crate) fn named(name: &str) -> Option<Self> {
+        match name {
+            "terminal" => Some(Self::Terminal),
+            "memory" => Some(Self::Memory),
+            _ => None,
+        }
+    }
+
+    const fn ops(self) -> [&'static str; 3] {
+        match self {
+            Self::Terminal => ["open", "call", "close"],
+            Self::Memory => ["open", "exchange", "close"],
+        }
+    }
 }
 
 #[derive(Deserialize)]
@@ -36,8 +63,8 @@ type Answer = (&'static str, Value);
 
 impl Adapter {
     /// An adapter of a host that waits so long for an answer.
-    pub(crate) fn new(on: Switch, limit: Duration) -> Self {
-        Self { on, limit, host: None }
+    pub(crate) fn new(on: Switch, limit: Duration, port: Kind) -> Self {
+        Self { on, limit, port, host: None }
     }
 
     /// Answers until `bye` or the end of the input.
@@ -57,10 +84,12 @@ impl Adapter {
 
     fn answer(&mut self, request: &Value) -> Answer {
         match request["op"].as_str() {
-            Some("hello") => ("ok", hello()),
-            Some("open" | "call") if request["wire"] != "dynamixel2" => skip("no such wire"),
+            Some("hello") => ("ok", self.hello()),
+            Some(op) if !self.port.ops().contains(&op) => skip("no such op"),
+            _ if request["wire"] != "dynamixel2" => skip("no such wire"),
             Some("open") => self.open(request),
             Some("call") => self.call(&request["call"]),
+            Some("exchange") => self.exchange(request),
             Some("close") => {
                 self.host = None;
                 ("ok", json!({}))
@@ -99,17 +128,40 @@ impl Adapter {
             Err(failure) => ("err", json!(failure)),
         }
     }
-}
 
-fn hello() -> Value {
-    json!({
-        "protocol": PROTOCOL,
-        "implementation": {"name": "host with a fault", "version": "1", "language": "Rust"},
-        "wires": ["dynamixel2"],
-        "roles": ["host"],
-        "ops": ["open", "call", "close"],
-        "calls": CALLS,
-    })
+    /// A call on the port in memory, with what the line plays.
+    fn exchange(&mut self, request: &Value) -> Answer {
+        let play = Play::deserialize(request).map_err(|error| error.to_string());
+        match (play, self.host.as_mut().and_then(Host::memory)) {
+            (Ok(play), Some(memory)) => memory.begin(play),
+            (Ok(_), None) => {}
+            (Err(error), _) => return ("err", json!(Failure::new("internal", error))),
+        }
+        let (field, content) = self.call(&request["call"]);
+        let is_exception = content["class"] == "internal";
+        match self.host.as_mut().and_then(Host::memory) {
+            Some(memory) if field != "skip" && !is_exception => {
+                let mut told = memory.end();
+                match field {
+                    "ok" => told["devices"] = content["devices"].clone(),
+                    error => told[error] = content,
+                }
+                ("ok", told)
+            }
+            _ => (field, content),
+        }
+    }
+
+    fn hello(&self) -> Value {
+        json!({
+            "protocol": PROTOCOL,
+            "implementation": {"name": "host with a fault", "version": "1", "language": "Rust"},
+            "wires": ["dynamixel2"],
+            "roles": ["host"],
+            "ops": self.port.ops(),
+            "calls": CALLS,
+        })
+    }
 }
 
 fn skip(reason: &str) -> Answer {

@@ -1,13 +1,14 @@
 //! The host: it makes a call and tells what came of it.
 
 use std::io;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use actucheck_spec::model::HexBytes;
 
 use super::answer::{Device, Devices, Failure, STATUS, blocks, judge, ping};
 use super::faults::{Fault, Switch};
 use super::inbox::{Inbox, Packet, Status};
+use super::memory::Memory;
 use super::packet::{BROADCAST, encode};
 use super::port::Port;
 use super::request::{Call, Request, Wanted};
@@ -41,6 +42,11 @@ impl Host {
             is_stuck: false,
             last: None,
         })
+    }
+
+    /// The port if it is in memory.
+    pub(crate) fn memory(&mut self) -> Option<&mut Memory> {
+        self.port.memory()
     }
 
     pub(crate) fn call(&mut self, call: &Call) -> Devices {
@@ -130,10 +136,10 @@ impl Host {
             sent.splice(..0, [0xFF, 0xFF]);
         }
         let times = if on.is(Fault::Floods) { 1000 } else { 1 };
-        let end = Instant::now() + self.limit;
+        let end = self.port.now() + self.limit;
         (0..times).try_for_each(|_| self.port.send(&sent, end))?;
         if on.is(Fault::DrainsAfterSending) {
-            std::thread::sleep(self.limit / 4);
+            self.port.sleep(self.limit / 4);
             self.port.drain()?;
         }
         Ok(sent)
@@ -143,7 +149,7 @@ impl Host {
     fn listen(&mut self, mut take: impl FnMut(&mut Inbox, Packet) -> bool) -> Result<(), Failure> {
         let on = self.on;
         let limit = if on.is(Fault::LimitTooShort) { self.limit / 10 } else { self.limit };
-        let mut end = Instant::now() + limit;
+        let mut end = self.port.now() + limit;
         let mut reads = 0;
         loop {
             let mut count = 0;
@@ -159,7 +165,7 @@ impl Host {
             let waits = on.is(Fault::WaitsForever)
                 || self.inbox.has_begun() && on.is(Fault::WaitsForeverForRest);
             // The line may never rest.
-            if Instant::now() >= end && !waits {
+            if self.port.now() >= end && !waits {
                 return Ok(());
             }
             let read = self.port.receive((!waits).then_some(end))?;
@@ -169,7 +175,7 @@ impl Host {
             reads += 1;
             self.inbox.push(&read);
             if on.is(Fault::LimitRestarts) {
-                end = Instant::now() + limit;
+                end = self.port.now() + limit;
             }
         }
     }
@@ -179,8 +185,8 @@ impl Host {
         if self.on.is(Fault::WaitsAfterBroadcast) {
             return self.one(sent, BROADCAST, 0);
         }
-        while self.on.is(Fault::WaitsForeverAfterBroadcast) {
-            std::thread::park();
+        if self.on.is(Fault::WaitsForeverAfterBroadcast) {
+            self.port.receive(None)?;
         }
         Ok(Vec::new())
     }
@@ -190,8 +196,9 @@ impl Host {
         let on = self.on;
         let mut answer = None;
         if on.is(Fault::AsksWhileListening) {
-            std::thread::sleep(self.limit / 4);
-            self.port.send(sent, Instant::now() + self.limit)?;
+            self.port.sleep(self.limit / 4);
+            let end = self.port.now() + self.limit;
+            self.port.send(sent, end)?;
         }
         self.listen(|inbox, packet| {
             let status = inbox.status(&packet, sent);

@@ -20,14 +20,14 @@ struct Run {
 }
 
 /// Checks the host with a fault by some checks.
-fn run(fault: &str, limit: &str, options: &[&str]) -> Run {
+fn run(fault: &str, limit: &str, port: &str, options: &[&str]) -> Run {
     let own = std::env::current_exe().unwrap();
     let output = Command::new(env!("CARGO_BIN_EXE_actucheck"))
         .args(["host", "--timeout", "1", "--report", "jsonl=-", "-q"])
         .args(options)
         .arg("--")
         .arg(own)
-        .args(["adapter", fault, limit])
+        .args(["adapter", fault, limit, port])
         .output()
         .unwrap();
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
@@ -37,23 +37,23 @@ fn run(fault: &str, limit: &str, options: &[&str]) -> Run {
     Run { status: output.status.code(), verdicts: verdicts.collect(), text }
 }
 
-/// What is wrong with the judgement of a fault; empty if nothing is.
-pub(crate) fn wrong(row: &Row) -> String {
+/// What is wrong with the judgement of a fault of a host on such a port; empty if nothing is.
+pub(crate) fn wrong(row: &Row, port: &str) -> String {
     let (check, expected, failures) = match row.judged {
         Judged::Fails(check) => (check, 1, &["fail", "timeout", "crash"][..]),
         Judged::Warns(check) => (check, 0, &["warn"][..]),
         Judged::Recorded | Judged::Passes | Judged::Unseen => ("basic.*", 0, &[][..]),
     };
     let id = format!("dynamixel2.host.{check}");
-    let run = run(row.name, HASTY, &["--select", &id]);
+    let run = run(row.name, HASTY, port, &["--select", &id]);
     let is_found = run.verdicts.iter().any(|verdict| failures.contains(&verdict.as_str()));
     let is_right = run.status == Some(expected) && (is_found || failures.is_empty());
     if is_right { String::new() } else { format!("{:?}: {}", run.status, run.text) }
 }
 
-/// What is said of the right host; empty if nothing is.
-pub(crate) fn right() -> String {
-    let run = run("none", PATIENT, &["--jobs", "2"]);
+/// What is said of the right host on such a port; empty if nothing is.
+pub(crate) fn right(port: &str) -> String {
+    let run = run("none", PATIENT, port, &["--jobs", "2"]);
     let is_right = run.status == Some(0) && run.verdicts.is_empty();
     if is_right { String::new() } else { format!("{:?} {:?}", run.status, run.verdicts) }
 }

@@ -9,6 +9,8 @@
 //! cargo test -q -p actucheck --test hosts -- adapter none # the right host, as an adapter
 //! cargo test -q -p actucheck --test hosts -- adapter no-drain 50
 //!                                   # one that waits 50 ms for an answer, and does not drain
+//! cargo test -q -p actucheck --test hosts -- adapter no-drain 50 memory
+//!                                   # the same on a port in memory, where nobody waits
 //! ```
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing, clippy::panic)] // tests may stop at a surprise
@@ -23,6 +25,7 @@ mod host;
 mod inbox;
 mod killing;
 mod line;
+mod memory;
 mod packet;
 mod port;
 mod request;
@@ -34,7 +37,7 @@ use std::time::Duration;
 
 use libtest_mimic::{Arguments, Failed, Trial};
 
-use self::adapter::Adapter;
+use self::adapter::{Adapter, Kind};
 use self::faults::{FAULTS, Judged, Switch};
 use self::shown::CASES;
 
@@ -47,21 +50,22 @@ const TRIES: usize = 3;
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-        ["adapter", fault] => adapter(fault, LIMIT),
-        ["adapter", fault, limit] => adapter(fault, limit),
+        ["adapter", fault] => adapter(fault, LIMIT, "terminal"),
+        ["adapter", fault, limit] => adapter(fault, limit, "terminal"),
+        ["adapter", fault, limit, port] => adapter(fault, limit, port),
         ["table"] => print_table(),
         _ => tests(),
     }
 }
 
-fn adapter(fault: &str, limit: &str) -> ExitCode {
-    let Some(switch) = Switch::named(fault) else {
-        eprintln!("`{fault}` is no fault; `table` prints them");
+fn adapter(fault: &str, limit: &str, port: &str) -> ExitCode {
+    let (Some(switch), Some(port)) = (Switch::named(fault), Kind::named(port)) else {
+        eprintln!("`{fault}` is no fault, or `{port}` no port; `table` prints the faults");
         return ExitCode::from(2);
     };
     let limit = Duration::from_millis(limit.parse().unwrap());
     // An error is the end of the pipe.
-    Adapter::new(switch, limit).run().map_or(ExitCode::FAILURE, |()| ExitCode::SUCCESS)
+    Adapter::new(switch, limit, port).run().map_or(ExitCode::FAILURE, |()| ExitCode::SUCCESS)
 }
 
 fn tests() -> ExitCode {
@@ -78,10 +82,17 @@ fn tests() -> ExitCode {
     let cases =
         CASES.iter().map(|case| test(format!("fault::{}", case.fault), Box::new(|| case.wrong())));
     let killed = FAULTS.iter().filter(|row| !matches!(row.judged, Judged::Unseen));
-    let killed =
-        killed.map(|row| test(format!("killed::{}", row.name), Box::new(|| killing::wrong(row))));
+    let killed = killed.flat_map(|row| {
+        ["terminal", "memory"].map(|port| {
+            let name = format!("killed::{}::{port}", row.name);
+            test(name, Box::new(move || killing::wrong(row, port)))
+        })
+    });
     let mut trials: Vec<_> = cases.chain(killed).collect();
-    trials.push(test("killed::none_is_right".to_owned(), Box::new(killing::right)));
+    for port in ["terminal", "memory"] {
+        let name = format!("killed::none_is_right::{port}");
+        trials.push(test(name, Box::new(move || killing::right(port))));
+    }
     trials.push(test("bus::every_call".to_owned(), Box::new(bus::every_call)));
     trials.push(test("faults::each_is_shown".to_owned(), Box::new(shown)));
     trials.push(test("faults::each_has_one_place".to_owned(), Box::new(one_place)));
@@ -95,6 +106,7 @@ fn one_place() -> String {
         include_str!("answer.rs"),
         include_str!("host.rs"),
         include_str!("inbox.rs"),
+        include_str!("memory.rs"),
         include_str!("packet.rs"),
         include_str!("port.rs"),
         include_str!("request.rs"),

@@ -7,6 +7,7 @@
 //! the check.
 
 mod example;
+mod hosts;
 mod points;
 mod shape;
 mod talk;

@@ -6,12 +6,11 @@ use std::time::Duration;
 
 use super::example::Example;
 use super::talk::{Answer, ONLY_REPLIES, TOO_LONG, Talk, interrupted};
-use super::{Point, Problem, Report, shape};
+use super::{Point, Problem, Report, hosts, shape};
 use crate::adapter::conversation::ended;
 use crate::adapter::process::Line;
-use crate::adapter::{Contradiction, Greeting, Hello, Question, Request, Settings, VERSIONS};
+use crate::adapter::{Contradiction, Greeting, Hello, Request, Settings, VERSIONS};
 use crate::run::not_offered;
-use crate::subject;
 use crate::suite::check::Check;
 
 /// Size of a line, in bytes, that overflows any usual fixed buffer.
@@ -22,7 +21,7 @@ const MAX_AT_ONCE: usize = 64;
 const QUIET: Duration = Duration::from_millis(100);
 
 /// A remark, which may be empty; or the problem.
-type Found = Result<String, Problem>;
+pub(super) type Found = Result<String, Problem>;
 
 /// A question and its answer.
 type Answered<'a> = (&'a Example, Answer);
@@ -52,7 +51,7 @@ pub(super) fn look(
 }
 
 /// The conversation, and the results so far.
-struct Points {
+pub(super) struct Points {
     talk: Talk,
     points: Vec<Point>,
 }
@@ -97,7 +96,7 @@ impl Points {
             at_once(talk, hello.max_in_flight.min(MAX_AT_ONCE), &answered)
         })?;
         if let Some(check) = calls.iter().find(|check| not_offered(hello, check).is_none()) {
-            self.point("makes a call through a port", |talk| through_a_port(talk, check))?;
+            hosts::look(self, hello, check)?;
         }
         self.point("reads a long line", long_line)?;
         self.point("runs beside another of its kind", |_| another())?;
@@ -105,7 +104,7 @@ impl Points {
         self.point("ends at bye", bye)
     }
 
-    fn point(
+    pub(super) fn point(
         &mut self,
         name: impl Into<String>,
         look: impl FnOnce(&mut Talk) -> Found,
@@ -284,20 +283,6 @@ fn same(
         return Ok(());
     }
     Err(Problem::new(format!("{} is answered another way than before", example.name), mend))
-}
-
-/// What the library makes of the call is its own matter.
-fn through_a_port(talk: &mut Talk, check: &Check) -> Found {
-    let Question::Converse { wire, steps } = &check.question else { return Ok(String::new()) };
-    match talk.converse(*wire, steps)? {
-        subject::Answer::Faulty(what) => Err(Problem::new(
-            what,
-            "answer `open` and `close` with {\"ok\": {}}, and `call` with what the library's user gets: \
-             {\"ok\": {\"devices\": [{\"id\": 1, \"data\": \"a6000000\"}]}}",
-        )),
-        subject::Answer::Skipped(reason) => Ok(format!("skipped: {reason}")),
-        answer => Ok(check.clone().judge(answer).detail),
-    }
 }
 
 fn long_line(talk: &mut Talk) -> Found {

@@ -8,10 +8,10 @@ use serde_json::Value;
 
 use super::{Problem, Said};
 use crate::adapter::conversation::{Conversation, Lost, Malformed, Reply, ended, rejection};
-use crate::adapter::process::Line;
+use crate::adapter::process;
 use crate::adapter::{Misfit, Rejection, Settings, Step, Wire, reading};
-use crate::subject;
-use crate::subject::converse;
+use crate::subject::heard::{Heard, hear};
+use crate::subject::{self, Line};
 
 pub(super) const ONLY_REPLIES: &str = "write nothing but replies to standard output, a JSON object a line; \
     messages go to standard error";
@@ -39,14 +39,21 @@ impl Talk {
         Ok(Self { conversation, limit: settings.timeouts.request })
     }
 
-    /// Lets the adapter make calls through a port.
+    /// Lets the adapter make calls on a line.
     pub(super) fn converse(
         &mut self,
+        line: Line,
         wire: Wire,
         steps: &[Step],
     ) -> Result<subject::Answer, Problem> {
-        let answer = converse(&mut self.conversation, self.limit, wire, steps);
+        let answer = line.converse(&mut self.conversation, self.limit, wire, steps);
         answer.map_err(|lost| without_reply(&lost))
+    }
+
+    /// Sends a request for an op of a host and waits for its reply.
+    pub(super) fn hear_host(&mut self, request: &Value) -> Result<Heard, Problem> {
+        self.conversation.send_text(&request.to_string());
+        hear(&mut self.conversation, self.limit).map_err(|lost| without_reply(&lost))
     }
 
     /// Sends a request and waits for its reply.
@@ -67,7 +74,7 @@ impl Talk {
     }
 
     /// Waits for anything that the adapter does without a request.
-    pub(super) fn hear(&mut self, limit: Duration) -> Option<Line> {
+    pub(super) fn hear(&mut self, limit: Duration) -> Option<process::Line> {
         self.conversation.hear(limit)
     }
 

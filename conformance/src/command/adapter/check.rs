@@ -81,7 +81,10 @@ fn write(report: &Report, command: &str, verbose: bool, out: &mut impl Write) ->
             "it offers no op yet; implement one, then run"
         };
         let is_host_only = report.hello.as_ref().is_some_and(|hello| {
-            hello.ops.iter().all(|op| ["open", "call", "close", "hello", "bye"].contains(&&**op))
+            hello
+                .ops
+                .iter()
+                .all(|op| ["open", "call", "exchange", "close", "hello", "bye"].contains(&&**op))
         });
         let what = if offers && is_host_only { "host" } else { "codec" };
         return writeln!(out, "\n{style}well{style:#}  {next}: actucheck {what} -- {command}");

@@ -1,0 +1,141 @@
+//! What the adapter of a host does with calls, and with ports.
+
+use std::ops::ControlFlow;
+
+use actucheck_spec::wire::Wire;
+use serde_json::{Value, json};
+
+use super::Problem;
+use super::points::{Found, Points};
+use super::talk::Talk;
+use crate::adapter::{CallError, Hello, Question, Trouble};
+use crate::subject::heard::Heard;
+use crate::subject::{Answer, Line, QuietPort};
+use crate::suite::check::Check;
+
+/// A way to make calls.
+#[derive(Clone, Copy)]
+struct Way {
+    op: &'static str,
+    line: Line,
+    /// The port, for the names of points.
+    port: &'static str,
+    /// An `ok`, for who has another one.
+    ok: &'static str,
+}
+
+const WAYS: [Way; 2] = [
+    Way {
+        op: "call",
+        line: Line::System,
+        port: "a port",
+        ok: r#"{"devices": [{"id": 1, "data": "a6000000"}]}"#,
+    },
+    Way {
+        op: "exchange",
+        line: Line::Memory,
+        port: "a port in memory",
+        ok: r#"{"sent": [{"at_ms": 0, "bytes": "fffffd…"}], "ms": 1, "devices": [{"id": 1, "data": "a6000000"}]}"#,
+    },
+];
+
+/// Looks at each way that the adapter offers.
+pub(super) fn look(points: &mut Points, hello: &Hello, check: &Check) -> ControlFlow<()> {
+    for way in WAYS.iter().filter(|way| hello.offers(way.op)) {
+        let (port, wire) = (way.port, check.question.wire());
+        points.point(format!("makes a call through {port}"), |talk| way.makes(talk, check))?;
+        points.point(format!("skips a call that it does not know through {port}"), |talk| {
+            way.skips_a_name(talk, wire)
+        })?;
+        points.point(format!("opens and closes {port} as it is told"), |talk| {
+            way.opens_and_closes(talk, wire)
+        })?;
+    }
+    ControlFlow::Continue(())
+}
+
+impl Way {
+    /// What the library makes of the call is its own matter.
+    fn makes(&self, talk: &mut Talk, check: &Check) -> Found {
+        let Question::Converse { wire, steps } = &check.question else { return Ok(String::new()) };
+        match talk.converse(self.line, *wire, steps)? {
+            Answer::Faulty(what) => {
+                let Self { op, ok, .. } = self;
+                let mend = format!(
+                    "answer `open` and `close` with {{\"ok\": {{}}}}, and `{op}` with what the library's \
+                     user gets: {{\"ok\": {ok}}}"
+                );
+                Err(Problem::new(what, mend))
+            }
+            Answer::Skipped(reason) => Ok(format!("skipped: {reason}")),
+            answer => Ok(check.clone().judge(answer).detail),
+        }
+    }
+
+    fn skips_a_name(&self, talk: &mut Talk, wire: Wire) -> Found {
+        let port = QuietPort::of(self.line).map_err(closed)?;
+        done(talk, &open(wire, &port.address), "open")?;
+        let heard = talk.hear_host(&self.call(wire, "no-such-call"))?;
+        done(talk, &json!({"op": "close", "wire": wire}), "close")?;
+        match heard {
+            Heard::Other(Answer::Skipped(_)) => Ok(String::new()),
+            _ => Err(Problem::new(
+                "the reply to a call that there is not is no `skip`",
+                "look at the call's `name` first, and skip those that the library does not have",
+            )),
+        }
+    }
+
+    /// Opens a port twice, closes it twice, and makes a call then.
+    fn opens_and_closes(&self, talk: &mut Talk, wire: Wire) -> Found {
+        let port = QuietPort::of(self.line).map_err(closed)?;
+        for op in ["open", "open", "close", "close"] {
+            let request = match op {
+                "open" => open(wire, &port.address),
+                _ => json!({"op": op, "wire": wire}),
+            };
+            done(talk, &request, op)?;
+        }
+        match talk.hear_host(&self.call(wire, "ping"))? {
+            Heard::Err(CallError { class: Trouble::Port, .. })
+            | Heard::Other(Answer::Skipped(_)) => Ok(String::new()),
+            _ => Err(Problem::new(
+                "a call without an open port is no `err` of the class `port`",
+                "answer {\"err\": {\"class\": \"port\", \"detail\": \"no port is open\"}} before `open` and \
+                 after `close`",
+            )),
+        }
+    }
+
+    /// The request for a call without parameters.
+    fn call(&self, wire: Wire, name: &str) -> Value {
+        let call = json!({"name": name, "device": 1});
+        match self.line {
+            Line::System => json!({"op": self.op, "wire": wire, "call": call}),
+            Line::Memory => json!({
+                "op": self.op, "wire": wire, "call": call, "frame": "00", "answers": [], "late": "",
+                "hurries": false,
+            }),
+        }
+    }
+}
+
+fn open(wire: Wire, port: &str) -> Value {
+    json!({"op": "open", "wire": wire, "port": port, "baud": 1_000_000})
+}
+
+/// Asks for what has no result.
+fn done(talk: &mut Talk, request: &Value, what: &str) -> Result<(), Problem> {
+    match talk.hear_host(request)? {
+        Heard::Ok(_) => Ok(()),
+        _ => Err(Problem::new(
+            format!("the reply to `{what}` is no `ok`"),
+            "answer `open` with {\"ok\": {}} when it has closed the port that was open and opened the one \
+             that it names, and `close` whether a port is open or not",
+        )),
+    }
+}
+
+fn closed(error: String) -> Problem {
+    Problem::new(error, "the system gives no port; check the adapter on another machine")
+}
