@@ -26,7 +26,7 @@ impl Answers {
         self.heard.push(byte);
         let surplus = self.heard.len().saturating_sub(self.packet.len());
         self.heard.drain(..surplus);
-        let is_it = self.heard == self.packet;
+        let is_it = !self.packet.is_empty() && self.heard == self.packet;
         is_it.then(|| self.left.pop_front().unwrap_or_default())
     }
 

@@ -131,6 +131,10 @@ struct Own {
     readings: &'static [Reading],
     /// Puts devices on it, at least one.
     connect: Connect,
+    /// What is answered on a line that plays a script, whatever the script says: what a host may ask before
+    /// it makes calls, and each time the answers.
+    #[cfg(unix)]
+    greeted: fn() -> Vec<script::Greeted>,
 }
 
 type Connect = fn(&Spec, &[Place], &Setup) -> Result<Box<dyn Devices>, PlaceError>;
@@ -146,6 +150,8 @@ static WIRES: [Own; 2] = [
         names: innfos::names,
         readings: innfos::READINGS,
         connect: innfos::board,
+        #[cfg(unix)]
+        greeted: innfos::greeted,
     },
     Own {
         wire: wire::dynamixel2::WIRE,
@@ -156,6 +162,8 @@ static WIRES: [Own; 2] = [
         names: dynamixel2::names,
         readings: dynamixel2::READINGS,
         connect: dynamixel2::line,
+        #[cfg(unix)]
+        greeted: Vec::new,
     },
 ];
 
@@ -209,6 +217,7 @@ impl VirtualBus {
     #[cfg(unix)]
     pub(crate) fn scripted(wire: Wire, script: Script) -> Option<Self> {
         let own = WIRES.iter().find(|own| own.wire == wire)?;
+        script.greet((own.greeted)());
         let (devices, faults) = (Box::new(script), Faults::new(Vec::new(), 0));
         Some(Self {
             own,
@@ -224,6 +233,12 @@ impl VirtualBus {
     #[must_use]
     pub const fn wire(&self) -> Wire {
         self.own.wire
+    }
+
+    /// Whether an answer is a datagram of its own.
+    #[must_use]
+    pub const fn has_datagrams(&self) -> bool {
+        self.own.has_datagrams
     }
 
     /// Takes what the only host sends.

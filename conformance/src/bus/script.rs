@@ -20,6 +20,8 @@ pub(crate) struct Script(Arc<Mutex<Scene>>);
 struct Scene {
     answers: Answers,
     is_heard: bool,
+    /// What else is answered.
+    greetings: Greetings,
     /// How often the line was looked at, and when last.
     looks: u32,
     looked: Option<Duration>,
@@ -36,7 +38,13 @@ impl Script {
     pub(crate) fn begin(&self, packet: Vec<u8>, answers: impl IntoIterator<Item = Bursts>) {
         let (answers, mut scene) = (Answers::to(packet, answers), self.scene());
         let Scene { looked, was_late, coming, .. } = *scene;
-        *scene = Scene { answers, looked, was_late, coming, ..Scene::default() };
+        let greetings = mem::take(&mut scene.greetings);
+        *scene = Scene { answers, greetings, looked, was_late, coming, ..Scene::default() };
+    }
+
+    /// Answers these packets too, unless one of them is the script's.
+    pub(super) fn greet(&self, greeted: Vec<Greeted>) {
+        self.scene().greetings = Greetings::to(greeted);
     }
 
     /// Whether the packet was heard.
@@ -101,6 +109,34 @@ impl Script {
     }
 }
 
+/// A packet, and the packets that answer it.
+pub(super) type Greeted = (Vec<u8>, Vec<Vec<u8>>);
+
+/// Packets that are answered at once, each time that they are heard.
+#[derive(Debug, Default)]
+struct Greetings {
+    greeted: Vec<Greeted>,
+    /// The last bytes that were heard, as many as the longest packet has.
+    heard: Vec<u8>,
+}
+
+impl Greetings {
+    /// What answers these packets.
+    fn to(greeted: Vec<Greeted>) -> Self {
+        Self { greeted, heard: Vec::new() }
+    }
+
+    /// Takes a byte. Returns what answers the packet that ends with it, if it is one of them.
+    fn hear(&mut self, byte: u8) -> Option<Bursts> {
+        let longest = self.greeted.iter().map(|(packet, _)| packet.len()).max()?;
+        self.heard.push(byte);
+        let surplus = self.heard.len().saturating_sub(longest);
+        self.heard.drain(..surplus);
+        let (_, answers) = self.greeted.iter().find(|(packet, _)| self.heard.ends_with(packet))?;
+        Some(answers.iter().map(|answer| (Duration::ZERO, answer.clone())).collect())
+    }
+}
+
 impl Devices for Script {
     fn hear(&mut self, bytes: &[u8], now: Duration, send: &mut dyn FnMut(Chunk)) -> Duration {
         let mut scene = self.scene();
@@ -110,9 +146,12 @@ impl Devices for Script {
             bursts.push((Duration::ZERO, mem::take(&mut play)));
         }
         for byte in bytes {
+            let greeted = scene.greetings.hear(*byte);
             if let Some(answer) = scene.answers.hear(*byte) {
                 scene.is_heard = true;
                 bursts.extend(answer);
+            } else {
+                bursts.extend(greeted.unwrap_or_default());
             }
         }
         for (after, bytes) in bursts {

@@ -118,7 +118,8 @@ impl Channel for Udp {
     }
 
     fn write(&mut self, bytes: &[u8], peer: Option<SocketAddr>) -> usize {
-        let Some(peer) = peer else { return 0 };
+        // What nobody has asked for goes to whoever was heard last.
+        let Some(peer) = peer.or(self.peer) else { return 0 };
         let sent = bytes.chunks(DATAGRAM).map_while(|part| self.socket.send_to(part, peer).ok());
         sent.sum()
     }

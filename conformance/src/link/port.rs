@@ -29,6 +29,14 @@ impl Port {
     fn of(kind: &'static str, address: SocketAddr) -> Self {
         Self { kind, address: address.to_string(), link: None }
     }
+
+    /// What an adapter is told to open: a path, or an address with its kind, such as
+    /// `udp://127.0.0.1:40000`.
+    #[must_use]
+    pub fn name(&self) -> String {
+        let Self { kind, address, .. } = self;
+        if *kind == "pty" { address.clone() } else { format!("{kind}://{address}") }
+    }
 }
 
 /// Someone who sends and gets answers.

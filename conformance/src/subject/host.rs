@@ -1,5 +1,6 @@
 //! A host behind an adapter: it is asked for calls, on a line that plays a script.
 
+use std::net::{Ipv4Addr, SocketAddr};
 use std::ops::ControlFlow;
 use std::os::fd::AsFd as _;
 use std::os::unix::net::UnixStream;
@@ -17,7 +18,7 @@ use crate::adapter::{
     CallError, CallTo, Course, Output, Request, Returned, Step, Trouble, devices,
 };
 use crate::bus::{Script, VirtualBus};
-use crate::link::{Links, Watch};
+use crate::link::{LinkError, Links, Port, Watch};
 
 /// How often the line is looked at for the packet of a call that has returned.
 const WRITTEN: u32 = 50;
@@ -112,15 +113,15 @@ fn once(
     steps: &[Step],
 ) -> Result<(Answer, bool), Lost> {
     let (script, record) = (Script::default(), Record::default());
-    let mut links = Links::default();
-    let opened = links.pty(None).map_err(|error| error.to_string());
-    let ends = UnixStream::pair().map_err(|error| error.to_string());
-    let (port, (stop, stopped)) = match (opened, ends) {
-        (Ok(port), Ok(ends)) => (port.address, ends),
-        (Err(error), _) | (_, Err(error)) => return Ok((Answer::NotAsked(error), false)),
-    };
     let Some(mut bus) = VirtualBus::scripted(wire, script.clone()) else {
         return Ok((Answer::NotAsked(format!("there is no line for {wire}")), false));
+    };
+    let mut links = Links::default();
+    let opened = open(&mut links, &bus).map_err(|error| error.to_string());
+    let ends = UnixStream::pair().map_err(|error| error.to_string());
+    let (port, (stop, stopped)) = match (opened, ends) {
+        (Ok(port), Ok(ends)) => (port.name(), ends),
+        (Err(error), _) | (_, Err(error)) => return Ok((Answer::NotAsked(error), false)),
     };
     let mut watcher = Watcher { script: script.clone(), record: record.clone() };
     thread::scope(|scope| {
@@ -135,6 +136,14 @@ fn once(
         };
         Ok((answer, script.was_late()))
     })
+}
+
+/// The port that a host of the bus's wire gets.
+fn open(links: &mut Links, bus: &VirtualBus) -> Result<Port, LinkError> {
+    if bus.has_datagrams() {
+        return links.udp(SocketAddr::from((Ipv4Addr::LOCALHOST, 0)));
+    }
+    links.pty(None)
 }
 
 /// A host with an open line.

@@ -11,6 +11,8 @@
 
 mod actuator;
 mod board;
+#[cfg(unix)]
+mod greeted;
 mod readings;
 mod shaft;
 mod values;
@@ -28,6 +30,8 @@ use crate::device::Tables;
 use crate::names::as_word;
 use actuator::Actuator;
 use board::Board;
+#[cfg(unix)]
+pub(super) use greeted::greeted;
 use readings::BoardReadings;
 
 /// The addresses of actuators.
