@@ -169,6 +169,9 @@ pub struct Reported {
     /// Of `ping`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub firmware_version: Option<u8>,
+    /// Of a call that looks for devices: by what the device differs from others.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mac: Option<HexBytes>,
     /// The error number of its answer, if the library hands on what a device with an error says.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error: Option<u8>,
@@ -183,12 +186,13 @@ impl Reported {
     #[must_use]
     pub fn fits(&self, right: &Self) -> bool {
         let told = |same: Option<bool>| same.unwrap_or(true);
-        let Self { id, data, model_number, firmware_version, error, alert } = self;
+        let Self { id, data, model_number, firmware_version, mac, error, alert } = self;
         *id == right.id
             && (*data == right.data || right.data.is_none() && data.as_ref().is_some_and(is_empty))
             && error.unwrap_or_default() == right.error.unwrap_or_default()
             && told(model_number.map(|number| Some(number) == right.model_number))
             && told(firmware_version.map(|version| Some(version) == right.firmware_version))
+            && told(mac.as_ref().map(|mac| Some(mac) == right.mac.as_ref()))
             && told(alert.map(|alert| alert == right.alert.unwrap_or_default()))
     }
 }
@@ -240,11 +244,12 @@ impl fmt::Display for Trouble {
 /// In words, such as `1: data a6000000`.
 impl fmt::Display for Reported {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { id, data, model_number, firmware_version, error, alert } = self;
+        let Self { id, data, model_number, firmware_version, mac, error, alert } = self;
         let facts = [
             data.as_ref().map(|data| format!("data {data}")),
             model_number.map(|number| format!("model {number}")),
             firmware_version.map(|version| format!("firmware {version}")),
+            mac.as_ref().map(|mac| format!("MAC address {mac}")),
             error.map(|error| format!("error {error}")),
             alert.map(|alert| format!("alert {}", if alert { "on" } else { "off" })),
         ];

@@ -224,7 +224,7 @@ fn kinds() -> String {
 
 /// Whether the bytes in an object are written as the adapter protocol requires.
 fn lowercase(value: &Value) -> Result<(), Misfit> {
-    let bytes = |name: &str| matches!(name, "bytes" | "params" | "data");
+    let bytes = |name: &str| matches!(name, "bytes" | "params" | "data" | "mac");
     match value {
         Value::Object(fields) => fields.iter().try_for_each(|(name, value)| match value {
             Value::String(text) if bytes(name) => digits(name, text),

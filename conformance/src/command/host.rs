@@ -18,13 +18,15 @@ Examples:
       only what each call sends, and what it returns of a right answer
   actucheck host --select '*.read.flip-*' --report html=report.html -- ./my-adapter
       answers with one byte changed, with a page to read
+  actucheck host --wire innfos -- conformance/adapters/innfos-python/run
+      a library that sends datagrams
   actucheck replay dynamixel2.host.after.action/read -- ./my-adapter
       one conversation again
 
-For each check the host opens a pseudo-terminal and makes calls, and the other end plays devices by a \
-script: right answers, damaged and late ones, those of others, or none. What it sends, what it returns, \
-that it returns within --timeout, and that the next call is right, is judged by the documents. What they \
-leave unspecified is recorded. `actucheck adapter guide` tells how an adapter opens a port.";
+For each check the host opens a port and makes calls, and the other end plays devices by a script: right \
+answers, damaged and late ones, those of others, or none. The port is a pseudo-terminal, or a UDP port of this \
+machine where packets are datagrams. What the host sends, what it returns, that it returns within --timeout, \
+and that the next call is right, is judged by the documents. What they leave unspecified is recorded. `actucheck adapter guide` tells how an adapter opens a port.";
 
 /// Checks a host: a library that talks with devices, behind an adapter
 #[derive(Debug, Args)]

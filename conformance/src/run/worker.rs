@@ -306,7 +306,9 @@ pub(crate) fn not_offered(hello: &Hello, check: &Check) -> Option<String> {
         return Some(format!("only a {role} does this, and the adapter plays no {role}"));
     }
     if let (Question::Converse { steps, .. }, Some(offered)) = (&check.question, &hello.calls) {
-        let mut calls = steps.iter().filter_map(|step| Some(step.packet.call.as_ref()?.name));
+        // A general call has no name of its own that `hello` could state.
+        let calls = steps.iter().filter_map(|step| step.packet.call.as_ref());
+        let mut calls = calls.filter(|call| !call.is_general).map(|call| call.name);
         let missing = calls.find(|name| !offered.iter().any(|call| call == name));
         return missing.map(|name| format!("the library has no {name}"));
     }

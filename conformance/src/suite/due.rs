@@ -5,6 +5,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::check::Demand;
+use super::host;
 use crate::adapter::{CallError, Course, Question, Reported, Returned, Step, Trouble};
 use crate::verdict::Verdict;
 
@@ -48,7 +49,7 @@ pub(super) fn judge(question: &Question, demand: &Demand, courses: &[Course]) ->
         return unjudged();
     };
     let frame = wire.encode(&packet.packet).unwrap_or_default();
-    let sent = course.sent();
+    let sent = host::sent(*wire, &frame, course);
     let has = |sent: &[u8]| sent.windows(frame.len().max(1)).any(|part| part == frame);
     match demand {
         Demand::Send if sent.is_empty() => fail("the call sends nothing"),

@@ -34,7 +34,7 @@ const CHECKS: [(&str, &str); 20] = [
 ];
 
 /// The checks whose calls an adapter with a port is asked for; the first of a wire that it offers.
-const CALLS: [&str; 1] = ["dynamixel2.host.basic.read/result"];
+const CALLS: [&str; 2] = ["dynamixel2.host.basic.read/result", "innfos.host.basic.06/result"];
 
 /// The checks with calls.
 pub(super) fn calls(plans: &[Plan<'_>]) -> Vec<Check> {

@@ -1,7 +1,7 @@
 //! Checks of a codec, one module per wire.
 
 pub(crate) mod dynamixel2;
-mod innfos;
+pub(super) mod innfos;
 mod vector;
 
 use std::borrow::Cow;

@@ -12,7 +12,7 @@ pub(super) mod basics;
 mod damaged;
 pub(super) mod messages;
 mod packets;
-mod tables;
+pub(in crate::suite) mod tables;
 mod unspecified;
 mod vectors;
 

@@ -14,18 +14,25 @@ pub(super) const fn of_each_size(direction: Direction) -> &'static [u8] {
 }
 
 /// Packets in this direction, one per command that has one and leaves nothing unspecified.
-pub(super) fn all(author: Author<'_>, direction: Direction) -> impl Iterator<Item = Packet> {
+pub(in crate::suite) fn all(
+    author: Author<'_>,
+    direction: Direction,
+) -> impl Iterator<Item = Packet> {
     let innfos = rows(author);
     innfos.commands.iter().filter_map(move |row| of_row(innfos, row, direction))
 }
 
 /// The packet of [`all`] with this command.
-pub(super) fn of_command(author: Author<'_>, direction: Direction, code: u8) -> Option<Packet> {
+pub(in crate::suite) fn of_command(
+    author: Author<'_>,
+    direction: Direction,
+    code: u8,
+) -> Option<Packet> {
     of_row(rows(author), rows(author).command(code)?, direction)
 }
 
 /// The wire's tables.
-pub(super) const fn rows(author: Author<'_>) -> &Innfos {
+pub(in crate::suite) const fn rows(author: Author<'_>) -> &Innfos {
     &author.spec.wires.innfos.content
 }
 

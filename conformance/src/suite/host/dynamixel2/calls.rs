@@ -146,7 +146,8 @@ fn every() -> Vec<Right> {
 pub(super) fn basics(author: &Author<'_>) -> Vec<Check> {
     let [sent, result] = BASIC;
     let both = |right: Right| {
-        let id = |about| basic(WIRE, right.call(), about);
+        let stem = right.call().replace('_', "-");
+        let id = |about| basic(WIRE, &stem, about);
         let [to_send, to_return] = right.requirements;
         [
             author.sent(id(sent), to_send, vec![right.step()]),
