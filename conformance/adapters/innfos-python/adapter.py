@@ -1,8 +1,9 @@
-"""Conformance adapter for innfos.py and commands.py."""
+"""Conformance adapter for innfos.py, commands.py and board.py."""
 
 import commands
 import innfos
 from adapter_kit import Rejected, serve, unhex
+from host import OPS as HOST
 
 
 def packet_object(kind, packet):
@@ -67,5 +68,5 @@ if __name__ == "__main__":
         {"name": "innfos-python", "version": "1"},
         ["host", "device"],
         "innfos",
-        {op.__name__: op for op in (crc, encode, decode, stream, message)},
+        {op.__name__: op for op in (crc, encode, decode, stream, message)} | HOST,
     )

@@ -124,6 +124,9 @@ class Scaled:
             raise NoMeaning(f"{value} is out of range") from None
 
 
+# The question for the actuators, and the sizes of their answers.
+QUERY, MAC_SIZES = 0x02, (4, 6)
+
 FLAG, MODE, ALARM_BITS = Flag(FLAGS, 0), Flag(MODES, 1), Alarms()
 IQ8, IQ24 = Scaled(2, 2**8), Scaled(4, 2**24)
 CURRENT, SPEED = Scaled(4, 2**24, 0), Scaled(4, 2**24, 1)
@@ -146,7 +149,7 @@ READS = _table(
     (SPEED, [0x05, 0x38, 0x39]),
     (STALL_ENERGY, [0x7F]),
     # Its reply tells actuators apart and has no meaning beyond that.
-    (None, [0x02]),
+    (None, [QUERY]),
 )
 
 # A.2: the value is in the request, and the reply is a flag.
@@ -164,13 +167,22 @@ WRITES = _table(
 UNANSWERED = (0x08, 0x09, 0x0A)
 
 
+def reply_sizes(command):
+    """How many bytes of data the answer to a command may have; none if it is not answered."""
+    if command == QUERY:
+        return MAC_SIZES
+    if command in UNANSWERED:
+        return ()
+    return (READS.get(command, FLAG).size,)
+
+
 def _format(kind, command):
     """The format of the data; None if there is none."""
     if command not in READS and command not in WRITES:
         raise NoMeaning(f"{command:#04x} is in no table")
     if kind == "request":
         return WRITES.get(command)
-    if command in UNANSWERED or command == 0x02:
+    if command in UNANSWERED or command == QUERY:
         raise NoMeaning(f"a reply to {command:#04x} has no value")
     return READS.get(command, FLAG)
 
