@@ -15,8 +15,8 @@ pub(crate) enum Judged {
     Unseen,
 }
 
-pub(crate) struct Row {
-    pub(crate) fault: Fault,
+pub(crate) struct Row<F = Fault> {
+    pub(crate) fault: F,
     pub(crate) name: &'static str,
     /// What the host does.
     pub(crate) does: &'static str,
@@ -25,16 +25,16 @@ pub(crate) struct Row {
 
 /// The fault that a host has, if any.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Switch(pub(crate) Option<Fault>);
+pub(crate) struct Switch<F = Fault>(pub(crate) Option<F>);
 
-impl Switch {
-    /// The one with this name; `none` is none.
-    pub(crate) fn named(name: &str) -> Option<Self> {
-        let row = FAULTS.iter().find(|row| row.name == name);
+impl<F: Copy + PartialEq> Switch<F> {
+    /// The one with this name in a table; `none` is none.
+    pub(crate) fn named(table: &[Row<F>], name: &str) -> Option<Self> {
+        let row = table.iter().find(|row| row.name == name);
         row.map(|row| Self(Some(row.fault))).or_else(|| (name == "none").then_some(Self(None)))
     }
 
-    pub(crate) fn is(self, fault: Fault) -> bool {
+    pub(crate) fn is(self, fault: F) -> bool {
         self.0 == Some(fault)
     }
 }
@@ -46,11 +46,13 @@ macro_rules! faults {
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub(crate) enum Fault { $($fault,)* }
 
-        pub(crate) const FAULTS: &[Row] = &[$(
-            Row { fault: Fault::$fault, name: $name, does: $does, judged: $judged },
+        pub(crate) const FAULTS: &[$crate::faults::Row<Fault>] = &[$(
+            $crate::faults::Row { fault: Fault::$fault, name: $name, does: $does, judged: $judged },
         )*];
     };
 }
+
+pub(crate) use faults;
 
 faults! {
     // The packet that it sends.

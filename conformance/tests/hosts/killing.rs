@@ -1,4 +1,4 @@
-//! Each fault is found by the check that its row names, and the right host by none.
+//! Each fault is found by the check that its row names, and a right host by none.
 
 use std::process::Command;
 
@@ -20,7 +20,7 @@ struct Run {
 }
 
 /// Checks the host with a fault by some checks.
-fn run(fault: &str, limit: &str, port: &str, options: &[&str]) -> Run {
+fn run(port: &str, fault: &str, limit: &str, options: &[&str]) -> Run {
     let own = std::env::current_exe().unwrap();
     let output = Command::new(env!("CARGO_BIN_EXE_actucheck"))
         .args(["host", "--timeout", "1", "--report", "jsonl=-", "-q"])
@@ -38,14 +38,14 @@ fn run(fault: &str, limit: &str, port: &str, options: &[&str]) -> Run {
 }
 
 /// What is wrong with the judgement of a fault of a host on such a port; empty if nothing is.
-pub(crate) fn wrong(row: &Row, port: &str) -> String {
+pub(crate) fn wrong<F>(wire: &str, port: &str, row: &Row<F>) -> String {
     let (check, expected, failures) = match row.judged {
         Judged::Fails(check) => (check, 1, &["fail", "timeout", "crash"][..]),
         Judged::Warns(check) => (check, 0, &["warn"][..]),
         Judged::Recorded | Judged::Passes | Judged::Unseen => ("basic.*", 0, &[][..]),
     };
-    let id = format!("dynamixel2.host.{check}");
-    let run = run(row.name, HASTY, port, &["--select", &id]);
+    let id = format!("{wire}.host.{check}");
+    let run = run(port, row.name, HASTY, &["--select", &id]);
     let is_found = run.verdicts.iter().any(|verdict| failures.contains(&verdict.as_str()));
     let is_right = run.status == Some(expected) && (is_found || failures.is_empty());
     if is_right { String::new() } else { format!("{:?}: {}", run.status, run.text) }
@@ -53,7 +53,7 @@ pub(crate) fn wrong(row: &Row, port: &str) -> String {
 
 /// What is said of the right host on such a port; empty if nothing is.
 pub(crate) fn right(port: &str) -> String {
-    let run = run("none", PATIENT, port, &["--jobs", "2"]);
+    let run = run(port, "none", PATIENT, &["--jobs", "2"]);
     let is_right = run.status == Some(0) && run.verdicts.is_empty();
     if is_right { String::new() } else { format!("{:?} {:?}", run.status, run.verdicts) }
 }

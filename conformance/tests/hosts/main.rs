@@ -1,6 +1,7 @@
-//! A right host, and faults that it may have, one a row of a table.
+//! A right host of each wire, and faults that it may have, one a row of a table. The one on DYNAMIXEL is in
+//! this folder, the one on INNFOS in a folder of its own.
 //!
-//! This program is the host's adapter too, so that a test needs nothing built but itself:
+//! This program is the hosts' adapter too, so that a test needs nothing built but itself:
 //!
 //! ```sh
 //! cargo test -p actucheck --test hosts                    # every test
@@ -11,6 +12,8 @@
 //!                                   # one that waits 50 ms for an answer, and does not drain
 //! cargo test -q -p actucheck --test hosts -- adapter no-drain 50 memory
 //!                                   # the same on a port in memory, where nobody waits
+//! cargo test -q -p actucheck --test hosts -- adapter none 50 udp
+//!                                   # the host on INNFOS
 //! ```
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing, clippy::panic)] // tests may stop at a surprise
@@ -23,6 +26,7 @@ mod cases;
 mod faults;
 mod host;
 mod inbox;
+mod innfos;
 mod killing;
 mod line;
 mod memory;
@@ -38,7 +42,7 @@ use std::time::Duration;
 use libtest_mimic::{Arguments, Failed, Trial};
 
 use self::adapter::{Adapter, Kind};
-use self::faults::{FAULTS, Judged, Switch};
+use self::faults::{FAULTS, Judged, Row, Switch};
 use self::shown::CASES;
 
 /// How long a call waits for its answer, in milliseconds.
@@ -53,19 +57,26 @@ fn main() -> ExitCode {
         ["adapter", fault] => adapter(fault, LIMIT, "terminal"),
         ["adapter", fault, limit] => adapter(fault, limit, "terminal"),
         ["adapter", fault, limit, port] => adapter(fault, limit, port),
-        ["table"] => print_table(),
+        ["table"] => print_tables(),
         _ => tests(),
     }
 }
 
 fn adapter(fault: &str, limit: &str, port: &str) -> ExitCode {
-    let (Some(switch), Some(port)) = (Switch::named(fault), Kind::named(port)) else {
+    let limit = Duration::from_millis(limit.parse().unwrap());
+    let run = if port == "udp" {
+        let switch = Switch::named(innfos::FAULTS, fault);
+        switch.map(|switch| innfos::Adapter::new(switch, limit).run())
+    } else {
+        let host = Switch::named(FAULTS, fault).zip(Kind::named(port));
+        host.map(|(switch, port)| Adapter::new(switch, limit, port).run())
+    };
+    let Some(run) = run else {
         eprintln!("`{fault}` is no fault, or `{port}` no port; `table` prints the faults");
         return ExitCode::from(2);
     };
-    let limit = Duration::from_millis(limit.parse().unwrap());
     // An error is the end of the pipe.
-    Adapter::new(switch, limit, port).run().map_or(ExitCode::FAILURE, |()| ExitCode::SUCCESS)
+    run.map_or(ExitCode::FAILURE, |()| ExitCode::SUCCESS)
 }
 
 fn tests() -> ExitCode {
@@ -81,22 +92,33 @@ fn tests() -> ExitCode {
     };
     let cases =
         CASES.iter().map(|case| test(format!("fault::{}", case.fault), Box::new(|| case.wrong())));
-    let killed = FAULTS.iter().filter(|row| !matches!(row.judged, Judged::Unseen));
-    let killed = killed.flat_map(|row| {
-        ["terminal", "memory"].map(|port| {
-            let name = format!("killed::{}::{port}", row.name);
-            test(name, Box::new(move || killing::wrong(row, port)))
-        })
-    });
-    let mut trials: Vec<_> = cases.chain(killed).collect();
+    let mut trials: Vec<_> = cases.collect();
     for port in ["terminal", "memory"] {
-        let name = format!("killed::none_is_right::{port}");
-        trials.push(test(name, Box::new(move || killing::right(port))));
+        trials.extend(killed("dynamixel2", port, FAULTS).map(|(name, killed)| test(name, killed)));
     }
+    trials.extend(killed("innfos", "udp", innfos::FAULTS).map(|(name, killed)| test(name, killed)));
     trials.push(test("bus::every_call".to_owned(), Box::new(bus::every_call)));
     trials.push(test("faults::each_is_shown".to_owned(), Box::new(shown)));
     trials.push(test("faults::each_has_one_place".to_owned(), Box::new(one_place)));
     libtest_mimic::run(&arguments, trials).exit_code()
+}
+
+/// A test, by its name.
+type Named = (String, Box<dyn Fn() -> String + Send>);
+
+/// A test for each fault of a host that a check finds, and one for the right host.
+fn killed<F: Sync>(
+    wire: &'static str,
+    port: &'static str,
+    table: &'static [Row<F>],
+) -> impl Iterator<Item = Named> {
+    let name = move |fault: &str| format!("killed::{fault}::{port}");
+    let of_row = move |row: &'static Row<F>| -> Named {
+        (name(row.name), Box::new(move || killing::wrong(wire, port, row)))
+    };
+    let right: Named = (name("none_is_right"), Box::new(move || killing::right(port)));
+    let is_seen = |row: &&Row<F>| !matches!(row.judged, Judged::Unseen);
+    table.iter().filter(is_seen).map(of_row).chain([right])
 }
 
 /// The faults whose switch is not in exactly one place.
@@ -111,10 +133,16 @@ fn one_place() -> String {
         include_str!("port.rs"),
         include_str!("request.rs"),
     ];
+    let wrong = [places(FAULTS, &sources), places(innfos::FAULTS, innfos::SOURCES)];
+    wrong.concat().join(" ")
+}
+
+/// The faults whose name is not exactly once in sources.
+fn places<F: std::fmt::Debug>(table: &[Row<F>], sources: &[&str]) -> Vec<&'static str> {
     let words = || sources.iter().flat_map(|text| text.split(|c: char| !c.is_alphanumeric()));
     let places = |fault: &str| words().filter(|word| *word == fault).count();
-    let wrong = FAULTS.iter().filter(|row| places(&format!("{:?}", row.fault)) != 1);
-    wrong.map(|row| row.name).collect::<Vec<_>>().join(" ")
+    let wrong = table.iter().filter(|row| places(&format!("{:?}", row.fault)) != 1);
+    wrong.map(|row| row.name).collect()
 }
 
 /// The faults that no case shows, or several.
@@ -124,10 +152,17 @@ fn shown() -> String {
     wrong.collect::<Vec<_>>().join(" ")
 }
 
-fn print_table() -> ExitCode {
-    println!("| fault | the host | found by |");
+fn print_tables() -> ExitCode {
+    print_table("dynamixel2", FAULTS);
+    println!();
+    print_table("innfos", innfos::FAULTS);
+    ExitCode::SUCCESS
+}
+
+fn print_table<F>(wire: &str, table: &[Row<F>]) {
+    println!("| fault on {wire} | the host | found by |");
     println!("|---|---|---|");
-    for row in FAULTS {
+    for row in table {
         let found = match row.judged {
             Judged::Fails(check) => format!("`{check}`"),
             Judged::Warns(check) => format!("`{check}`, a warning"),
@@ -137,5 +172,4 @@ fn print_table() -> ExitCode {
         };
         println!("| `{}` | {} | {found} |", row.name, row.does);
     }
-    ExitCode::SUCCESS
 }
