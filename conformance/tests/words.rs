@@ -33,7 +33,8 @@ fn root() -> &'static Path {
 
 /// The text files of the repository, relative to its root.
 fn files() -> Vec<PathBuf> {
-    let mut files: Vec<PathBuf> = ["README.md", "ARCHITECTURE.md"].map(PathBuf::from).into();
+    let pages = ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "SECURITY.md"];
+    let mut files: Vec<PathBuf> = pages.map(PathBuf::from).into();
     let mut folders: Vec<PathBuf> = FOLDERS.map(PathBuf::from).into();
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(root().join(&folder)).unwrap() {
