@@ -167,6 +167,12 @@ static WIRES: [Own; 2] = [
     },
 ];
 
+/// Whether an answer on this wire is a datagram of its own.
+#[cfg(unix)]
+pub(crate) fn has_datagrams(wire: Wire) -> bool {
+    WIRES.iter().any(|own| own.wire == wire && own.has_datagrams)
+}
+
 /// No packet goes on after so long a pause.
 pub const QUIET: Duration = Duration::from_millis(100);
 
@@ -233,12 +239,6 @@ impl VirtualBus {
     #[must_use]
     pub const fn wire(&self) -> Wire {
         self.own.wire
-    }
-
-    /// Whether an answer is a datagram of its own.
-    #[must_use]
-    pub const fn has_datagrams(&self) -> bool {
-        self.own.has_datagrams
     }
 
     /// Takes what the only host sends.

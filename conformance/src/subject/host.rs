@@ -1,6 +1,5 @@
 //! A host behind an adapter: it is asked for calls, on a line that plays a script.
 
-use std::net::{Ipv4Addr, SocketAddr};
 use std::ops::ControlFlow;
 use std::os::fd::AsFd as _;
 use std::os::unix::net::UnixStream;
@@ -12,13 +11,13 @@ use actucheck_spec::wire::{Direction, Wire};
 
 use super::heard::{Heard, ask, own};
 use super::passing::{Passing, milliseconds};
-use super::{Answer, BAUD, bursts};
+use super::{Answer, BAUD, bursts, port};
 use crate::adapter::conversation::{Conversation, Lost};
 use crate::adapter::{
     CallError, CallTo, Course, Output, Request, Returned, Step, Trouble, devices,
 };
 use crate::bus::{Script, VirtualBus};
-use crate::link::{LinkError, Links, Port, Watch};
+use crate::link::{Links, Watch};
 
 /// How often the line is looked at for the packet of a call that has returned.
 const WRITTEN: u32 = 50;
@@ -117,9 +116,9 @@ fn once(
         return Ok((Answer::NotAsked(format!("there is no line for {wire}")), false));
     };
     let mut links = Links::default();
-    let opened = open(&mut links, &bus).map_err(|error| error.to_string());
+    let opened = port(&mut links, wire).map_err(|error| error.to_string());
     let ends = UnixStream::pair().map_err(|error| error.to_string());
-    let (port, (stop, stopped)) = match (opened, ends) {
+    let (address, (stop, stopped)) = match (opened, ends) {
         (Ok(port), Ok(ends)) => (port.name(), ends),
         (Err(error), _) | (_, Err(error)) => return Ok((Answer::NotAsked(error), false)),
     };
@@ -127,7 +126,7 @@ fn once(
     thread::scope(|scope| {
         let line = scope.spawn(move || links.serve(&mut bus, stopped.as_fd(), &mut watcher));
         let mut host = Host { conversation, limit, wire, script: script.clone(), record };
-        let answer = host.converse(&port, steps);
+        let answer = host.converse(&address, steps);
         drop(stop);
         let answer = match line.join() {
             Ok(Ok(_)) => answer?,
@@ -136,14 +135,6 @@ fn once(
         };
         Ok((answer, script.was_late()))
     })
-}
-
-/// The port that a host of the bus's wire gets.
-fn open(links: &mut Links, bus: &VirtualBus) -> Result<Port, LinkError> {
-    if bus.has_datagrams() {
-        return links.udp(SocketAddr::from((Ipv4Addr::LOCALHOST, 0)));
-    }
-    links.pty(None)
 }
 
 /// A host with an open line.

@@ -8,6 +8,8 @@ pub(crate) mod heard;
 mod host;
 mod passing;
 
+#[cfg(unix)]
+use std::net::{Ipv4Addr, SocketAddr};
 use std::time::Duration;
 
 use actucheck_spec::wire::Wire;
@@ -16,7 +18,9 @@ use crate::adapter::conversation::{Conversation, Lost};
 use crate::adapter::{Burst, Hello, Output, Question, Rejection, Step};
 use crate::bus::Bursts;
 #[cfg(unix)]
-use crate::link::Links;
+use crate::bus::has_datagrams;
+#[cfg(unix)]
+use crate::link::{LinkError, Links, Port};
 
 pub use adapter::{Process, StartError};
 pub use builtin::Builtin;
@@ -148,8 +152,8 @@ pub(crate) struct QuietPort {
 }
 
 impl QuietPort {
-    /// A port of such a line; an error is one sentence.
-    pub(crate) fn of(line: Line) -> Result<Self, String> {
+    /// A port of such a line for a wire; an error is one sentence.
+    pub(crate) fn of(line: Line, wire: Wire) -> Result<Self, String> {
         match line {
             Line::Memory => Ok(Self {
                 address: exchange::PORT.to_owned(),
@@ -159,13 +163,22 @@ impl QuietPort {
             #[cfg(unix)]
             Line::System => {
                 let mut links = Links::default();
-                let port = links.pty(None).map_err(|error| error.to_string())?;
-                Ok(Self { address: port.address, _links: Some(links) })
+                let port = port(&mut links, wire).map_err(|error| error.to_string())?;
+                Ok(Self { address: port.name(), _links: Some(links) })
             }
             #[cfg(not(unix))]
-            Line::System => Err("this system has no pseudo-terminals".to_owned()),
+            Line::System => Err(format!("this system has no port for {wire}")),
         }
     }
+}
+
+/// The port of the operating system that a host of a wire gets.
+#[cfg(unix)]
+fn port(links: &mut Links, wire: Wire) -> Result<Port, LinkError> {
+    if has_datagrams(wire) {
+        return links.udp(SocketAddr::from((Ipv4Addr::LOCALHOST, 0)));
+    }
+    links.pty(None)
 }
 
 /// What answers a packet each time that it is heard, in the words of the bus.

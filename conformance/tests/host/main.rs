@@ -123,3 +123,24 @@ fn a_conversation_is_shown_in_rows_and_can_be_replayed() {
     let text = String::from_utf8_lossy(&replayed.stdout).into_owned();
     assert_eq!(replayed.status.code(), Some(1), "{text}");
 }
+
+/// The second reading of the document opens a UDP port.
+#[test]
+fn a_host_that_sends_datagrams_is_checked_too() {
+    let adapter = concat!(env!("CARGO_MANIFEST_DIR"), "/adapters/innfos-python/run");
+    let select = ["--select", "innfos.host.basic.*", "--select", "innfos.host.query.two/*"];
+    let checked = [&["host", "--jobs", "2"], &select[..]].concat();
+    for (arguments, says) in [
+        (&["adapter", "check"][..], "ok     opens and closes a port as it is told"),
+        (&checked, "passed  172 pass"),
+    ] {
+        let output = Command::new(env!("CARGO_BIN_EXE_actucheck"))
+            .args(arguments)
+            .args(["--", adapter])
+            .output()
+            .unwrap();
+        let text = String::from_utf8_lossy(&output.stdout);
+        assert_eq!(output.status.code(), Some(0), "{text}");
+        assert!(text.contains(says), "{text}");
+    }
+}

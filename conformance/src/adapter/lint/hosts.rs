@@ -73,7 +73,7 @@ impl Way {
     }
 
     fn skips_a_name(&self, talk: &mut Talk, wire: Wire) -> Found {
-        let port = QuietPort::of(self.line).map_err(closed)?;
+        let port = QuietPort::of(self.line, wire).map_err(closed)?;
         done(talk, &open(wire, &port.address), "open")?;
         let heard = talk.hear_host(&self.call(wire, "no-such-call"))?;
         done(talk, &json!({"op": "close", "wire": wire}), "close")?;
@@ -88,7 +88,7 @@ impl Way {
 
     /// Opens a port twice, closes it twice, and makes a call then.
     fn opens_and_closes(&self, talk: &mut Talk, wire: Wire) -> Found {
-        let port = QuietPort::of(self.line).map_err(closed)?;
+        let port = QuietPort::of(self.line, wire).map_err(closed)?;
         for op in ["open", "open", "close", "close"] {
             let request = match op {
                 "open" => open(wire, &port.address),
