@@ -4,7 +4,7 @@
 //! judges the answers, and [`report`] writes the results for people and programs. [`blackbox`]
 //! looks for failures that no check foresees, and [`suite::saved`] keeps its findings.
 //! [`adapter::lint`] checks an adapter itself, before its library is checked. [`bus`] has virtual
-//! devices, and `link` the ports through which programs come to them.
+//! devices, and `link` the ports through which programs come to them; `port` opens the port of a device.
 
 #![forbid(unsafe_code)]
 
@@ -20,6 +20,8 @@ pub mod legible;
 #[cfg(unix)]
 pub mod link;
 pub mod names;
+#[cfg(unix)]
+pub mod port;
 pub mod report;
 pub mod run;
 mod shrink;

@@ -38,6 +38,8 @@ fn run() -> Result<ExitCode, Failure> {
         Command::Codec(options) => command::codec::run(options),
         #[cfg(unix)]
         Command::Host(options) => command::host::run(options),
+        #[cfg(unix)]
+        Command::Device(options) => command::device::run(options),
         Command::Fuzz(options) => command::fuzz::run(options),
         Command::Decode(options) => command::decode::run(options),
         Command::Encode(options) => command::encode::run(options),

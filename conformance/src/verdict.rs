@@ -1,14 +1,15 @@
 //! The verdict on an answer, and the outcome of a check.
 
+mod schema;
+
 use std::collections::BTreeMap;
 use std::fmt;
 
 use actucheck_spec::model::{HexBytes, Level};
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::de::IgnoredAny;
+use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::adapter::{Course, Output, Question, Step, Wire};
+use crate::adapter::{Output, Question};
 use crate::explain::mistake;
 
 /// The result of a check in one word.
@@ -154,15 +155,19 @@ pub struct Outcome {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
     /// The request; only if the check did not pass.
-    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "question")]
-    #[schemars(schema_with = "requested")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "schema::question"
+    )]
+    #[schemars(schema_with = "schema::requested")]
     pub request: Option<Question>,
     /// The expected answer; only if another one came.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub expected: Option<Output>,
     /// The actual answer.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(schema_with = "answered")]
+    #[schemars(schema_with = "schema::answered")]
     pub actual: Option<Output>,
     /// What the subject does where the documents leave it unspecified; only for
     /// [`Verdict::Recorded`].
@@ -222,43 +227,6 @@ pub struct Behaviour {
     pub answer: String,
 }
 
-/// A question to an adapter, or a conversation, which no adapter gets as one request.
-fn requested(generator: &mut SchemaGenerator) -> Schema {
-    let (question, wire) =
-        (generator.subschema_for::<Question>(), generator.subschema_for::<Wire>());
-    let steps = generator.subschema_for::<Vec<Step>>();
-    json_schema!({ "anyOf": [question, { "type": "null" }, {
-        "type": "object",
-        "properties": { "op": { "const": "converse" }, "wire": wire, "steps": steps },
-        "required": ["op", "wire", "steps"],
-    }] })
-}
-
-/// An adapter's answer, or what became of a conversation.
-fn answered(generator: &mut SchemaGenerator) -> Schema {
-    let output = generator.subschema_for::<Output>();
-    let courses = generator.subschema_for::<Vec<Course>>();
-    json_schema!({ "anyOf": [output, { "type": "null" }, {
-        "type": "object",
-        "properties": { "conversation": courses },
-        "required": ["conversation"],
-    }] })
-}
-
-/// Earlier reports name an op that does not exist, too.
-fn question<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Question>, D::Error> {
-    #[derive(Deserialize)]
-    #[serde(untagged)]
-    enum Asked {
-        Question(Question),
-        Other(IgnoredAny),
-    }
-    Ok(match Deserialize::deserialize(deserializer)? {
-        Asked::Question(question) => Some(question),
-        Asked::Other(IgnoredAny) => None,
-    })
-}
-
 impl Outcome {
     /// Whether it follows from the failure of another requirement.
     #[must_use]
@@ -296,9 +264,11 @@ impl Outcome {
 
 fn bytes_of(output: &Output) -> Vec<&HexBytes> {
     match output {
-        Output::Crc(_) | Output::Value(_) | Output::Message(_) | Output::Conversation(_) => {
-            Vec::new()
-        }
+        Output::Crc(_)
+        | Output::Value(_)
+        | Output::Message(_)
+        | Output::Conversation(_)
+        | Output::Line(_) => Vec::new(),
         Output::Bytes(bytes) => vec![bytes],
         Output::Packet(packet) => packet.wire().payload(packet),
         Output::Packets(packets) => {

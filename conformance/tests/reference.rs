@@ -116,7 +116,9 @@ impl Subject for Model {
                 }
             }
             Question::Message { actuator, told, .. } => message(actuator.as_deref(), told),
-            Question::Converse { .. } => return Answer::Skipped("no port".to_owned()),
+            Question::Converse { .. } | Question::Device { .. } => {
+                return Answer::Skipped("no port".to_owned());
+            }
         };
         answer.map_or_else(
             |class| Answer::Rejected(Rejection { class, detail: String::new() }),

@@ -44,6 +44,7 @@ impl Output {
             Self::Bytes(bytes) => (Some(Self::Bytes(bytes)), none),
             // The line keeps no more of it than is shown.
             Self::Conversation(steps) => (Some(Self::Conversation(steps)), none),
+            Self::Line(steps) => (Some(Self::Line(steps)), none),
             other => match (size(&other), other) {
                 (all, _) if all > most => (None, format!("its {all} characters are not kept")),
                 (_, Self::Message(message)) => {

@@ -3,6 +3,7 @@
 
 mod called;
 pub(crate) mod conversation;
+mod device;
 mod greeting;
 mod host;
 mod kept;
@@ -10,6 +11,7 @@ mod kept;
 mod leftover;
 pub mod lint;
 mod message;
+mod output;
 mod process;
 mod reading;
 mod requests;
@@ -22,18 +24,20 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 pub use called::Called;
+pub use device::{Asked, Heard, Pause, Permission, Piece};
 pub use greeting::{Contradiction, Greeting};
 pub use host::{
     Burst, CallError, CallTo, Course, Exchange, Exchanged, Passed, Reported, Returned, Sent, Step,
     Trouble,
 };
 pub use message::Told;
+pub use output::Output;
 pub use reading::Misfit;
 #[cfg(unix)]
 pub(crate) use reading::devices;
 pub(crate) use reading::exchanged;
 pub use requests::{
-    Hello, Implementation, Limits, Output, Question, Rejection, Request, VERSION, VERSIONS, Wire,
+    Hello, Implementation, Limits, Question, Rejection, Request, VERSION, VERSIONS, Wire,
 };
 pub use trace::Trace;
 pub use value::{Given, RegisterOf};

@@ -61,7 +61,8 @@ impl Output {
             | Self::Bytes(_)
             | Self::Value(_)
             | Self::Message(_)
-            | Self::Conversation(_) => &[],
+            | Self::Conversation(_)
+            | Self::Line(_) => &[],
         };
         if packets.iter().any(|packet| packet.wire() != question.wire()) {
             return Err(Misfit::new("the packet is of a kind that this wire has not", kinds()));

@@ -5,12 +5,13 @@
 use std::fmt;
 
 use actucheck_spec::model::{Fault, HexBytes, Role};
-use actucheck_spec::wire::{self, Context, Direction, Form, Message, Number, Packet};
+use actucheck_spec::wire::{Context, Direction, Form};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::called::Called;
-use super::host::{self, CallTo, Course, Exchange, Step};
+use super::device::{Asked, Permission};
+use super::host::{CallTo, Exchange, Step};
 use super::message::Told;
 use super::value::{Given, RegisterOf};
 
@@ -166,6 +167,17 @@ pub enum Question {
         /// The calls, and what the line does.
         steps: Vec<Step>,
     },
+    /// What a device answers on its port. No adapter gets it.
+    #[schemars(skip)]
+    Device {
+        /// The wire.
+        wire: Wire,
+        /// What it may do to the device.
+        #[serde(default)]
+        needs: Permission,
+        /// What is sent, and how much is awaited.
+        steps: Vec<Asked>,
+    },
 }
 
 impl Question {
@@ -182,6 +194,7 @@ impl Question {
             Self::Value { .. } => "value",
             Self::Message { .. } => "message",
             Self::Converse { .. } => "call",
+            Self::Device { .. } => "device",
         }
     }
 
@@ -218,7 +231,8 @@ impl Question {
             | Self::Crc { .. }
             | Self::Stuff { .. }
             | Self::Unstuff { .. }
-            | Self::Converse { .. } => None,
+            | Self::Converse { .. }
+            | Self::Device { .. } => None,
         }
     }
 
@@ -226,8 +240,10 @@ impl Question {
     /// replies and reads requests. `None` if both do.
     #[must_use]
     pub fn role(&self) -> Option<Role> {
-        if matches!(self, Self::Converse { .. }) {
-            return Some(Role::Host);
+        match self {
+            Self::Converse { .. } => return Some(Role::Host),
+            Self::Device { .. } => return Some(Role::Device),
+            _ => {}
         }
         let builds = matches!(
             self,
@@ -253,7 +269,8 @@ impl Question {
             | Self::Stream { wire, .. }
             | Self::Value { wire, .. }
             | Self::Message { wire, .. }
-            | Self::Converse { wire, .. } => *wire,
+            | Self::Converse { wire, .. }
+            | Self::Device { wire, .. } => *wire,
         }
     }
 }
@@ -336,59 +353,6 @@ pub struct Rejection {
     pub detail: String,
 }
 
-/// The result of a successful op.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Output {
-    /// Of `crc`.
-    Crc(u64),
-    /// Of `stuff`, `unstuff` and `encode`, and of `value` and `message` if the meaning is given.
-    Bytes(HexBytes),
-    /// Of `decode`.
-    Packet(Packet),
-    /// Of `stream`.
-    Packets(Vec<Packet>),
-    /// Of `value` if the bytes are given.
-    Value(wire::Value),
-    /// Of `message` if the bytes are given.
-    Message(Message),
-    /// Of calls on a line that plays a script: what became of each.
-    #[schemars(skip)]
-    Conversation(Vec<Course>),
-}
-
-impl Output {
-    /// Of `stream`, the packets of one wire.
-    pub fn packets<P: Into<Packet>>(packets: impl IntoIterator<Item = P>) -> Self {
-        Self::Packets(packets.into_iter().map(Into::into).collect())
-    }
-
-    /// Whether it is the same as `other`, except that numbers may be less than `within` apart.
-    #[must_use]
-    pub fn is_near(&self, other: &Self, within: Number) -> bool {
-        match (self, other) {
-            (Self::Value(value), Self::Value(other)) => value.is_near(other, within),
-            (Self::Message(message), Self::Message(other)) => message.is_near(other, within),
-            _ => self == other,
-        }
-    }
-}
-
-/// Writes a CRC as a hexadecimal number, bytes in hex, and packets as JSON.
-impl fmt::Display for Output {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Crc(crc) => write!(f, "{crc:#06X}"),
-            Self::Bytes(bytes) => bytes.fmt(f),
-            Self::Packet(packet) => f.write_str(&json(packet)?),
-            Self::Packets(packets) => f.write_str(&json(packets)?),
-            Self::Value(value) => f.write_str(&json(value)?),
-            Self::Message(message) => f.write_str(&json(message)?),
-            Self::Conversation(steps) => f.write_str(&host::told(steps)),
-        }
-    }
-}
-
-fn json(value: &impl Serialize) -> Result<String, fmt::Error> {
+pub(super) fn json(value: &impl Serialize) -> Result<String, fmt::Error> {
     serde_json::to_string(value).map_err(|_| fmt::Error)
 }

@@ -121,6 +121,7 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
         wires: &[options.wire],
         options: Options { seed, ..Options::new() },
         command: &options.adapter.command,
+        again: &[],
         records: found
             .clone()
             .flat_map(Finding::checks)

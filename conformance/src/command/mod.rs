@@ -6,6 +6,8 @@ pub(crate) mod bus;
 pub(crate) mod codec;
 pub(crate) mod completions;
 pub(crate) mod decode;
+#[cfg(unix)]
+pub(crate) mod device;
 pub(crate) mod encode;
 pub(crate) mod fuzz;
 #[cfg(unix)]
@@ -43,6 +45,8 @@ pub(crate) enum Command {
     Codec(codec::Codec),
     #[cfg(unix)]
     Host(host::Host),
+    #[cfg(unix)]
+    Device(device::Device),
     Fuzz(fuzz::Fuzz),
     Decode(decode::Decode),
     Encode(encode::Encode),

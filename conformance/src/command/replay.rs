@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use actucheck::adapter::{Hello, Wire};
+use actucheck::adapter::{Hello, Question, Wire};
 use actucheck::report::{Collector, End, Run, Stopped, text};
 use actucheck::run;
 use actucheck::suite::check::Check;
@@ -49,6 +49,13 @@ pub(crate) fn run(options: &Replay) -> Result<ExitCode, Failure> {
     let mut subjects = Subjects::start(&options.adapter, 1, &interrupted)?;
     let hello = subjects.hello.clone();
     let checks = named(options, &spec, &hello)?;
+    if checks.iter().any(|check| matches!(check.question, Question::Device { .. })) {
+        let message = format!(
+            "`{}` is a check of a device; `actucheck device PORT --select` asks it",
+            options.what
+        );
+        return Err(Failure::usage(message));
+    }
     let mut asked = earlier(options, &spec, &hello)?;
     let before = asked.len();
     asked.extend(checks.iter().cloned());
@@ -64,6 +71,7 @@ pub(crate) fn run(options: &Replay) -> Result<ExitCode, Failure> {
         wires: &wires,
         options: options.growth.options(Some(&hello)),
         command: &options.adapter.command,
+        again: &[],
         records,
     };
     let mut collector = Collector::new(&run);

@@ -34,6 +34,8 @@ pub struct Run<'a> {
     pub options: Options,
     /// The adapter's command; empty for the built-in codec.
     pub command: &'a [String],
+    /// The words that ask checks again, before the option that selects them; empty if `replay` does.
+    pub again: &'a [String],
     /// The files with checks that `actucheck list` does not have, by the checks' ids.
     pub records: BTreeMap<String, PathBuf>,
 }
@@ -84,6 +86,10 @@ impl Run<'_> {
         outcome.request.as_ref()?;
         let Options { seed, cases, .. } = self.options;
         let id = &outcome.id;
+        if !self.again.is_empty() {
+            let select = ["--select".to_owned(), id.clone()];
+            return Some(self.with_command([self.again, &select].concat()));
+        }
         let record = self.records.get(id);
         let what = record.map_or_else(|| id.clone(), |path| path.display().to_string());
         let mut words = vec!["actucheck".to_owned(), "replay".to_owned(), what];
@@ -102,12 +108,17 @@ impl Run<'_> {
                 words.extend(["--cases".to_owned(), cases.to_string()]);
             }
         }
+        Some(self.with_command(words))
+    }
+
+    /// The words with the command that was started after them, quoted for a shell.
+    fn with_command(&self, mut words: Vec<String>) -> String {
         if !self.command.is_empty() {
             words.push("--".to_owned());
             words.extend_from_slice(self.command);
         }
         // Only a NUL can't be quoted, and a command that was started has none.
-        Some(shlex::try_join(words.iter().map(String::as_str)).unwrap_or_default())
+        shlex::try_join(words.iter().map(String::as_str)).unwrap_or_default()
     }
 }
 

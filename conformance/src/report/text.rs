@@ -81,6 +81,10 @@ pub fn check(spec: &Spec, check: &Check, out: &mut dyn Write) -> io::Result<()> 
         Demand::Send => (&[][..], Some("the packet of the last call, and nothing else".to_owned())),
         Demand::Withhold => (&[][..], Some("not the packet of the last call".to_owned())),
         Demand::Return(due) => (&[][..], Some(due.to_string())),
+        Demand::Answer(wanted) => {
+            let steps: Vec<_> = wanted.iter().map(ToString::to_string).collect();
+            (&[][..], Some(steps.join(", and then ")))
+        }
         Demand::Record(unspecified) => return question(unspecified, out),
     };
     for output in outputs {

@@ -1,7 +1,9 @@
-//! The subject that is judged: the built-in codec, or a library behind an adapter.
+//! The subject that is judged: the built-in codec, a library behind an adapter, or a device on its port.
 
 mod adapter;
 mod builtin;
+#[cfg(unix)]
+pub mod device;
 mod exchange;
 pub(crate) mod heard;
 #[cfg(unix)]

@@ -5,6 +5,7 @@ use actucheck_spec::wire::Number;
 use serde::{Deserialize, Serialize};
 
 use super::due::{self, Due};
+use super::wanted::{self, Wanted};
 use crate::adapter::{Output, Question, Rejection};
 use crate::legible::{LONGEST_TEXT, legible};
 use crate::subject::Answer;
@@ -61,6 +62,8 @@ pub enum Demand {
     Withhold,
     /// What the last call of a conversation returns.
     Return(Due),
+    /// What a device answers, step by step. Steps at the end that are not here may have any answer.
+    Answer(Vec<Wanted>),
     /// Any answer: the documents leave it unspecified. The report shows what the subject does.
     Record(Unspecified),
 }
@@ -96,8 +99,9 @@ impl Demand {
 
 impl Unspecified {
     /// The behaviour in a few words; `None` if the subject failed or was not asked.
-    fn behaviour(&self, answer: &Answer) -> Option<Behaviour> {
+    fn behaviour(&self, question: &Question, answer: &Answer) -> Option<Behaviour> {
         let answer = match answer {
+            Answer::Ok(Output::Line(steps)) => wanted::behaviour(question, steps),
             Answer::Ok(output) => match self.ways.iter().find(|way| way.output == *output) {
                 Some(way) => way.name.clone(),
                 None => self.other(output),
@@ -137,7 +141,7 @@ impl Check {
     pub fn judge(self, answer: Answer) -> Outcome {
         let broken = matches!(&answer, Answer::Rejected(why) if why.class == Fault::Internal);
         let recorded = match &self.demand {
-            Demand::Record(unspecified) => unspecified.behaviour(&answer),
+            Demand::Record(unspecified) => unspecified.behaviour(&self.question, &answer),
             _ => None,
         };
         let (verdict, detail, actual) = match answer {
@@ -226,13 +230,21 @@ impl Check {
             Demand::Yield(output) | Demand::Near { output, .. } => Some(output),
             Demand::YieldOneOf(outputs) => outputs.first(),
             Demand::Record(unspecified) => unspecified.ways.first().map(|way| &way.output),
-            Demand::Reject(_) | Demand::Send | Demand::Withhold | Demand::Return(_) => None,
+            Demand::Reject(_)
+            | Demand::Send
+            | Demand::Withhold
+            | Demand::Return(_)
+            | Demand::Answer(_) => None,
         }
     }
 
     fn judge_output(&self, actual: Output) -> (Verdict, String, Option<Output>) {
         if let Output::Conversation(courses) = &actual {
             let (verdict, detail) = due::judge(&self.question, &self.demand, courses);
+            return (verdict, detail, Some(actual));
+        }
+        if let (Output::Line(heard), Demand::Answer(wanted)) = (&actual, &self.demand) {
+            let (verdict, detail) = wanted::judge(&self.question, wanted, heard);
             return (verdict, detail, Some(actual));
         }
         let right = match &self.demand {

@@ -7,6 +7,7 @@
 pub(crate) mod basics;
 pub mod check;
 pub(crate) mod codec;
+pub mod device;
 pub mod due;
 pub mod expect;
 pub(crate) mod host;
@@ -14,14 +15,16 @@ pub mod plan;
 pub(crate) mod random;
 pub mod saved;
 pub mod select;
+pub mod wanted;
 
 use std::borrow::Cow;
 
 use actucheck_spec::Spec;
-use actucheck_spec::model::{Citation, Level};
+use actucheck_spec::model::{self, Citation, Level};
 use actucheck_spec::wire::{Context, Direction};
 
 use self::check::{Check, Demand};
+use self::device::Target;
 use self::plan::Plan;
 use crate::adapter::{Limits, Output, Question, Wire};
 
@@ -86,6 +89,25 @@ pub fn host_plan<'a>(spec: &'a Spec, wires: &[Wire]) -> Plan<'a> {
     Plan::new(wires.iter().flat_map(families).collect())
 }
 
+/// Every check of a device on these wires, in a fixed order.
+#[must_use]
+pub fn device_plan<'a>(spec: &'a Spec, wires: &[Wire], target: &Target<'a>) -> Plan<'a> {
+    let families = |wire: &Wire| device::families(Author { spec, wire: *wire }, target);
+    Plan::new(wires.iter().flat_map(families).collect())
+}
+
+/// Every check of a device of the spec on these wires: those of each device in turn, on a line with a
+/// neighbour. A check that several devices have comes several times.
+#[must_use]
+pub fn every_device_plan<'a>(spec: &'a Spec, wires: &[Wire]) -> Plan<'a> {
+    let devices = spec.devices.iter().map(|file| &file.content);
+    let devices = devices.filter(|device| wires.contains(&device.wire));
+    let plan = |device: &'a model::Device| {
+        device_plan(spec, &[device.wire], &Target::alone(Some(device)).with_neighbour(2))
+    };
+    devices.map(plan).fold(Plan::new(Vec::new()), Plan::and)
+}
+
 /// The ids of the basic checks that the answer to a question rests on, the most basic first.
 /// `expected` is the answer that is demanded, if it is not a rejection.
 pub(crate) fn rests_on<'a>(
@@ -94,6 +116,7 @@ pub(crate) fn rests_on<'a>(
 ) -> Box<dyn Iterator<Item = Cow<'static, str>> + 'a> {
     match question {
         Question::Converse { wire, steps } => Box::new(host::rests_on(*wire, steps)),
+        Question::Device { wire, steps, .. } => Box::new(device::rests_on(*wire, steps)),
         question => Box::new(codec::rests_on(question, expected)),
     }
 }

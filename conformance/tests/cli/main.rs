@@ -153,11 +153,12 @@ fn help_lists_the_subcommands_and_the_exit_status() {
     Commands:
       codec        Checks a codec: the built-in one, or a library behind an adapter
       host         Checks a host: a library that talks with devices, behind an adapter
+      device       Checks a device: firmware, on its port
       fuzz         Looks for failures that no check foresees, and shrinks them
       decode       Explains packets field by field: one, or all in a log, a dump or a capture
       encode       Builds a packet from words
       bus          Puts virtual devices on a bus that programs open as they open a serial port
-      list         Lists the checks of codecs, then those of hosts
+      list         Lists the checks of codecs, then those of hosts, then those of devices
       show         Shows one check: what it asks, what it demands, and which sentence demands it
       replay       Asks one check again and shows the exchange
       adapter      Helps to write an adapter, and checks it
@@ -202,14 +203,14 @@ fn the_help_of_each_subcommand_has_an_example_of_it() {
             seen += 1;
         }
     }
-    assert_eq!(seen, if cfg!(unix) { 22 } else { 20 });
+    assert_eq!(seen, if cfg!(unix) { 23 } else { 20 });
     assert!(ran > 35, "{ran} examples");
 }
 
 /// Runs the examples that need no adapter, no file and no port, each without what a shell does with its
 /// output; returns how many they are.
 fn succeed(examples: &str) -> usize {
-    let needs = [" -- ", "@", ".log", ".yaml", ".model", ".json", ".lua"];
+    let needs = [" -- ", "@", "/dev/", "://", ".log", ".yaml", ".model", ".json", ".lua"];
     let lines = examples.lines().filter_map(|line| line.strip_prefix("  actucheck "));
     let lines = lines.filter_map(|line| line.split(" | ").next()?.split(" > ").next());
     let lines: Vec<_> = lines.filter(|line| !needs.iter().any(|it| line.contains(it))).collect();
@@ -224,8 +225,16 @@ fn succeed(examples: &str) -> usize {
 #[cfg(unix)]
 #[test]
 fn the_help_of_what_ctrl_c_ends_has_its_status() {
-    let commands =
-        [&["codec"][..], &["host"], &["fuzz"], &["replay"], &["bus"], &["adapter", "check"], &[]];
+    let commands = [
+        &["codec"][..],
+        &["host"],
+        &["device"],
+        &["fuzz"],
+        &["replay"],
+        &["bus"],
+        &["adapter", "check"],
+        &[],
+    ];
     for command in commands {
         let help = actucheck(&[command, &["--help"]].concat()).1;
         let help = help.split_whitespace().collect::<Vec<_>>().join(" ");

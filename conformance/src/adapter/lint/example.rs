@@ -69,7 +69,11 @@ impl Example {
             Demand::Yield(output) | Demand::Near { output, .. } => vec![output.clone()],
             Demand::YieldOneOf(outputs) => outputs.clone(),
             Demand::Record(open) => open.ways.iter().map(|way| way.output.clone()).collect(),
-            Demand::Reject(_) | Demand::Send | Demand::Withhold | Demand::Return(_) => Vec::new(),
+            Demand::Reject(_)
+            | Demand::Send
+            | Demand::Withhold
+            | Demand::Return(_)
+            | Demand::Answer(_) => Vec::new(),
         };
         let question = check.question.clone();
         Self { name, question, version: 0, request: String::new(), right }.in_version(VERSION)

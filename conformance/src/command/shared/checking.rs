@@ -24,9 +24,21 @@ use super::{
     command_line, date, interrupted, next, progress,
 };
 
-/// The options of a run of checks.
+/// The options of a run of checks that a codec or a host behind an adapter is asked.
 #[derive(Debug, Args)]
 pub(crate) struct Checking {
+    #[command(flatten)]
+    running: Running,
+    /// How many processes of the adapter share the work
+    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u8).range(1..))]
+    jobs: u8,
+    #[command(flatten)]
+    adapter: Adapter,
+}
+
+/// The options of a run of checks, whoever is asked.
+#[derive(Debug, Args)]
+pub(crate) struct Running {
     /// Expected failures: these checks may fail, and must not pass
     #[arg(long, value_name = "FILE")]
     expect: Option<PathBuf>,
@@ -38,17 +50,12 @@ pub(crate) struct Checking {
     reports: Reports,
     #[command(flatten)]
     look: Look,
-    /// How many processes of the adapter share the work
-    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u8).range(1..))]
-    jobs: u8,
     /// End the run after this many unexpected failures
     #[arg(long, value_name = "N")]
     max_fail: Option<NonZeroUsize>,
     /// Ask each check so many times in a row; answers that change are `flaky`
     #[arg(long, value_name = "N", default_value = "1")]
     repeat: NonZeroU32,
-    #[command(flatten)]
-    adapter: Adapter,
 }
 
 /// What is asked in a run.
@@ -63,6 +70,15 @@ pub(crate) struct Planned<'a> {
     pub(crate) options: Options,
 }
 
+/// Who is asked.
+#[derive(Clone, Copy)]
+pub(crate) struct Asked<'c> {
+    /// The command that was started; empty without one.
+    pub(crate) command: &'c [String],
+    /// The words that ask checks again, before the glob of their ids, if `replay` does not.
+    pub(crate) again: &'c [String],
+}
+
 impl Checking {
     /// Runs the selected checks of a plan, writes the reports, and returns the exit status.
     pub(crate) fn run<'a>(
@@ -71,12 +87,33 @@ impl Checking {
         selection: &Selection,
         plan: impl FnOnce(&mut Subjects) -> Result<Planned<'a>, Failure>,
     ) -> Result<ExitCode, Failure> {
-        let others = self.adapter.trace().into_iter().chain(self.write_expect.as_deref());
+        let Self { running, jobs, adapter } = self;
+        let asked = Asked { command: &adapter.command, again: &[] };
+        running.run(spec, selection, adapter.trace(), asked, |interrupted| {
+            let mut subjects = Subjects::start(adapter, *jobs, interrupted)?;
+            let planned = plan(&mut subjects)?;
+            Ok((subjects, planned))
+        })
+    }
+}
+
+impl Running {
+    /// Runs the selected checks of a plan, writes the reports, and returns the exit status. `trace` is
+    /// another file that is written.
+    pub(crate) fn run<'a>(
+        &self,
+        spec: &'a Spec,
+        selection: &Selection,
+        trace: Option<&Path>,
+        Asked { command, again }: Asked<'_>,
+        start: impl FnOnce(&Arc<AtomicBool>) -> Result<(Subjects, Planned<'a>), Failure>,
+    ) -> Result<ExitCode, Failure> {
+        let others = trace.into_iter().chain(self.write_expect.as_deref());
         let outputs = Outputs::open(&self.reports, others)?;
         let write_expect =
             self.write_expect.as_ref().map(|path| self.new_file(path)).transpose()?;
         let interrupted = interrupted()?;
-        let start = Start::new(self, selection, &interrupted, plan);
+        let start = Start::new(self, selection, &interrupted, start);
         let (mut outputs, start) = outputs.unless_failed(start)?;
         let Start { mut subjects, planned, mut expectations } = start;
         let Planned { wires, plan, records, options, .. } = planned;
@@ -92,19 +129,22 @@ impl Checking {
             implementation: &hello.implementation,
             wires: &wires,
             options,
-            command: &self.adapter.command,
+            command,
+            again,
             records,
         };
         let mut streams = Streams::begin(&mut outputs, &run.header());
         let mut collector = Collector::new(&run);
         let mut failures = Failures::default();
         let mut limit = Limit::new(self.max_fail);
+        // A bar that moves too often takes time.
+        let stride = if size > 10_000 { 64 } else { 1 };
         let mut handed_on = 0_u64;
         let asked =
             run::run(&mut subjects.all, &plan, self.repeat, &interrupted, &mut |mut outcome| {
                 handed_on += 1;
-                if handed_on.is_multiple_of(64) {
-                    bar.inc(64);
+                if handed_on.is_multiple_of(stride) {
+                    bar.inc(stride);
                 }
                 expectations.apply(&mut outcome);
                 if write_expect.is_some() {
@@ -198,14 +238,13 @@ struct Start<'a> {
 
 impl<'a> Start<'a> {
     fn new(
-        checking: &Checking,
+        running: &Running,
         selection: &Selection,
         interrupted: &Arc<AtomicBool>,
-        plan: impl FnOnce(&mut Subjects) -> Result<Planned<'a>, Failure>,
+        start: impl FnOnce(&Arc<AtomicBool>) -> Result<(Subjects, Planned<'a>), Failure>,
     ) -> Result<Self, Failure> {
-        let mut subjects = Subjects::start(&checking.adapter, checking.jobs, interrupted)?;
-        let mut planned = plan(&mut subjects)?;
-        let expectations = match &checking.expect {
+        let (subjects, mut planned) = start(interrupted)?;
+        let expectations = match &running.expect {
             Some(path) => {
                 Expectations::read(path, &planned.plan, &planned.widest).map_err(Failure::usage)?
             }

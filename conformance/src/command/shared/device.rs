@@ -22,6 +22,11 @@ fn help() -> String {
 }
 
 impl DeviceOption {
+    /// What the user wrote.
+    pub(crate) fn words(&self) -> Option<String> {
+        self.device.clone()
+    }
+
     /// The tables that it says.
     pub(crate) fn tables(&self) -> Result<Tables, Failure> {
         let tables = self.device.as_deref().map(str::parse).transpose();

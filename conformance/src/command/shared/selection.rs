@@ -119,12 +119,13 @@ impl Growth {
         hello: Option<&Hello>,
     ) -> Result<Check, Failure> {
         let longest = Self { body_length: Some(Options::LONGEST_BODY), ..*self };
-        let hosts = || suite::host_plan(spec, &Wire::ALL);
-        let plan = longest.plan(spec, &Wire::ALL, hello).and(hosts());
+        let devices = || suite::every_device_plan(spec, &Wire::ALL);
+        let others = || suite::host_plan(spec, &Wire::ALL).and(devices());
+        let plan = longest.plan(spec, &Wire::ALL, hello).and(others());
         plan.find(id).ok_or_else(|| {
             let hint = if spec.requirement(id).is_some() {
                 format!("it is a requirement's, which `actucheck spec show {id}` shows")
-            } else if let Some(other) = self.plan(spec, &Wire::ALL, hello).and(hosts()).nearest(id)
+            } else if let Some(other) = self.plan(spec, &Wire::ALL, hello).and(others()).nearest(id)
             {
                 format!("did you mean `{other}`?")
             } else {

@@ -110,7 +110,8 @@ impl Subjects {
         Ok(Self { trace: settings.trace, ..subjects })
     }
 
-    fn of(subject: impl Subject + Send + 'static) -> Self {
+    /// One subject without an adapter.
+    pub(crate) fn of(subject: impl Subject + Send + 'static) -> Self {
         Self { hello: subject.hello().clone(), all: vec![Box::new(subject)], trace: None }
     }
 

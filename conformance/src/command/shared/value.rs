@@ -34,6 +34,11 @@ pub(crate) fn seconds(text: &str) -> Result<Duration, String> {
         .ok_or_else(|| "a time is a number of seconds above 0, such as 0.5".to_owned())
 }
 
+/// Takes a number of milliseconds.
+pub(crate) fn milliseconds(text: &str) -> Result<Duration, String> {
+    positive(text, 1e-3).ok_or_else(|| "a time is a number of ms above 0, such as 100".to_owned())
+}
+
 /// Takes a number of seconds, minutes or hours.
 pub(crate) fn duration(text: &str) -> Result<Duration, String> {
     let units = [('s', 1.0), ('m', 60.0), ('h', 3600.0)];

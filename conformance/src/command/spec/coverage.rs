@@ -56,11 +56,15 @@ pub(super) fn text(spec: &Spec, options: &Coverage) -> Result<String, Failure> {
     }
     let role = options.role;
     let hosts = suite::host_plan(spec, &Wire::ALL);
-    let plan = suite::plan(spec, &Wire::ALL, &Options::new()).and(hosts);
+    let devices = suite::every_device_plan(spec, &Wire::ALL);
+    let plan = suite::plan(spec, &Wire::ALL, &Options::new()).and(hosts).and(devices);
     let with_facts = |check: Check| {
         let only_records = check.only_records();
-        let is_of_host = matches!(check.question, Question::Converse { .. });
-        let role = if is_of_host { Role::Host } else { Role::Codec };
+        let role = match check.question {
+            Question::Converse { .. } => Role::Host,
+            Question::Device { .. } => Role::Device,
+            _ => Role::Codec,
+        };
         (check.id, check.requirement, role, only_records)
     };
     let checks: Vec<_> = plan.checks().map(with_facts).collect();

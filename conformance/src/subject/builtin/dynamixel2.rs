@@ -29,7 +29,7 @@ pub(super) fn ask(question: &Question, buffer: &mut Vec<u8>) -> Answer {
         Question::Stream { chunks, .. } => Ok(stream(chunks)),
         Question::Value { of, form, given, .. } => value::ask(of, form, given),
         Question::Message { .. } => Err(not_offered()),
-        Question::Converse { .. } => {
+        Question::Converse { .. } | Question::Device { .. } => {
             return Answer::Skipped("the codec opens no port".to_owned());
         }
     })

@@ -1,0 +1,136 @@
+//! What a device is asked on its port, and what came of it.
+
+use std::fmt;
+
+use actucheck_spec::model::HexBytes;
+use actucheck_spec::wire::{Direction, Fast, Packet, Wire};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{Called, Passed};
+
+/// How much a check may do to a device. Each may do all that those before it may.
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
+)]
+#[serde(rename_all = "kebab-case")]
+pub enum Permission {
+    /// It reads, and sends what must be refused. Nothing changes.
+    #[default]
+    Read,
+}
+
+/// The word that the command line has for it.
+impl fmt::Display for Permission {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Read => "read",
+        })
+    }
+}
+
+/// Bytes for a device, and how many packets are awaited after them.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Asked {
+    /// The instruction packet that is looked at, in words. What is damaged is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub packet: Option<Called>,
+    /// If one packet of several devices answers: what it is asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fast: Option<Fast>,
+    /// All that is sent.
+    pub send: Vec<Piece>,
+    /// How many packets must come after the last piece.
+    pub awaits: usize,
+    /// How often all is sent again if they do not come.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub again: u32,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
+const fn is_zero(number: &u32) -> bool {
+    *number == 0
+}
+
+impl Asked {
+    /// The answers in what came back. One that several devices share is known by what it answers.
+    pub(crate) fn packets(&self, wire: Wire, bytes: &[u8]) -> Vec<Packet> {
+        let shared = self.fast.clone().map(|fast| wire.decode(bytes, &fast.into()));
+        if let Some(Ok(packet)) = shared {
+            return vec![packet];
+        }
+        let mut packets = wire.stream(&[bytes.to_vec().into()], Some(Direction::Reply));
+        // What is sent may come back.
+        packets.retain(|packet| packet.direction() == Direction::Reply);
+        packets
+    }
+}
+
+/// Bytes that are sent at once.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Piece {
+    /// The pause before them.
+    #[serde(default)]
+    pub after: Pause,
+    /// The bytes.
+    pub bytes: HexBytes,
+}
+
+/// A pause between bytes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Pause {
+    /// None.
+    #[default]
+    None,
+    /// A moment, in which the bytes before it arrive alone.
+    Moment,
+    /// As long as the device takes for an answer, and longer.
+    Answer,
+}
+
+/// What passed on the line in a step. It is the same as another if the same bytes came back, whatever
+/// time they took.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Heard {
+    /// The bytes, in order.
+    pub line: Vec<Passed>,
+    /// Bytes that are not among them, as there were too many.
+    #[serde(default, skip_serializing_if = "is_none")]
+    pub more: usize,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
+const fn is_none(number: &usize) -> bool {
+    *number == 0
+}
+
+impl PartialEq for Heard {
+    fn eq(&self, other: &Self) -> bool {
+        self.received() == other.received() && self.more == other.more
+    }
+}
+
+impl Eq for Heard {}
+
+impl Heard {
+    /// The bytes that came.
+    #[must_use]
+    pub fn received(&self) -> Vec<u8> {
+        let came = self.line.iter().filter(|passed| passed.direction == Direction::Reply);
+        came.flat_map(|passed| passed.bytes.0.clone()).collect()
+    }
+}
+
+/// A line for each step, with what was sent and what came.
+pub(super) fn told(steps: &[Heard]) -> String {
+    let told = |step: &Heard| {
+        let passed = step.line.iter().map(|Passed { at_ms, direction, bytes }| {
+            let arrow = if *direction == Direction::Request { "->" } else { "<-" };
+            format!("{arrow} {bytes} at {at_ms} ms")
+        });
+        let more = (step.more > 0).then(|| format!("and {} bytes more", step.more));
+        passed.chain(more).collect::<Vec<_>>().join(", ")
+    };
+    steps.iter().map(told).collect::<Vec<_>>().join("; ")
+}

@@ -1,0 +1,286 @@
+//! `actucheck device`.
+
+use std::collections::BTreeMap;
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+use actucheck::adapter::{Permission, Question, Wire};
+use actucheck::device::{NONE, Tables, of_model};
+use actucheck::port::Place;
+use actucheck::subject::device::{Counts, Device as Subject, Line};
+use actucheck::suite::device::{Target, hello, hello_all, identity, is_checked, reported};
+use actucheck::suite::plan::Plan;
+use actucheck::suite::{self, Options};
+use actucheck_spec::{Spec, model};
+use clap::Args;
+
+use super::ENDED;
+use super::shared::{
+    self, Asked, DeviceOption, Failure, Planned, Running, Selection, Subjects, milliseconds, table,
+};
+
+const EXAMPLES: &str = "\
+Examples:
+  actucheck device /dev/ttyUSB0 --baud 57600
+      check the device with ID 1 on a serial port; its model is asked
+  actucheck device /dev/ttyUSB0 --device ja40 --id 3 --neighbour 4
+      the device with ID 3, and with the one with ID 4 what several devices answer together
+  actucheck device tcp://127.0.0.1:7777 --device my-servo.yaml --report html=report.html
+      a device of your own behind a socket, with a page to read
+  actucheck device --device ja40 -- ./firmware-on-this-machine
+      firmware that was compiled for this machine, which speaks raw bytes on its standard input and output
+  actucheck device --device ja40 -- actucheck bus ja40@1 --stdio
+      a virtual device, to see what a run looks like
+  actucheck device --device ja40 --dry-run
+      what a run would send; nothing is opened
+
+A run reads, and sends what must be refused: nothing changes on the device, and nothing moves. No other
+program may use the port meanwhile.
+
+What the documents leave unspecified is recorded: `actucheck report compare` of the reports of two
+devices shows where they differ.
+
+What fails is asked again of the same device. If it does not fail in the same way, it is `flaky`.
+
+Exit status: 0 all passed, 1 something failed or was flaky, 2 wrong usage, 3 something could not be run \
+or written, 4 the port can't be used, or nothing answers";
+
+/// Checks a device: firmware, on its port
+#[derive(Debug, Args)]
+#[command(after_help = format!("{EXAMPLES}, {ENDED}"))]
+pub(crate) struct Device {
+    /// Where the device is: the path of a serial port, tcp://HOST:PORT or udp://HOST:PORT
+    #[arg(value_name = "PORT", required_unless_present_any = ["command", "dry_run"], conflicts_with = "command")]
+    port: Option<String>,
+    #[command(flatten)]
+    table: DeviceOption,
+    /// The device's ID
+    #[arg(long, value_name = "ID", default_value_t = 1, value_parser = clap::value_parser!(u8).range(0..=252))]
+    id: u8,
+    /// Another device on the line, which is read together with it
+    #[arg(long, value_name = "ID", value_parser = clap::value_parser!(u8).range(0..=252))]
+    neighbour: Option<u8>,
+    /// The rate of a serial port in bit/s [default: that with which the device leaves the factory, or
+    /// 57600]
+    #[arg(long, value_name = "RATE", value_parser = clap::value_parser!(u32).range(1..))]
+    baud: Option<u32>,
+    /// How many milliseconds an answer is awaited
+    #[arg(long, value_name = "MS", default_value = "500", value_parser = milliseconds)]
+    answer_within: Duration,
+    /// Print what would be sent, and open no port
+    #[arg(long)]
+    dry_run: bool,
+    #[command(flatten)]
+    selection: Selection,
+    #[command(flatten)]
+    running: Running,
+    /// The command of firmware that speaks raw bytes on its standard input and output
+    #[arg(last = true, value_name = "COMMAND")]
+    command: Vec<String>,
+}
+
+/// The rate of most devices that leave the factory.
+const BAUD: u32 = 57_600;
+
+/// How long a program may take to start.
+const START: Duration = Duration::from_secs(5);
+
+/// How long it is listened for more devices.
+const MORE: Duration = Duration::from_millis(100);
+
+/// Runs the checks, writes the reports, and returns the exit status.
+pub(crate) fn run(options: &Device) -> Result<ExitCode, Failure> {
+    let spec = shared::spec()?;
+    if options.neighbour == Some(options.id) {
+        return Err(Failure::usage("--neighbour is another device; give it an ID other than --id"));
+    }
+    let tables = options.table.tables()?;
+    if options.dry_run {
+        return options.print_plan(&spec, &tables);
+    }
+    let mut subject = None;
+    let again = options.again();
+    let asked = Asked { command: &options.command, again: &again };
+    let status = options.running.run(&spec, &options.selection, None, asked, |interrupted| {
+        let (device, planned) = options.begin(&spec, tables, interrupted)?;
+        subject = Some(device.clone());
+        Ok((Subjects::of(device), planned))
+    })?;
+    let Some(subject) = subject else { return Ok(status) };
+    anstream::eprintln!("actucheck: {}", subject.look(|line| passed(line.counts())));
+    match subject.look(|line| line.gone().map(str::to_owned)) {
+        Some(gone) => Err(Failure::not_started(gone)),
+        None => Ok(status),
+    }
+}
+
+impl Device {
+    fn place(&self) -> Place {
+        match &self.port {
+            Some(port) => {
+                let Ok(place) = port.parse();
+                place
+            }
+            None => Place::Program(self.command.clone()),
+        }
+    }
+
+    /// The one wire that is spoken.
+    fn wire(&self) -> Result<Wire, Failure> {
+        let mut wires = self.selection.wires().into_iter().filter(|wire| is_checked(*wire));
+        wires
+            .next()
+            .ok_or_else(|| Failure::usage("there are no checks of devices on this wire yet"))
+    }
+
+    /// Opens the port, and looks who is there.
+    fn begin<'a>(
+        &self,
+        spec: &'a Spec,
+        mut tables: Tables,
+        interrupted: &Arc<AtomicBool>,
+    ) -> Result<(Subject, Planned<'a>), Failure> {
+        let (wire, place, id) = (self.wire()?, self.place(), self.id);
+        let baud = self.baud.or_else(|| factory_rate(table_of(&tables, id, spec)?));
+        let baud = baud.unwrap_or(BAUD);
+        let mut line = Line::open(wire, &place, baud, self.answer_within, Arc::clone(interrupted))
+            .map_err(Failure::not_started)?;
+        let mut ask = |packet, limit, awaits| {
+            let answers = line.exchange(&packet, limit, awaits).map_err(Failure::not_started)?;
+            let answers = answers.iter().flat_map(|answer| reported(wire, answer));
+            Ok::<_, Failure>(answers.collect::<Vec<_>>())
+        };
+        let mut found = None;
+        if let Some(packet) = hello(wire, id) {
+            // A program has to start first; what is sent meanwhile waits.
+            let limit = match &place {
+                Place::Program(_) => START.max(self.answer_within),
+                _ => self.answer_within,
+            };
+            let answers = ask(packet, limit, 1)?;
+            found = answers.into_iter().find(|answer| answer.id == id);
+        }
+        let Some(found) = found else { return Err(self.nothing_answers(&place, baud)) };
+        let mut present = vec![id];
+        if let Some(packet) = hello_all(wire) {
+            present.extend(ask(packet, MORE, usize::MAX)?.iter().map(|answer| answer.id));
+            present.sort_unstable();
+            present.dedup();
+        }
+        if let Some(neighbour) = self.neighbour.filter(|id| !present.contains(id)) {
+            let message = format!("the neighbour with ID {neighbour} does not answer at {place}");
+            return Err(Failure::not_started(message));
+        }
+        let said = identity(wire, &found);
+        if let Some(model) = said.model_number {
+            tables.learn(id, model);
+        }
+        let device = table_of(&tables, id, spec);
+        let name = device.map_or("a device that is not known", |device| &device.title);
+        let firmware = said.firmware_version;
+        let firmware = firmware.map_or_else(String::new, |version| format!("firmware {version}"));
+        let subject = Subject::new(format!("{name}, ID {id}"), firmware, line, Permission::Read);
+        let target = Target { id, device, neighbour: self.neighbour, present };
+        Ok((subject, planned(spec, wire, &target)))
+    }
+
+    fn nothing_answers(&self, place: &Place, baud: u32) -> Failure {
+        let rate = match place {
+            Place::Serial(_) => format!(", --baud {baud}"),
+            _ => String::new(),
+        };
+        Failure::not_started(format!(
+            "{place}: nothing answers a Ping; is the device on, and are --id {}{rate} and the wiring right?",
+            self.id
+        ))
+    }
+
+    /// The words that ask checks again.
+    fn again(&self) -> Vec<String> {
+        let mut words = vec!["actucheck".to_owned(), "device".to_owned()];
+        words.extend(self.port.clone());
+        let mut option = |name: &str, value: Option<String>| {
+            words.extend(value.into_iter().flat_map(|value| [format!("--{name}"), value]));
+        };
+        option("device", self.table.words());
+        option("id", (self.id != 1).then(|| self.id.to_string()));
+        option("neighbour", self.neighbour.map(|id| id.to_string()));
+        option("baud", self.baud.map(|baud| baud.to_string()));
+        words
+    }
+
+    fn print_plan(&self, spec: &Spec, tables: &Tables) -> Result<ExitCode, Failure> {
+        let target = Target { id: self.id, ..Target::alone(table_of(tables, self.id, spec)) };
+        let target = Target { present: vec![self.id], ..target };
+        let target = match self.neighbour {
+            Some(id) => target.with_neighbour(id),
+            None => target,
+        };
+        let mut plan = suite::device_plan(spec, &[self.wire()?], &target);
+        self.selection.restrict(&mut plan)?;
+        shared::print(text(&plan).as_bytes())?;
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+fn planned<'a>(spec: &'a Spec, wire: Wire, target: &Target<'a>) -> Planned<'a> {
+    let plan = || suite::device_plan(spec, &[wire], target);
+    let (wires, records) = (vec![wire], BTreeMap::new());
+    Planned { wires, plan: plan(), widest: plan(), records, options: Options::new() }
+}
+
+/// The control table of a device, as the spec or the user's file has it.
+fn table_of<'s>(tables: &Tables, id: u8, spec: &'s Spec) -> Option<&'s model::Device> {
+    tables.written(id, spec).or_else(|| {
+        let table = tables.of(id).filter(|table| table.id != NONE.id)?;
+        spec.device(of_model(table.model_number?)?.id)
+    })
+}
+
+/// The rate with which a device leaves the factory.
+fn factory_rate(device: &model::Device) -> Option<u32> {
+    let register = device.register("Baud Rate")?;
+    let value = register.values.iter().find(|value| Some(value.value) == register.initial)?;
+    value.actual.and_then(|rate| rate.try_into().ok())
+}
+
+/// A line for each check, and how much is sent.
+fn text(plan: &Plan<'_>) -> String {
+    let mut rows = vec![["check", "needs", "packets", "bytes"].map(str::to_owned)];
+    let (mut packets, mut bytes) = (0, 0);
+    for check in plan.checks() {
+        let Question::Device { needs, steps, .. } = &check.question else { continue };
+        let pieces = steps.iter().flat_map(|step| &step.send);
+        let size: usize = pieces.clone().map(|piece| piece.bytes.len()).sum();
+        let count = pieces.count();
+        rows.push([check.id, needs.to_string(), count.to_string(), size.to_string()]);
+        packets += count;
+        bytes += size;
+    }
+    let checks = rows.len() - 1;
+    let lines = table::lines("", &rows).join("\n");
+    format!("{lines}\n{checks} checks send {packets} packets and pieces, {bytes} bytes in all\n")
+}
+
+/// What passed on the line, in a sentence.
+fn passed(counts: &Counts) -> String {
+    let mut times = counts.times.clone();
+    times.sort_unstable();
+    let ms = |place: usize| times.get(place).map_or(0.0, |time| time.as_secs_f64() * 1e3);
+    let last = times.len().saturating_sub(1);
+    let unasked = match counts.unasked {
+        0 => String::new(),
+        bytes => format!(", and {bytes} bytes came that nothing had asked for"),
+    };
+    format!(
+        "{} packets and pieces with {} bytes were sent, {} bytes came; answers began after {:.1} to {:.1} ms, half of them within {:.1} ms{unasked}",
+        counts.pieces,
+        counts.sent,
+        counts.received,
+        ms(0),
+        ms(last),
+        ms(last / 2)
+    )
+}

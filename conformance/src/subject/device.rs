@@ -1,0 +1,383 @@
+//! A device on its port.
+
+use std::io;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use actucheck_spec::model::Role;
+use actucheck_spec::wire::{Direction, Packet, Wire};
+
+use super::{Answer, Subject};
+use crate::adapter::{
+    Asked, Heard, Hello, Implementation, Limits, Output, Passed, Pause, Permission, Piece,
+    Question, VERSION,
+};
+use crate::port::{Place, Port, PortError};
+
+/// A pause in which bytes arrive alone.
+const MOMENT: Duration = Duration::from_millis(2);
+/// The shortest and the longest pause for an answer, whatever answers took so far.
+const PAUSE: (Duration, Duration) = (Duration::from_millis(5), Duration::from_millis(200));
+/// After so many times the limit nothing more is listened to, even if bytes still come.
+const MOST: u32 = 20;
+/// The most bytes of a step that are looked at, and that are kept in how many pieces.
+const KEPT: (usize, usize) = (1 << 16, 64);
+
+/// A device on its port. Copies share the port.
+#[derive(Clone, Debug)]
+pub struct Device {
+    hello: Hello,
+    line: Arc<Mutex<Line>>,
+    allowed: Permission,
+}
+
+/// The line to a device.
+#[derive(Debug)]
+pub struct Line {
+    wire: Wire,
+    place: Place,
+    port: Port,
+    /// How long an answer is awaited.
+    limit: Duration,
+    /// When this is set, no answer is awaited any more.
+    interrupted: Arc<AtomicBool>,
+    /// Whether what is sent comes back, as with most adapters for a line of one wire.
+    echoes: bool,
+    /// The bytes that ask whether the device is there, and what it answered last.
+    hello: Option<(Vec<u8>, Packet)>,
+    /// Why the port can't be used any more.
+    gone: Option<String>,
+    /// What passed so far.
+    counts: Counts,
+}
+
+/// What passed on a line.
+#[derive(Clone, Debug, Default)]
+pub struct Counts {
+    /// How many packets and parts of packets were sent.
+    pub pieces: usize,
+    /// How many bytes were sent.
+    pub sent: usize,
+    /// How many bytes came.
+    pub received: usize,
+    /// How many bytes came that nothing had asked for.
+    pub unasked: usize,
+    /// How long the first byte of answers to whole packets took.
+    pub times: Vec<Duration>,
+}
+
+/// How many times of answers are kept.
+const TIMES: usize = 4096;
+
+impl Line {
+    /// Opens the line; `baud` is the rate in bit/s of a serial port.
+    ///
+    /// # Errors
+    /// If the port can't be opened.
+    pub fn open(
+        wire: Wire,
+        place: &Place,
+        baud: u32,
+        limit: Duration,
+        interrupted: Arc<AtomicBool>,
+    ) -> Result<Self, PortError> {
+        let port = Port::open(place, baud)?;
+        let (place, counts) = (place.clone(), Counts::default());
+        Ok(Self {
+            wire,
+            place,
+            port,
+            limit,
+            interrupted,
+            echoes: false,
+            hello: None,
+            gone: None,
+            counts,
+        })
+    }
+
+    /// The packets that come back after a packet, until so many are there or nothing comes for so long.
+    /// Finds out whether what is sent comes back too, and keeps the only answer to the packet as what
+    /// tells that the device is there.
+    ///
+    /// # Errors
+    /// If the port is gone.
+    pub fn exchange(
+        &mut self,
+        packet: &Packet,
+        limit: Duration,
+        awaits: usize,
+    ) -> Result<Vec<Packet>, PortError> {
+        let bytes = self.wire.encode(packet).unwrap_or_default();
+        let piece = Piece { after: Pause::None, bytes: bytes.clone().into() };
+        let step = Asked { packet: None, fast: None, send: vec![piece], awaits, again: 0 };
+        let usual = std::mem::replace(&mut self.limit, limit);
+        let heard = self.tried(&step);
+        self.limit = usual;
+        let heard = heard.map_err(|error| PortError::new(&self.place, error))?;
+        let packets = step.packets(self.wire, &heard.received());
+        if let [answer] = packets.as_slice() {
+            self.hello = Some((bytes, answer.clone()));
+        }
+        Ok(packets)
+    }
+
+    /// A step. Finds out whether what is sent comes back.
+    fn tried(&mut self, step: &Asked) -> io::Result<Heard> {
+        self.drain()?;
+        let heard = self.step(step)?;
+        let sent: Vec<u8> = step.send.iter().flat_map(|piece| piece.bytes.0.clone()).collect();
+        if self.echoes || !heard.received().starts_with(&sent) {
+            return Ok(heard);
+        }
+        self.echoes = true;
+        self.drain()?;
+        self.step(step)
+    }
+
+    fn converse(&mut self, steps: &[Asked]) -> io::Result<Vec<Heard>> {
+        self.drain()?;
+        steps.iter().map(|step| self.step(step)).collect()
+    }
+
+    /// Takes what came since the last conversation.
+    fn drain(&mut self) -> io::Result<()> {
+        let mut buffer = [0; 1024];
+        // A device that sends without end does not stop a run.
+        for _ in 0..KEPT.1 {
+            match self.port.receive(&mut buffer, Duration::ZERO)? {
+                0 => break,
+                count => self.counts.unasked += count,
+            }
+        }
+        Ok(())
+    }
+
+    fn step(&mut self, asked: &Asked) -> io::Result<Heard> {
+        let mut record = Record::new(if self.echoes { asked } else { &NOTHING });
+        for _ in 0..=asked.again {
+            for (place, piece) in asked.send.iter().enumerate() {
+                match piece.after {
+                    Pause::None => {}
+                    Pause::Moment => self.listen(&mut record, MOMENT, None)?,
+                    Pause::Answer => {
+                        let pause = self.pause();
+                        self.listen(&mut record, pause, None)?;
+                    }
+                }
+                if place + 1 == asked.send.len() {
+                    record.last_is_sent(asked, self.wire);
+                }
+                record.sent(&piece.bytes);
+                self.counts.pieces += 1;
+                self.counts.sent += piece.bytes.len();
+                self.port.send(&piece.bytes)?;
+            }
+            self.listen(&mut record, self.limit, Some(asked))?;
+            if self.is_over(&record, asked) || self.is_interrupted() {
+                break;
+            }
+        }
+        Ok(record.heard())
+    }
+
+    /// Listens until all is there that is `awaited`, or nothing came for so long.
+    fn listen(
+        &mut self,
+        record: &mut Record,
+        limit: Duration,
+        awaited: Option<&Asked>,
+    ) -> io::Result<()> {
+        let begun = Instant::now();
+        let (mut last, mut is_first) = (begun, true);
+        let mut buffer = [0; 4096];
+        loop {
+            let is_over = awaited.is_some_and(|asked| self.is_over(record, asked));
+            let left = limit.saturating_sub(last.elapsed());
+            if is_over || begun.elapsed() > limit * MOST || self.is_interrupted() {
+                return Ok(());
+            }
+            let count = self.port.receive(&mut buffer, left)?;
+            if count == 0 {
+                return Ok(());
+            }
+            let bytes = buffer.get(..count).unwrap_or_default();
+            let is_answer = record.received(bytes) && std::mem::take(&mut is_first);
+            // What is damaged may be answered late, if it is.
+            if is_answer && awaited.is_some_and(|asked| asked.packet.is_some()) {
+                self.counts.times.truncate(TIMES - 1);
+                self.counts.times.push(begun.elapsed());
+            }
+            self.counts.received += count;
+            // A pause is as long as it is.
+            if awaited.is_some() {
+                last = Instant::now();
+            }
+        }
+    }
+
+    /// Whether all is there that is awaited.
+    fn is_over(&self, record: &Record, asked: &Asked) -> bool {
+        if let Some(fast) = &asked.fast {
+            return self.wire.decode(&record.came, &fast.clone().into()).is_ok();
+        }
+        let packets = asked.packets(self.wire, &record.came);
+        // An answer to something else may come late, but nothing comes after the answer to this.
+        let is_last = match (asked.send.last(), &self.hello) {
+            (Some(Piece { after: Pause::Answer, bytes }), Some((hello, answer)))
+                if bytes.0 == *hello =>
+            {
+                packets.last() == Some(answer)
+            }
+            _ => true,
+        };
+        is_last && packets.len() >= record.before + asked.awaits
+    }
+
+    /// How long a pause must be so that an answer would be there.
+    fn pause(&self) -> Duration {
+        let slowest = self.counts.times.iter().max().copied().unwrap_or_default();
+        (slowest * 2).clamp(PAUSE.0, PAUSE.1)
+    }
+
+    fn is_interrupted(&self) -> bool {
+        self.interrupted.load(Ordering::Relaxed)
+    }
+
+    /// What passed so far.
+    #[must_use]
+    pub const fn counts(&self) -> &Counts {
+        &self.counts
+    }
+
+    /// Why the port can't be used any more, if it can't.
+    #[must_use]
+    pub fn gone(&self) -> Option<&str> {
+        self.gone.as_deref()
+    }
+}
+
+/// No bytes.
+static NOTHING: Asked = Asked { packet: None, fast: None, send: Vec::new(), awaits: 0, again: 0 };
+
+/// What passes in a step.
+struct Record {
+    begun: Instant,
+    line: Vec<Passed>,
+    more: usize,
+    /// All that came.
+    came: Vec<u8>,
+    /// What was sent and comes back.
+    echo: Vec<u8>,
+    /// How many packets came before the last piece was sent.
+    before: usize,
+}
+
+impl Record {
+    fn new(echoed: &Asked) -> Self {
+        let echo = echoed.send.iter().flat_map(|piece| piece.bytes.0.clone()).collect();
+        let (line, came, begun) = (Vec::new(), Vec::new(), Instant::now());
+        Self { begun, line, more: 0, came, echo, before: 0 }
+    }
+
+    fn sent(&mut self, bytes: &[u8]) {
+        self.add(Direction::Request, bytes);
+    }
+
+    /// Takes bytes that came. Returns whether they are more than an echo.
+    fn received(&mut self, bytes: &[u8]) -> bool {
+        let same = self.echo.iter().zip(bytes).take_while(|(sent, came)| sent == came).count();
+        self.echo.drain(..same);
+        let bytes = bytes.get(same..).unwrap_or_default();
+        if bytes.is_empty() {
+            return false;
+        }
+        let room = KEPT.0.saturating_sub(self.came.len());
+        let kept = bytes.get(..room).unwrap_or(bytes);
+        self.came.extend_from_slice(kept);
+        self.more += bytes.len() - kept.len();
+        self.add(Direction::Reply, kept);
+        true
+    }
+
+    fn add(&mut self, direction: Direction, bytes: &[u8]) {
+        let at_ms = u64::try_from(self.begun.elapsed().as_millis()).unwrap_or(u64::MAX);
+        match self.line.last_mut() {
+            // An answer may come byte by byte.
+            Some(last) if last.direction == direction && direction == Direction::Reply => {
+                last.bytes.0.extend_from_slice(bytes);
+            }
+            _ => {
+                let bytes = bytes.to_vec().into();
+                self.line.push(Passed { at_ms, direction, bytes });
+            }
+        }
+    }
+
+    fn last_is_sent(&mut self, asked: &Asked, wire: Wire) {
+        self.before = asked.packets(wire, &self.came).len();
+    }
+
+    fn heard(self) -> Heard {
+        Heard { line: self.line, more: self.more }
+    }
+}
+
+impl Device {
+    /// A device of this name and firmware on a line.
+    #[must_use]
+    pub fn new(name: String, firmware: String, line: Line, allowed: Permission) -> Self {
+        let language = "a device".to_owned();
+        let implementation = Implementation { name, version: firmware, language, url: None };
+        let hello = Hello {
+            protocol: VERSION,
+            implementation: implementation.legible(),
+            wires: vec![line.wire.id().to_owned()],
+            ops: vec!["device".to_owned()],
+            roles: vec![Role::Device],
+            calls: None,
+            max_in_flight: 1,
+            limits: Limits::default(),
+        };
+        Self { hello, line: Arc::new(Mutex::new(line)), allowed }
+    }
+
+    /// Looks at the line.
+    pub fn look<T>(&self, look: impl FnOnce(&Line) -> T) -> T {
+        look(&self.line.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+}
+
+impl Subject for Device {
+    fn hello(&self) -> &Hello {
+        &self.hello
+    }
+
+    fn ask(&mut self, question: &Question) -> Answer {
+        let Question::Device { needs, steps, .. } = question else {
+            return Answer::Skipped("a device has only its port".to_owned());
+        };
+        if *needs > self.allowed {
+            return Answer::Skipped(format!("it needs --allow {needs}"));
+        }
+        let mut line = self.line.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(gone) = &line.gone {
+            return Answer::NotAsked(gone.clone());
+        }
+        match line.converse(steps) {
+            _ if line.is_interrupted() => Answer::NotAsked("interrupted".to_owned()),
+            Ok(heard) => Answer::Ok(Output::Line(heard)),
+            Err(error) => {
+                let gone = PortError::new(&line.place, error).to_string();
+                line.gone = Some(gone.clone());
+                Answer::NotAsked(gone)
+            }
+        }
+    }
+
+    /// The same device is asked again what failed.
+    fn another(&self) -> Option<Box<dyn Subject + Send>> {
+        Some(Box::new(self.clone()))
+    }
+}

@@ -1,0 +1,255 @@
+//! Checks of devices on DYNAMIXEL Protocol 2.0 and its JA dialect.
+//!
+//! - identity: what Ping tells, and that Read tells the same;
+//! - table: that every register can be read, and what some must hold;
+//! - refused: addresses and instructions that there are not;
+//! - addressee: other IDs, and the broadcast ID;
+//! - damaged: packets with a wrong byte, and packets in noise or in parts;
+//! - several: instructions that read from several devices.
+
+mod addressee;
+mod damaged;
+mod identity;
+mod refused;
+mod several;
+mod table;
+
+use actucheck_spec::model::{Citation, HexBytes, Role};
+use actucheck_spec::wire;
+use actucheck_spec::wire::dynamixel2::reference::{BROADCAST, frame};
+use actucheck_spec::wire::dynamixel2::{Packet, WIRE};
+
+use super::{Identity, Target, basic};
+use crate::adapter::{Asked, Called, Pause, Permission, Piece, Question, Reported};
+use crate::suite::Author;
+use crate::suite::check::{Check, Demand};
+use crate::suite::plan::Family;
+use crate::suite::wanted::{Like, Part, Wanted};
+
+/// Codes of instructions (DYNAMIXEL Protocol 2.0, Instruction; JA40 document, §1.3).
+mod code {
+    pub(super) const PING: u8 = 0x01;
+    pub(super) const READ: u8 = 0x02;
+    pub(super) const SYNC_READ: u8 = 0x82;
+    pub(super) const FAST_SYNC_READ: u8 = 0x8A;
+    pub(super) const BULK_READ: u8 = 0x92;
+}
+
+/// Error numbers (DYNAMIXEL Protocol 2.0, Error).
+mod error {
+    pub(super) const NONE: u8 = 0;
+    pub(super) const INSTRUCTION: u8 = 2;
+    pub(super) const CRC: u8 = 3;
+    pub(super) const ACCESS: u8 = 7;
+}
+
+/// What bit 7 of the error byte is.
+const ALERT: u8 = 0x80;
+
+pub(super) fn families<'a>(author: Author<'a>, target: &Target<'a>) -> Vec<Family<'a>> {
+    let family = |prefix: &str, checks: fn(&Talk<'a>) -> Vec<Check>| {
+        let talk = Talk { author, target: target.clone() };
+        Family::of(format!("dynamixel2.device.{prefix}."), move || checks(&talk))
+    };
+    vec![
+        family("basic", identity::basics),
+        family("identity", identity::checks),
+        family("table", table::checks),
+        family("refused", refused::checks),
+        family("addressee", addressee::checks),
+        family("damaged", damaged::checks),
+        family("stream", damaged::in_streams),
+        family("several", several::checks),
+    ]
+}
+
+/// Ping.
+pub(super) fn hello(id: u8) -> wire::Packet {
+    ping(id).into()
+}
+
+/// Ping to the broadcast ID.
+pub(super) fn hello_all() -> wire::Packet {
+    ping(BROADCAST).into()
+}
+
+/// Model number and firmware version, which answer Ping.
+pub(super) fn identity(answer: &Reported) -> Identity {
+    match answer.data.as_ref().map(|data| data.0.as_slice()) {
+        Some([low, high, firmware]) => Identity {
+            model_number: Some(u16::from_le_bytes([*low, *high])),
+            firmware_version: Some(*firmware),
+        },
+        _ => Identity::default(),
+    }
+}
+
+/// What an answer says of each device that it is from.
+pub(super) fn reported(packet: &wire::Packet) -> Vec<Reported> {
+    let reported = |id, error: u8, data: &HexBytes| Reported {
+        id,
+        data: Some(data.clone()),
+        error: Some(error & !ALERT),
+        alert: Some(error & ALERT != 0),
+        ..Reported::default()
+    };
+    match packet {
+        wire::Packet::Dynamixel2(Packet::Status { id, error, params }) => {
+            vec![reported(*id, *error, params)]
+        }
+        wire::Packet::Dynamixel2(Packet::FastStatus { blocks }) => {
+            blocks.iter().map(|block| reported(block.id, block.error, &block.data)).collect()
+        }
+        // An echo, or another host.
+        _ => Vec::new(),
+    }
+}
+
+/// Writes checks of a device.
+struct Talk<'a> {
+    author: Author<'a>,
+    target: Target<'a>,
+}
+
+impl Talk<'_> {
+    /// Demands what comes back, step by step.
+    fn check(
+        &self,
+        id: String,
+        requirements: &[impl AsRef<str>],
+        steps: Vec<Asked>,
+        wanted: Vec<Vec<Vec<Like>>>,
+    ) -> Check {
+        let wanted = wanted.into_iter().map(Wanted).collect();
+        self.asks(id, requirements, steps, Demand::Answer(wanted))
+    }
+
+    /// Records what comes back in the first step.
+    fn record(
+        &self,
+        id: String,
+        requirements: &[impl AsRef<str>],
+        steps: Vec<Asked>,
+        question: &str,
+    ) -> Check {
+        self.asks(id, requirements, steps, Demand::record(question, []))
+    }
+
+    fn asks(
+        &self,
+        id: String,
+        requirements: &[impl AsRef<str>],
+        steps: Vec<Asked>,
+        demand: Demand,
+    ) -> Check {
+        let question = Question::Device { wire: WIRE, needs: Permission::Read, steps };
+        // A test checks that there is one for every check.
+        let requirement = self.row(requirements).unwrap_or_default();
+        self.author.check(id, &requirement, question, demand)
+    }
+
+    /// The first of these requirements that there is: of the device's own document, or else of the
+    /// DYNAMIXEL document.
+    fn row(&self, names: &[impl AsRef<str>]) -> Option<String> {
+        let documents = || self.document().into_iter().chain([WIRE.id()]);
+        let mut ids = names.iter().flat_map(|name| {
+            documents().map(move |document| format!("{document}.{}", name.as_ref()))
+        });
+        let binds = |id: &String| {
+            let row = self.author.spec.requirement(id);
+            row.is_some_and(|row| row.binds.contains(&Role::Device))
+        };
+        ids.find(binds)
+    }
+
+    /// The document that has the device's control table.
+    fn document(&self) -> Option<&str> {
+        let Citation { document, .. } = self.target.device?.source.first()?;
+        Some(document)
+    }
+
+    /// Whether its document has this instruction. Of a device without one nothing more than Ping and
+    /// Read is known.
+    fn knows(&self, instruction: &str) -> bool {
+        let device = self.target.device;
+        device.is_some_and(|device| device.instructions.iter().any(|name| name == instruction))
+    }
+
+    /// The ID of the device.
+    const fn id(&self) -> u8 {
+        self.target.id
+    }
+
+    /// An ID that no device on the line has.
+    fn absent(&self) -> u8 {
+        let is_absent = |id: &u8| !self.target.present.contains(id) && *id != self.target.id;
+        (0..=252).find(is_absent).unwrap_or(252)
+    }
+
+    fn ping(&self) -> Packet {
+        ping(self.id())
+    }
+
+    fn read(&self, address: u16, length: u16) -> Packet {
+        instruction(self.id(), code::READ, [address, length].map(u16::to_le_bytes).concat())
+    }
+
+    /// What answers Ping.
+    fn pong(&self) -> Like {
+        self.done(Part::Any(3))
+    }
+
+    /// An answer without error, with this data.
+    fn done(&self, data: Part) -> Like {
+        self.says(error::NONE, vec![data])
+    }
+
+    /// An answer with an error number and without data.
+    fn refusal(&self, error: u8) -> Like {
+        self.says(error, Vec::new())
+    }
+
+    fn says(&self, error: u8, data: Vec<Part>) -> Like {
+        Like { id: self.id(), error: Some(error), data: Some(data) }
+    }
+
+    /// Something that must not be answered, and a Ping after it.
+    fn then_ping(&self, bytes: Vec<u8>) -> Asked {
+        let ping = Piece { after: Pause::Answer, bytes: bytes_of(self.ping()) };
+        let piece = Piece { after: Pause::None, bytes: bytes.into() };
+        Asked { packet: None, fast: None, send: vec![piece, ping], awaits: 1, again: 0 }
+    }
+
+    /// The same for a packet.
+    fn packet_then_ping(&self, packet: Packet) -> Asked {
+        Asked { packet: Some(Called::from(packet.clone())), ..self.then_ping(bytes_of(packet).0) }
+    }
+}
+
+/// A packet, and so many answers to it.
+fn asked(packet: Packet, awaits: usize) -> Asked {
+    let send = vec![Piece { after: Pause::None, bytes: bytes_of(packet.clone()) }];
+    Asked { packet: Some(Called::from(packet)), fast: None, send, awaits, again: 0 }
+}
+
+fn ping(id: u8) -> Packet {
+    instruction(id, code::PING, Vec::new())
+}
+
+fn instruction(id: u8, instruction: u8, params: Vec<u8>) -> Packet {
+    Packet::Instruction { id, instruction, params: params.into() }
+}
+
+fn bytes_of(packet: Packet) -> HexBytes {
+    WIRE.encode(&packet.into()).unwrap_or_default().into()
+}
+
+/// The id of a check.
+fn named(name: &str) -> String {
+    format!("dynamixel2.device.{name}")
+}
+
+/// A register's name in an id.
+fn word(name: &str) -> String {
+    crate::names::as_word(name)
+}

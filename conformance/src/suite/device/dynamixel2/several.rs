@@ -1,0 +1,141 @@
+//! Instructions that read from several devices: alone, with a neighbour, and with one that is missing.
+
+use actucheck_spec::wire::Fast;
+use actucheck_spec::wire::dynamixel2::Packet;
+use actucheck_spec::wire::dynamixel2::WIRE;
+
+use super::{BROADCAST, Talk, asked, basic, code, error, instruction, named};
+use crate::adapter::Asked;
+use crate::suite::check::Check;
+use crate::suite::wanted::{Like, Part};
+
+/// An instruction that reads from several devices.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Sync,
+    FastSync,
+    Bulk,
+}
+
+impl Kind {
+    const ALL: [Self; 3] = [Self::Sync, Self::FastSync, Self::Bulk];
+
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Sync => "Sync Read",
+            Self::FastSync => "Fast Sync Read",
+            Self::Bulk => "Bulk Read",
+        }
+    }
+
+    fn word(self) -> String {
+        super::word(self.name())
+    }
+
+    /// The requirements that say this of it, or else what it does.
+    fn rows(self, what: &str) -> Vec<String> {
+        let all = [what, "status", "effect"];
+        all.map(|what| format!("{}.{what}", self.word())).to_vec()
+    }
+
+    const fn code(self) -> u8 {
+        match self {
+            Self::Sync => code::SYNC_READ,
+            Self::FastSync => code::FAST_SYNC_READ,
+            Self::Bulk => code::BULK_READ,
+        }
+    }
+
+    /// The same registers of each device.
+    fn packet(self, to: u8, ids: &[u8], (address, size): (u16, u16)) -> Packet {
+        let range = [address, size].map(u16::to_le_bytes).concat();
+        let params = match self {
+            Self::Sync | Self::FastSync => [range.as_slice(), ids].concat(),
+            Self::Bulk => ids.iter().flat_map(|id| [&[*id][..], &range].concat()).collect(),
+        };
+        instruction(to, self.code(), params)
+    }
+
+    /// It, and the answers of those that are there.
+    fn asked(self, ids: &[u8], range: (u16, u16), present: usize) -> Asked {
+        let packet = self.packet(BROADCAST, ids, range);
+        match self {
+            Self::Sync | Self::Bulk => asked(packet, present),
+            Self::FastSync => {
+                let fast = Fast { length: range.1, ids: ids.to_vec() };
+                Asked { fast: Some(fast), ..asked(packet, 1) }
+            }
+        }
+    }
+}
+
+/// The instructions that the device has, of it alone.
+pub(super) fn basics(talk: &Talk<'_>, address: u16, size: u16) -> Vec<Check> {
+    let check = |kind: Kind| {
+        talk.check(
+            basic(WIRE, &kind.word()),
+            &kind.rows("status"),
+            vec![kind.asked(&[talk.id()], (address, size), 1)],
+            vec![vec![vec![data(talk.id(), size)]]],
+        )
+    };
+    own(talk).map(check).collect()
+}
+
+/// The instructions that the device has, if a document says what they do.
+fn own<'t>(talk: &'t Talk<'_>) -> impl Iterator<Item = Kind> + use<'t> {
+    let has = |kind: &Kind| talk.knows(kind.name()) && talk.row(&kind.rows("status")).is_some();
+    Kind::ALL.into_iter().filter(move |kind| has(kind))
+}
+
+/// So many bytes of a device.
+fn data(id: u8, size: u16) -> Like {
+    Like { id, error: Some(error::NONE), data: Some(vec![Part::Any(size.into())]) }
+}
+
+pub(super) fn checks(talk: &Talk<'_>) -> Vec<Check> {
+    let Some(register) = talk.target.device.and_then(|device| device.registers.first()) else {
+        return Vec::new();
+    };
+    let range = (register.address, register.kind.size());
+    own(talk).flat_map(|kind| of_kind(talk, kind, range)).collect()
+}
+
+fn of_kind(talk: &Talk<'_>, kind: Kind, range: (u16, u16)) -> Vec<Check> {
+    let (id, absent, word, size) = (talk.id(), talk.absent(), kind.word(), range.1);
+    let silence = talk.check(
+        named(&format!("several.{word}.not-named/silence")),
+        &kind.rows("silence"),
+        vec![talk.packet_then_ping(kind.packet(BROADCAST, &[absent], range))],
+        vec![vec![vec![talk.pong()]]],
+    );
+    let missing = talk.record(
+        named(&format!("several.{word}.after-missing/answer")),
+        &kind.rows("order"),
+        vec![talk.packet_then_ping(kind.packet(BROADCAST, &[absent, id], range))],
+        &format!("What does it do in a {} after a device that is missing?", kind.name()),
+    );
+    let own_id = talk.record(
+        named(&format!("several.{word}.own-id/answer")),
+        &kind.rows("broadcast-id"),
+        vec![talk.packet_then_ping(kind.packet(id, &[id], range))],
+        &format!("How does it answer a {} to its own ID?", kind.name()),
+    );
+    let mut checks = vec![silence, missing, own_id];
+    let Some(neighbour) = talk.target.neighbour else { return checks };
+    for (name, ids) in [("first", [id, neighbour]), ("second", [neighbour, id])] {
+        checks.push(talk.check(
+            named(&format!("several.{word}.{name}-of-two/order")),
+            &kind.rows("order"),
+            vec![kind.asked(&ids, range, 2)],
+            vec![vec![ids.map(|id| data(id, size)).to_vec()]],
+        ));
+    }
+    checks.push(talk.check(
+        named(&format!("several.{word}.neighbour-alone/silence")),
+        &kind.rows("silence"),
+        vec![kind.asked(&[neighbour], range, 1), asked(talk.ping(), 1)],
+        vec![vec![vec![data(neighbour, size)]], vec![vec![talk.pong()]]],
+    ));
+    checks
+}

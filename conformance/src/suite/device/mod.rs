@@ -1,0 +1,135 @@
+//! Checks of a device on its port, one module per wire: packets are sent to it, and what comes back is
+//! looked at.
+//!
+//! Nothing is demanded that waits for silence to show: after what must not be answered comes a request that
+//! must, and only its answer may be there. All bytes come from the reference model.
+
+mod dynamixel2;
+
+use std::borrow::Cow;
+
+use actucheck_spec::model;
+use actucheck_spec::wire::{self, Packet};
+
+use super::Author;
+use super::plan::Family;
+use crate::adapter::{Asked, Reported, Wire};
+
+/// A device that is checked, and what else is on its line.
+#[derive(Clone, Debug)]
+pub struct Target<'a> {
+    /// Its ID or its address.
+    pub id: u8,
+    /// Its control table, if it is known.
+    pub device: Option<&'a model::Device>,
+    /// Another device on the line that may be asked too, with its ID.
+    pub neighbour: Option<u8>,
+    /// The IDs of all devices on the line, by rising ID.
+    pub present: Vec<u8>,
+}
+
+impl<'a> Target<'a> {
+    /// A device with ID 1 that is alone on its line.
+    #[must_use]
+    pub fn alone(device: Option<&'a model::Device>) -> Self {
+        Self { id: 1, device, neighbour: None, present: vec![1] }
+    }
+
+    /// The same device with its neighbour.
+    #[must_use]
+    pub fn with_neighbour(mut self, id: u8) -> Self {
+        self.neighbour = Some(id);
+        if let Err(place) = self.present.binary_search(&id) {
+            self.present.insert(place, id);
+        }
+        self
+    }
+}
+
+/// What a wire has for devices.
+struct Own {
+    wire: Wire,
+    families: for<'a> fn(Author<'a>, &Target<'a>) -> Vec<Family<'a>>,
+    /// What an answer says of each device that it is from.
+    reported: fn(&Packet) -> Vec<Reported>,
+    /// The packet that asks whether a device is there.
+    hello: fn(u8) -> Packet,
+    /// The packet that asks all devices whether they are there.
+    hello_all: fn() -> Packet,
+    /// What a device says of itself in the answer to that.
+    identity: fn(&Reported) -> Identity,
+}
+
+/// What a device says of itself.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Identity {
+    /// Its model number.
+    pub model_number: Option<u16>,
+    /// The version of its firmware.
+    pub firmware_version: Option<u8>,
+}
+
+/// The wires whose devices are checked.
+static WIRES: [Own; 1] = [Own {
+    wire: wire::dynamixel2::WIRE,
+    families: dynamixel2::families,
+    reported: dynamixel2::reported,
+    hello: dynamixel2::hello,
+    hello_all: dynamixel2::hello_all,
+    identity: dynamixel2::identity,
+}];
+
+fn own(wire: Wire) -> Option<&'static Own> {
+    WIRES.iter().find(|own| own.wire == wire)
+}
+
+/// Whether devices on this wire are checked.
+#[must_use]
+pub fn is_checked(wire: Wire) -> bool {
+    own(wire).is_some()
+}
+
+/// Every check of a device, in a fixed order: the basic ones first.
+pub(super) fn families<'a>(author: Author<'a>, target: &Target<'a>) -> Vec<Family<'a>> {
+    own(author.wire).map_or_else(Vec::new, |own| (own.families)(author, target))
+}
+
+/// What an answer says of each device that it is from.
+#[must_use]
+pub fn reported(wire: Wire, packet: &Packet) -> Vec<Reported> {
+    own(wire).map_or_else(Vec::new, |own| (own.reported)(packet))
+}
+
+/// The packet that asks whether a device is there.
+#[must_use]
+pub fn hello(wire: Wire, id: u8) -> Option<Packet> {
+    own(wire).map(|own| (own.hello)(id))
+}
+
+/// The packet that asks all devices whether they are there.
+#[must_use]
+pub fn hello_all(wire: Wire) -> Option<Packet> {
+    own(wire).map(|own| (own.hello_all)())
+}
+
+/// What a device says of itself in its answer to such a packet.
+#[must_use]
+pub fn identity(wire: Wire, answer: &Reported) -> Identity {
+    own(wire).map(|own| (own.identity)(answer)).unwrap_or_default()
+}
+
+/// The ids of the basic checks that an answer rests on: that the device answers at all, and for each call
+/// that it answers such a call.
+pub(super) fn rests_on(
+    wire: Wire,
+    steps: &[Asked],
+) -> impl Iterator<Item = Cow<'static, str>> + use<'_> {
+    let calls = steps.iter().filter_map(|step| step.packet.as_ref()?.call.as_ref());
+    let hello = hello(wire, 0).and_then(|hello| Some(wire.call(&hello)?.name));
+    hello.into_iter().chain(calls.map(|call| call.name)).map(move |name| basic(wire, name).into())
+}
+
+/// The id of the basic check of a call.
+fn basic(wire: Wire, call: &str) -> String {
+    format!("{wire}.device.basic.{}/answer", call.replace('_', "-"))
+}

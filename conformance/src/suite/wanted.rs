@@ -1,0 +1,237 @@
+//! What a device must answer, and the judgement of what came back.
+
+use std::fmt;
+
+use actucheck_spec::model::HexBytes;
+use actucheck_spec::wire::{Packet, Wire};
+use serde::{Deserialize, Serialize};
+
+use super::device;
+use crate::adapter::{Asked, Heard, Pause, Question, Reported};
+use crate::verdict::Verdict;
+
+/// What must come back in a step: one of these rows of answers, and nothing else.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Wanted(pub Vec<Vec<Like>>);
+
+/// What an answer must say. What is absent may be anything; the alert always may.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Like {
+    /// The ID that it comes from.
+    pub id: u8,
+    /// Its error number.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub error: Option<u8>,
+    /// Its data, part by part.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub data: Option<Vec<Part>>,
+}
+
+/// A part of the data of an answer.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Part {
+    /// These bytes.
+    Bytes(HexBytes),
+    /// So many bytes.
+    Any(usize),
+    /// Bytes that the first answer to an earlier step had.
+    Same {
+        /// The step, from 0.
+        step: usize,
+        /// Where they began in its data.
+        from: usize,
+        /// How many they are.
+        count: usize,
+    },
+    /// A number of so many bytes, low byte first, some bits of which have one of these values.
+    Bits {
+        /// How many bytes it has.
+        size: usize,
+        /// The lowest of the bits.
+        lowest: u8,
+        /// How many bits they are.
+        width: u8,
+        /// The values, shifted down to bit 0.
+        one_of: Vec<u64>,
+    },
+}
+
+/// What came back in a step.
+struct Told {
+    answers: Vec<Reported>,
+    /// Bytes that are in no packet.
+    stray: usize,
+}
+
+impl Told {
+    fn of(wire: Wire, asked: &Asked, heard: &Heard) -> Self {
+        let bytes = heard.received();
+        let packets = asked.packets(wire, &bytes);
+        let size = |packet: &Packet| wire.encode(packet).map_or(0, |frame| frame.len());
+        let found: usize = packets.iter().map(size).sum();
+        let answers = packets.iter().flat_map(|packet| device::reported(wire, packet)).collect();
+        Self { answers, stray: bytes.len().saturating_sub(found) + heard.more }
+    }
+}
+
+/// The verdict on what came back, and the reason.
+pub(super) fn judge(question: &Question, wanted: &[Wanted], heard: &[Heard]) -> (Verdict, String) {
+    let Question::Device { wire, steps, .. } = question else {
+        return (Verdict::NotRun, "the demand is not one on a device".to_owned());
+    };
+    let told: Vec<_> =
+        steps.iter().zip(heard).map(|(asked, heard)| Told::of(*wire, asked, heard)).collect();
+    if told.len() < wanted.len() {
+        return (Verdict::NotRun, "it was not asked to the end".to_owned());
+    }
+    for (place, (wanted, came)) in wanted.iter().zip(&told).enumerate() {
+        if !wanted.is_met(came, &told) {
+            let step =
+                if steps.len() > 1 { format!("step {}: ", place + 1) } else { String::new() };
+            return (Verdict::Fail, format!("{step}{came} came back, but it must be {wanted}"));
+        }
+    }
+    (Verdict::Pass, String::new())
+}
+
+/// What a device does in the first step, in a few words.
+pub(super) fn behaviour(question: &Question, heard: &[Heard]) -> String {
+    let Question::Device { wire, steps, .. } = question else { return String::new() };
+    let (Some(asked), Some(heard)) = (steps.first(), heard.first()) else { return String::new() };
+    let mut told = Told::of(*wire, asked, heard);
+    // The last piece asks only whether the device is still there.
+    if asked.send.iter().skip(1).any(|piece| piece.after == Pause::Answer)
+        && told.answers.pop().is_none()
+    {
+        return "hears nothing more".to_owned();
+    }
+    let words = |answer: &Reported| match (answer.error, &answer.data) {
+        (Some(error), _) if error > 0 => format!("answers error {error}"),
+        (_, Some(data)) if !data.is_empty() => format!("answers {} bytes", data.len()),
+        _ => "answers without an error".to_owned(),
+    };
+    let mut all: Vec<_> = told.answers.iter().map(words).collect();
+    if told.stray > 0 {
+        all.push("sends what is no packet".to_owned());
+    }
+    if all.is_empty() { "stays silent".to_owned() } else { all.join(", then ") }
+}
+
+impl Wanted {
+    fn is_met(&self, came: &Told, all: &[Told]) -> bool {
+        let fits = |row: &Vec<Like>| {
+            row.len() == came.answers.len()
+                && row.iter().zip(&came.answers).all(|(like, answer)| like.fits(answer, all))
+        };
+        came.stray == 0 && self.0.iter().any(fits)
+    }
+}
+
+impl Like {
+    fn fits(&self, answer: &Reported, all: &[Told]) -> bool {
+        self.id == answer.id
+            && self.error.is_none_or(|error| answer.error.unwrap_or_default() == error)
+            && self.data.as_ref().is_none_or(|parts| {
+                are_in(parts, answer.data.as_ref().map_or(&[], |data| data.0.as_slice()), all)
+            })
+    }
+}
+
+fn are_in(parts: &[Part], data: &[u8], all: &[Told]) -> bool {
+    let mut rest = data;
+    for part in parts {
+        let Some((bytes, after)) = rest.split_at_checked(part.size()) else { return false };
+        rest = after;
+        if !part.is(bytes, all) {
+            return false;
+        }
+    }
+    rest.is_empty()
+}
+
+impl Part {
+    const fn size(&self) -> usize {
+        match self {
+            Self::Bytes(bytes) => bytes.0.len(),
+            Self::Any(size) | Self::Same { count: size, .. } | Self::Bits { size, .. } => *size,
+        }
+    }
+
+    fn is(&self, bytes: &[u8], all: &[Told]) -> bool {
+        match self {
+            Self::Bytes(expected) => expected.0 == bytes,
+            Self::Any(_) => true,
+            Self::Same { step, from, count } => {
+                let earlier = all.get(*step).and_then(|told| told.answers.first()?.data.as_ref());
+                earlier.and_then(|data| data.get(*from..from + count)) == Some(bytes)
+            }
+            Self::Bits { lowest, width, one_of, .. } => {
+                let number =
+                    bytes.iter().rev().fold(0_u64, |number, byte| (number << 8) | u64::from(*byte));
+                let ones = 1_u64.checked_shl((*width).into()).map_or(u64::MAX, |end| end - 1);
+                let bits = number.checked_shr((*lowest).into()).unwrap_or_default() & ones;
+                one_of.contains(&bits)
+            }
+        }
+    }
+}
+
+/// In words, such as `nothing`, or `device 1: error 0, 3 bytes; or nothing`.
+impl fmt::Display for Wanted {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let row = |row: &Vec<Like>| match row.as_slice() {
+            [] => "nothing".to_owned(),
+            row => row.iter().map(ToString::to_string).collect::<Vec<_>>().join(" and "),
+        };
+        f.write_str(&self.0.iter().map(row).collect::<Vec<_>>().join("; or "))
+    }
+}
+
+impl fmt::Display for Like {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { id, error, data } = self;
+        let data = data.as_ref().map(|parts| {
+            let parts: Vec<_> = parts.iter().map(ToString::to_string).collect();
+            if parts.is_empty() { "no data".to_owned() } else { parts.join(", then ") }
+        });
+        let facts = [error.map(|error| format!("error {error}")), data];
+        let facts: Vec<_> = facts.into_iter().flatten().collect();
+        write!(f, "device {id}: {}", facts.join(", "))
+    }
+}
+
+impl fmt::Display for Part {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Bytes(bytes) => write!(f, "data {bytes}"),
+            Self::Any(1) => f.write_str("1 byte"),
+            Self::Any(size) => write!(f, "{size} bytes"),
+            Self::Same { step, .. } => write!(f, "what step {} told", step + 1),
+            Self::Bits { size, lowest, width, one_of } => {
+                let values: Vec<_> = one_of.iter().map(ToString::to_string).collect();
+                let last = u32::from(*lowest) + u32::from(*width) - 1;
+                write!(
+                    f,
+                    "{size} bytes, bits {lowest} to {last} of which are {}",
+                    values.join(" or ")
+                )
+            }
+        }
+    }
+}
+
+impl fmt::Display for Told {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let answers = self.answers.iter().map(ToString::to_string);
+        let stray = match self.stray {
+            0 => None,
+            1 => Some("1 byte of no packet".to_owned()),
+            many => Some(format!("{many} bytes of no packet")),
+        };
+        let all: Vec<_> = answers.chain(stray).collect();
+        f.write_str(&if all.is_empty() { "nothing".to_owned() } else { all.join("; ") })
+    }
+}

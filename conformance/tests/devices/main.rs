@@ -1,0 +1,72 @@
+//! Right devices, and faults that firmware may have, one a row of a table.
+//!
+//! This program is the firmware too, so that a test needs nothing built but itself and `actucheck`:
+//!
+//! ```sh
+//! cargo test -p actucheck --test devices                          # every test
+//! cargo test -q -p actucheck --test devices -- table              # the faults, as a table in Markdown
+//! actucheck device --device ja40 -- target/debug/deps/devices-… firmware ja40@1 reads-for-all
+//!                                                                 # a run against one of them
+//! ```
+
+#![allow(clippy::unwrap_used, clippy::indexing_slicing, clippy::panic)] // tests may stop at a surprise
+#![cfg(unix)]
+
+mod change;
+mod faults;
+mod firmware;
+mod killing;
+mod right;
+
+use std::process::ExitCode;
+
+use libtest_mimic::{Arguments, Failed, Trial};
+
+use self::faults::FAULTS;
+use self::firmware::Firmware;
+
+/// How often a run is tried until it is as it should be, on a machine that may be busy.
+const TRIES: usize = 3;
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        ["firmware", devices, fault] => {
+            Firmware::new(devices, fault).run();
+            ExitCode::SUCCESS
+        }
+        ["table"] => print_table(),
+        _ => tests(),
+    }
+}
+
+fn tests() -> ExitCode {
+    let mut arguments = Arguments::from_args();
+    // Most of the time is waited.
+    arguments.test_threads.get_or_insert(4);
+    let test = |name: String, wrong: Box<dyn Fn() -> String + Send>| {
+        Trial::test(name, move || {
+            let tries: Vec<_> =
+                (0..TRIES).map(|_| wrong()).take_while(|wrong| !wrong.is_empty()).collect();
+            if tries.len() < TRIES { Ok(()) } else { Err(Failed::from(tries.join("\n"))) }
+        })
+    };
+    let mut trials: Vec<_> = FAULTS
+        .iter()
+        .map(|row| test(format!("killed::{}", row.name), Box::new(|| killing::wrong(row))))
+        .collect();
+    trials.push(test("checks::each_has_a_requirement".to_owned(), Box::new(right::requirements)));
+    for (name, wrong) in right::TESTS {
+        trials.push(test(format!("right::{name}"), Box::new(wrong)));
+    }
+    libtest_mimic::run(&arguments, trials).exit_code()
+}
+
+fn print_table() -> ExitCode {
+    println!("| fault | the device | found by |");
+    println!("|---|---|---|");
+    for row in FAULTS {
+        println!("| `{}` | {} | `{}` |", row.name, row.does, row.found_by);
+    }
+    ExitCode::SUCCESS
+}

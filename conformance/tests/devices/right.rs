@@ -1,0 +1,100 @@
+//! Right devices, which no check may fail, at every kind of port.
+
+use std::collections::BTreeSet;
+use std::io::{BufRead as _, BufReader};
+use std::process::{Child, Command, Stdio};
+
+use actucheck::suite;
+use actucheck::suite::device::Target;
+use actucheck_spec::Spec;
+use actucheck_spec::model::Role;
+
+use super::killing::run;
+
+/// A test by its name.
+type Test = (&'static str, fn() -> String);
+
+/// The tests. Each returns what is wrong.
+pub(crate) const TESTS: [Test; 9] = [
+    ("ja40", || program("ja40")),
+    ("ja_variant", || program("ja-variant")),
+    ("xm430", || program("xm430-w210")),
+    ("xl330", || program("xl330-m288")),
+    ("pseudo_terminal", || port(&["--pty"], "")),
+    ("tcp", || port(&["--tcp", "0"], "tcp://")),
+    ("udp", || port(&["--udp", "0"], "udp://")),
+    ("echo", || port(&["--tcp", "0", "--echo"], "tcp://")),
+    ("crc_error", || port(&["--tcp", "0", "--readings", "crc-error=answer"], "tcp://")),
+];
+
+/// The checks that name no requirement of a device, or have an id that another has.
+pub(crate) fn requirements() -> String {
+    let spec = Spec::embedded().unwrap();
+    let mut wrong = Vec::new();
+    for file in &spec.devices {
+        let device = &file.content;
+        let target = Target::alone(Some(device)).with_neighbour(2);
+        let mut ids = BTreeSet::new();
+        for check in suite::device_plan(&spec, &[device.wire], &target).checks() {
+            let row = spec.requirement(&check.requirement);
+            if !row.is_some_and(|row| row.binds.contains(&Role::Device))
+                || !ids.insert(check.id.clone())
+            {
+                wrong.push(format!("{}: {} {}", device.device, check.id, check.requirement));
+            }
+        }
+        assert!(ids.len() > 100, "{} checks of {}", ids.len(), device.device);
+    }
+    wrong.join("\n")
+}
+
+/// Firmware of this machine.
+fn program(device: &str) -> String {
+    let own = std::env::current_exe().unwrap();
+    let devices = format!("{device}@1 {device}@2");
+    let neighbour = ["--neighbour", "2", "--"];
+    let options = ["--device", device, neighbour[0], neighbour[1], neighbour[2]];
+    judged(&[&options[..], &[own.to_str().unwrap(), "firmware", &devices, "none"]].concat())
+}
+
+/// A virtual bus behind a port.
+fn port(options: &[&str], before: &str) -> String {
+    let bus = Bus::start(options);
+    let port = format!("{before}{}", bus.address);
+    judged(&[&port, "--device", "ja40", "--neighbour", "2"])
+}
+
+fn judged(arguments: &[&str]) -> String {
+    let run = run(arguments);
+    let is_wrong = |verdict: &str| !["pass", "recorded", "skip"].contains(&verdict);
+    let wrong: Vec<_> = run.verdicts.iter().filter(|(_, verdict)| is_wrong(verdict)).collect();
+    if run.status == Some(0) && wrong.is_empty() && run.verdicts.len() > 100 {
+        return String::new();
+    }
+    format!("{:?}, {} checks, {wrong:?}\n{}", run.status, run.verdicts.len(), run.text)
+}
+
+/// A running virtual bus.
+struct Bus {
+    child: Child,
+    address: String,
+}
+
+impl Bus {
+    fn start(options: &[&str]) -> Self {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_actucheck"));
+        command.args(["bus", "ja40@1", "ja40@2"]).args(options);
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
+        let mut line = String::new();
+        BufReader::new(child.stdout.take().unwrap()).read_line(&mut line).unwrap();
+        let address = line.split_whitespace().nth(1).unwrap().to_owned();
+        Self { child, address }
+    }
+}
+
+impl Drop for Bus {
+    fn drop(&mut self) {
+        self.child.kill().unwrap();
+        self.child.wait().unwrap();
+    }
+}
