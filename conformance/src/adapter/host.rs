@@ -7,8 +7,16 @@ use actucheck_spec::wire::{Call, Direction};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Called, Wire};
+use super::{Called, Hello, Wire};
 use crate::legible::{LONGEST_TEXT, legible};
+
+impl Hello {
+    /// Whether it opens a port and makes calls.
+    #[must_use]
+    pub fn is_host(&self) -> bool {
+        self.offers("open") && ["call", "exchange"].iter().any(|op| self.offers(op))
+    }
+}
 
 /// A call of a host, and what the line does about it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

@@ -3,22 +3,26 @@
 
 use std::time::{Duration, Instant};
 
+use super::Scope;
 use super::finding::{Failure, Finding, Kind, size};
 use super::probe::Probe;
-use super::{Drawn, Scope};
+use super::source::Drawn;
 use crate::shrink::{fewest, shrink};
 use crate::subject::Subject;
 use crate::suite::check::Check;
-use crate::verdict::Outcome;
 
 /// The maximum number of questions to shrink a failure.
 const STEPS: usize = 500;
 /// The same if each question needs a fresh process.
 const FRESH_STEPS: usize = 60;
+/// The same for conversations, in which a host waits.
+const CONVERSATIONS: usize = 200;
 /// The same for an adapter that hangs or ends, as each question takes long.
 const SLOW_STEPS: usize = 40;
 /// How long one failure is examined at most.
 const TIME: Duration = Duration::from_secs(10);
+/// The same for one of a conversation.
+const TIME_OF_CONVERSATIONS: Duration = Duration::from_secs(30);
 
 /// Examines failures on one subject.
 pub(super) struct Examiner<'a> {
@@ -39,7 +43,8 @@ impl Examiner<'_> {
     ) -> Option<Finding> {
         let goes_on = self.goes_on;
         let started = Instant::now();
-        let goes_on = move || goes_on() && started.elapsed() < TIME;
+        let time = if kind.is_of_host() { TIME_OF_CONVERSATIONS } else { TIME };
+        let goes_on = move || goes_on() && started.elapsed() < time;
         if self.fails_after(&[], &drawn.check, kind, &goes_on).is_some() {
             self.alone(drawn, kind, &goes_on)
         } else {
@@ -49,7 +54,11 @@ impl Examiner<'_> {
 
     /// A failure that needs nothing before it.
     fn alone(&mut self, drawn: &Drawn, kind: &Kind, goes_on: &dyn Fn() -> bool) -> Option<Finding> {
-        let steps = if kind.is_slow() { SLOW_STEPS } else { STEPS };
+        let steps = match kind {
+            kind if kind.is_slow() => SLOW_STEPS,
+            kind if kind.is_of_host() => CONVERSATIONS,
+            _ => STEPS,
+        };
         let scope = self.scope;
         let smallest = shrink(drawn.probe.clone(), steps, goes_on, |probe| {
             let check = smaller(scope, probe, drawn)?;
@@ -57,8 +66,8 @@ impl Examiner<'_> {
         });
         let finding = |this: &mut Self, probe: &Probe| {
             let check = smaller(scope, probe, drawn)?;
-            let outcome = this.fails_after(&[], &check, kind, goes_on)?;
-            Some(Finding { kind: kind.clone(), check, before: Vec::new(), outcome, times: 1 })
+            let failure = this.fails_after(&[], &check, kind, goes_on)?;
+            Some(row(Vec::new(), check, failure))
         };
         if let Some(finding) = finding(self, &smallest) {
             return Some(finding);
@@ -105,14 +114,14 @@ impl Examiner<'_> {
             before = with(&smallest)?;
         }
         // All of it was asked in time before, so that it does not take long.
-        let outcome = self.fails_after(&before, &check, kind, &|| true)?;
-        Some(row(before, check, kind, outcome))
+        let failure = self.fails_after(&before, &check, kind, &|| true)?;
+        Some(row(before, check, failure))
     }
 
     /// Whether a check fails in this way now.
-    fn fails(&mut self, check: &Check, kind: &Kind) -> Option<Outcome> {
+    fn fails(&mut self, check: &Check, kind: &Kind) -> Option<Failure> {
         let failure = Failure::of(check, self.subject.ask(&check.question))?;
-        (failure.kind == *kind).then_some(failure.outcome)
+        kind.is_like(&failure.kind).then_some(failure)
     }
 
     /// Whether it fails on a fresh process that is asked something before it; `None` too if there is
@@ -123,7 +132,7 @@ impl Examiner<'_> {
         check: &Check,
         kind: &Kind,
         goes_on: &dyn Fn() -> bool,
-    ) -> Option<Outcome> {
+    ) -> Option<Failure> {
         self.subject.restart();
         for drawn in before {
             if !goes_on() {
@@ -143,9 +152,10 @@ fn smaller(scope: &Scope<'_>, probe: &Probe, drawn: &Drawn) -> Option<Check> {
 }
 
 /// The finding with its checks in a row.
-fn row(before: Vec<Drawn>, check: Check, kind: &Kind, outcome: Outcome) -> Finding {
+fn row(before: Vec<Drawn>, check: Check, failure: Failure) -> Finding {
     let id = |place: usize| format!("{}.before-{}", check.id, place + 1);
     let before = before.into_iter().enumerate();
     let before = before.map(|(place, drawn)| Check { id: id(place), ..drawn.check }).collect();
-    Finding { kind: kind.clone(), check, before, outcome, times: 1 }
+    let Failure { kind, outcome } = failure;
+    Finding { kind, check, before, outcome, times: 0 }
 }

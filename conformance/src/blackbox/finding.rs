@@ -5,7 +5,7 @@ use std::fmt;
 use actucheck_spec::model::Fault;
 use actucheck_spec::wire::Packet;
 
-use crate::adapter::Output;
+use crate::adapter::{CallError, Course, Output, Question, Reported, Returned, Trouble};
 use crate::subject::Answer;
 use crate::suite::check::{Check, Demand};
 use crate::verdict::{Outcome, Verdict};
@@ -58,6 +58,8 @@ pub struct Kind {
 pub enum Symptom {
     /// The answer differs; this is the first difference.
     Differs(&'static str),
+    /// A call of a host did this.
+    Does(&'static str),
     /// A frame with this fault was accepted.
     Accepted(String),
     /// Something valid was rejected for this reason.
@@ -73,6 +75,19 @@ pub enum Symptom {
 }
 
 impl Kind {
+    /// Whether it is a failure of a host in a conversation.
+    #[must_use]
+    pub fn is_of_host(&self) -> bool {
+        self.op == CALL
+    }
+
+    /// Whether another failure may have the same cause. The requirement that a conversation is about
+    /// depends on what is left of it.
+    pub(super) fn is_like(&self, other: &Self) -> bool {
+        let is_same = self.requirement == other.requirement || self.is_of_host();
+        self.op == other.op && self.symptom == other.symptom && is_same
+    }
+
     /// Whether the adapter has to be restarted after each failure of this kind.
     pub(super) fn is_slow(&self) -> bool {
         matches!(self.symptom, Symptom::TimedOut | Symptom::Crashed | Symptom::Faulty)
@@ -83,6 +98,7 @@ impl fmt::Display for Symptom {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Differs(what) => write!(f, "wrong {what}"),
+            Self::Does(what) => f.write_str(what),
             Self::Accepted(fault) => write!(f, "accepts what is wrong ({fault})"),
             Self::Rejected(fault) => write!(f, "rejects what is right ({fault})"),
             Self::BrokeDown => f.write_str("breaks down"),
@@ -103,6 +119,10 @@ impl Failure {
     /// The failure, if the answer is one or breaks a recommendation. A rejection for the wrong
     /// reason is not a failure.
     pub(super) fn of(check: &Check, answer: Answer) -> Option<Self> {
+        let done = match (&check.question, &answer) {
+            (Question::Converse { .. }, Answer::Ok(output)) => Some(does(check, output)?),
+            _ => None,
+        };
         let class = match &answer {
             Answer::Rejected(rejection) => Some(rejection.class),
             _ => None,
@@ -113,6 +133,7 @@ impl Failure {
             (Verdict::Crash, ..) => Symptom::Crashed,
             (Verdict::AdapterFault, ..) => Symptom::Faulty,
             (Verdict::Fail, Some(Fault::Internal), _) => Symptom::BrokeDown,
+            (Verdict::Fail | Verdict::Warn, ..) if let Some(what) = done => Symptom::Does(what),
             (Verdict::Warn, Some(_), Demand::Reject(_)) => return None,
             (Verdict::Fail | Verdict::Warn, Some(class), _) => Symptom::Rejected(class.to_string()),
             (Verdict::Fail | Verdict::Warn, None, Demand::Reject(fault)) => {
@@ -125,6 +146,57 @@ impl Failure {
         };
         let requirement = check.requirement.clone();
         Some(Self { kind: Kind { op: check.question.name(), requirement, symptom }, outcome })
+    }
+}
+
+/// The op of conversations.
+const CALL: &str = "call";
+
+/// What the last call of a conversation does wrong. `None` if it does nothing, or fails for another
+/// reason than it should.
+fn does(check: &Check, output: &Output) -> Option<&'static str> {
+    let (Question::Converse { wire, steps }, Output::Conversation(courses)) =
+        (&check.question, output)
+    else {
+        return None;
+    };
+    let (step, course) = (steps.last()?, courses.last()?);
+    if refused(course).is_some() {
+        return None;
+    }
+    let (sent, frame) = (course.sent(), wire.encode(&step.packet.packet)?);
+    let is_sent = sent.windows(frame.len().max(1)).any(|part| part == frame);
+    let due = match &check.demand {
+        Demand::Return(due) if is_sent => due,
+        // What a call does not send, it does not return; another check is about that.
+        Demand::Return(_) => return None,
+        _ if sent.is_empty() => return Some("sends nothing"),
+        _ => return Some("sends something else"),
+    };
+    match (&course.returned, &due.devices) {
+        (Returned::Err(_), _) => due.or.is_empty().then_some("fails where a right answer has come"),
+        (Returned::Devices(_), None) => Some("succeeds where no right answer has come"),
+        (Returned::Devices(found), Some(right)) => {
+            let is_right = |found: &Reported| right.iter().any(|right| found.fits(right));
+            Some(if found.iter().all(is_right) {
+                "does not return what has come"
+            } else {
+                "returns what no right answer says"
+            })
+        }
+    }
+}
+
+/// Why a host does not make the last call of a conversation, if it refuses it.
+pub(super) fn refusal(answer: &Answer) -> Option<String> {
+    let Answer::Ok(Output::Conversation(courses)) = answer else { return None };
+    refused(courses.last()?).map(ToOwned::to_owned)
+}
+
+fn refused(course: &Course) -> Option<&str> {
+    match &course.returned {
+        Returned::Err(CallError { class: Trouble::Refused, detail }) => Some(detail),
+        _ => None,
     }
 }
 

@@ -3,8 +3,8 @@
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-use super::Drawn;
-use super::finding::Failure;
+use super::finding::{Failure, refusal};
+use super::source::Drawn;
 use crate::adapter::Question;
 use crate::subject::{Answer, Questions, Subject};
 
@@ -27,8 +27,8 @@ pub(super) struct Lane<'s> {
 pub(super) enum Heard {
     /// It is right.
     Right,
-    /// It is wrong.
-    Wrong(Box<Failure>),
+    /// It is wrong, in this part of the probe.
+    Wrong(Box<(Drawn, Failure)>),
     /// The question was skipped, for this reason.
     Skipped(String),
     /// The subject can't be asked any more, for this reason.
@@ -77,7 +77,7 @@ impl<'s> Lane<'s> {
     pub(super) fn before(&self, place: usize) -> Vec<Drawn> {
         let asked = self.before.iter().chain(self.dealt.iter().take(place));
         let forgotten = (self.before.len() + place).saturating_sub(MEMORY);
-        asked.skip(forgotten).cloned().collect()
+        asked.skip(forgotten).map(Drawn::whole).collect()
     }
 
     /// Ends the batch, on a fresh process if a failure was examined.
@@ -124,8 +124,11 @@ impl Questions for Asking<'_> {
             Answer::NotAsked(_) if self.shared.over.load(Ordering::Relaxed) => return,
             Answer::NotAsked(reason) => Heard::Lost(reason),
             Answer::Skipped(reason) => Heard::Skipped(reason),
-            answer => Failure::of(&drawn.check, answer)
-                .map_or(Heard::Right, |failure| Heard::Wrong(Box::new(failure))),
+            answer => {
+                let refusal = refusal(&answer);
+                let right = refusal.map_or(Heard::Right, Heard::Skipped);
+                drawn.failure(answer).map_or(right, |failed| Heard::Wrong(Box::new(failed)))
+            }
         };
         self.answers.push((place, heard));
     }

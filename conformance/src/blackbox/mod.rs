@@ -16,6 +16,8 @@ mod lane;
 mod payload;
 mod probe;
 mod shrink;
+mod source;
+mod talk;
 mod topic;
 mod wire;
 
@@ -24,19 +26,17 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 use actucheck_spec::Spec;
-use proptest::strategy::{BoxedStrategy, Strategy, ValueTree};
-use proptest::test_runner::TestRunner;
 
 use self::examine::Examiner;
 use self::finding::{Failure, size};
 use self::lane::{Heard, Lane, Shared};
 use self::probe::Probe;
+use self::source::{Drawn, Source};
 use self::topic::Topics;
 use crate::adapter::{Hello, Wire};
 use crate::subject::Subject;
 use crate::suite::Author;
 use crate::suite::check::Check;
-use crate::suite::random::runner;
 
 pub use finding::{Finding, Kind, Symptom};
 pub use topic::{NotAsked, Topic};
@@ -49,6 +49,9 @@ const FRUITLESS: u32 = 5_000;
 /// smaller than the smallest so far.
 const EXAMINED: u32 = 4;
 
+/// The same of conversations, which take longer.
+const BATCH_OF_CONVERSATIONS: u64 = 32;
+
 /// Which probes are asked.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
@@ -58,6 +61,8 @@ pub struct Options {
     pub seed: u64,
     /// How many are asked.
     pub cases: u64,
+    /// Whether they are conversations of a host.
+    pub host: bool,
 }
 
 /// The result of fuzzing.
@@ -76,6 +81,12 @@ pub struct Fuzzed {
     pub given_up: Option<String>,
 }
 
+/// Whether there are conversations of hosts on a wire.
+#[must_use]
+pub fn has_conversations(wire: Wire) -> bool {
+    wire::of(wire).is_some_and(|probes| probes.host.is_some())
+}
+
 /// Asks the processes of a subject the probes of the options. `watch` is called with the number of
 /// probes asked and of kinds of failure found; fuzzing ends when it breaks.
 pub fn fuzz(
@@ -90,14 +101,14 @@ pub fn fuzz(
     let mut lanes: Vec<_> =
         subjects.iter_mut().map(|subject| Lane::new(subject.as_mut())).collect();
     let scope = Scope { author: Author { spec, wire: options.wire }, hello: &hello };
-    let Some(source) = Source::new(&scope, options.seed) else {
+    let Some(source) = Source::new(&scope, options) else {
         let given_up = Some(format!("the adapter offers no op of {}", options.wire));
         return Fuzzed { given_up, ..Fuzzed::default() };
     };
     let (topics, known, result) = (Topics::default(), BTreeMap::new(), Fuzzed::default());
     let mut fuzzer = Fuzzer { scope: &scope, source, topics, known, result };
     while fuzzer.result.asked < options.cases && fuzzer.result.given_up.is_none() {
-        fuzzer.draw(options.cases, &mut lanes);
+        fuzzer.draw(options, &mut lanes);
         let found = fuzzer.result.findings.len();
         let shared = Shared {
             asked: AtomicU64::new(fuzzer.result.asked),
@@ -118,7 +129,7 @@ pub fn fuzz(
 #[must_use]
 pub fn checks(spec: &Spec, options: &Options, hello: &Hello) -> Vec<Check> {
     let scope = Scope { author: Author { spec, wire: options.wire }, hello };
-    let Some(mut source) = Source::new(&scope, options.seed) else { return Vec::new() };
+    let Some(mut source) = Source::new(&scope, options) else { return Vec::new() };
     let cases = usize::try_from(options.cases).unwrap_or(usize::MAX);
     let rows = std::iter::repeat_with(|| source.draw(|_| true)).take(cases);
     rows.flatten().map(|drawn| drawn.check).take(cases).collect()
@@ -150,56 +161,9 @@ impl Scope<'_> {
     }
 
     /// What a probe is about.
-    fn topic(&self, probe: &Probe) -> Topic {
-        probe.topic(self.author.spec, self.author.wire)
+    fn topics(&self, probe: &Probe) -> Vec<Topic> {
+        probe.topics(self.author.spec, self.author.wire)
     }
-}
-
-/// Where probes come from.
-struct Source<'a> {
-    scope: &'a Scope<'a>,
-    strategy: BoxedStrategy<Vec<Probe>>,
-    runner: TestRunner,
-    seed: u64,
-    drawn: u64,
-}
-
-impl<'a> Source<'a> {
-    /// `None` if the subject offers nothing to ask.
-    fn new(scope: &'a Scope<'a>, seed: u64) -> Option<Self> {
-        let Author { spec, wire } = scope.author;
-        let strategy = probe::strategy(spec, wire, scope.hello)?;
-        Some(Self { scope, strategy, runner: runner(seed), seed, drawn: 0 })
-    }
-
-    /// Draws probes that are best asked in a row. Those that are not `wanted` are dropped, and those
-    /// whose right answer the documents leave unspecified.
-    fn draw(&mut self, wanted: impl Fn(&Probe) -> bool) -> Vec<Drawn> {
-        // A strategy without filters always yields a value.
-        let tree = self.strategy.new_tree(&mut self.runner);
-        let probes = tree.map(|tree| tree.current()).unwrap_or_default();
-        let mut row = Vec::new();
-        for probe in probes {
-            let number = self.drawn;
-            self.drawn += 1;
-            let id = format!("{}.fuzz-{}.{number}", self.scope.author.wire, self.seed);
-            if wanted(&probe)
-                && let Some(check) = self.scope.check(&probe, id)
-            {
-                row.push(Drawn { number, probe, check });
-            }
-        }
-        row
-    }
-}
-
-/// A probe and its check.
-#[derive(Clone, Debug)]
-struct Drawn {
-    /// Its place among the probes drawn.
-    number: u64,
-    probe: Probe,
-    check: Check,
 }
 
 struct Fuzzer<'a> {
@@ -224,8 +188,9 @@ struct Known {
 
 impl Fuzzer<'_> {
     /// Draws a batch and deals it to the lanes. Probes that are best asked in a row go to one lane.
-    fn draw(&mut self, cases: u64, lanes: &mut [Lane<'_>]) {
-        let mut left = BATCH.min(cases.saturating_sub(self.result.asked));
+    fn draw(&mut self, options: &Options, lanes: &mut [Lane<'_>]) {
+        let batch = if options.host { BATCH_OF_CONVERSATIONS } else { BATCH };
+        let mut left = batch.min(options.cases.saturating_sub(self.result.asked));
         let (mut turn, mut fruitless) = (0, 0);
         while left > 0 {
             let row = self.row(left);
@@ -248,9 +213,9 @@ impl Fuzzer<'_> {
     /// Draws probes that are asked in a row, `most` at most, without those that the adapter skips.
     fn row(&mut self, most: u64) -> Vec<Drawn> {
         let (scope, topics) = (self.scope, &mut self.topics);
-        let mut row = self.source.draw(|probe| topics.is_open(&scope.topic(probe)));
+        let mut row = self.source.draw(|probe| topics.are_open(&scope.topics(probe)));
         row.retain(|Drawn { probe, check, .. }| {
-            topics.is_for(&scope.topic(probe), &check.question, scope.hello)
+            topics.are_for(&scope.topics(probe), &check.question, scope.hello)
         });
         row.truncate(usize::try_from(most).unwrap_or(usize::MAX));
         row
@@ -272,17 +237,17 @@ impl Fuzzer<'_> {
         answers.sort_by_key(|(drawn, ..)| drawn.number);
         for (drawn, number, place, heard) in answers {
             let Some(lane) = lanes.get_mut(number) else { continue };
-            let topic = self.scope.topic(&drawn.probe);
+            let topics = self.scope.topics(&drawn.probe);
             match heard {
-                Heard::Right => self.topics.note(&topic, None),
-                Heard::Skipped(reason) => self.topics.note(&topic, Some(&reason)),
+                Heard::Right => self.topics.note(&topics, None),
+                Heard::Skipped(reason) => self.topics.note(&topics, Some(&reason)),
                 Heard::Lost(reason) => {
                     self.result.given_up.get_or_insert(reason);
                 }
-                Heard::Wrong(failure) => {
-                    self.topics.note(&topic, None);
-                    let before = lane.before(place);
-                    self.fail(&drawn, *failure, lane, &before, watch);
+                Heard::Wrong(failed) => {
+                    self.topics.note(&topics, None);
+                    let (before, (drawn, failure)) = (lane.before(place), *failed);
+                    self.fail(&drawn, failure, lane, &before, watch);
                 }
             }
         }
@@ -317,16 +282,16 @@ impl Fuzzer<'_> {
         let goes_on = || watch(asked, found).is_continue();
         let examiner = Examiner { scope: self.scope, subject: lane.subject, goes_on: &goes_on };
         let Some(finding) = examiner.examine(drawn, &kind, before) else { return };
-        match smallest {
+        // What is left of it may be of another kind.
+        let findings = &mut self.result.findings;
+        let place = findings.iter().position(|other| other.kind == finding.kind);
+        if let Some(known) = self.known.get_mut(&kind) {
+            known.found = Some(place.unwrap_or(findings.len()));
+        }
+        match place.and_then(|place| findings.get_mut(place)) {
             Some(smallest) if finding.size() < smallest.size() => *smallest = finding,
             Some(_) => {}
-            None => {
-                let place = self.result.findings.len();
-                self.result.findings.push(finding);
-                if let Some(known) = self.known.get_mut(&kind) {
-                    known.found = Some(place);
-                }
-            }
+            None => findings.push(finding),
         }
     }
 
@@ -334,10 +299,12 @@ impl Fuzzer<'_> {
     fn end(mut self) -> Fuzzed {
         for Known { times, found, first, .. } in self.known.into_values() {
             match found.and_then(|place| self.result.findings.get_mut(place)) {
-                Some(finding) => finding.times = times,
+                Some(finding) => finding.times += times,
                 None => self.result.passing.push(Finding { times, ..first }),
             }
         }
+        // Smaller ones have turned out to be of another kind.
+        self.result.findings.retain(|finding| finding.times > 0);
         self.result.not_asked = self.topics.not_asked();
         self.result
     }

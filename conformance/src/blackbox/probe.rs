@@ -1,5 +1,7 @@
 //! Probes: questions in parts, which can be generated, damaged and made smaller.
 
+use std::collections::BTreeSet;
+
 use actucheck_spec::Spec;
 use actucheck_spec::model::{Fault, HexBytes};
 use actucheck_spec::wire::{Context, Direction, Packet, Wire};
@@ -10,6 +12,7 @@ use proptest::sample::select;
 use proptest::strategy::Union;
 
 use super::payload::payload;
+use super::talk::Talk;
 use super::topic::Topic;
 use super::wire::{self, Probes};
 use crate::adapter::{Hello, Limits, Output, Question};
@@ -32,6 +35,7 @@ pub(super) enum Probe {
     Decode(Packet, Vec<Damage>),
     /// A stream, with the places where it is cut, in units of 1/65,536 of its length.
     Stream(Vec<Part>, Vec<u16>),
+    Converse(Talk),
 }
 
 /// A part of a stream: noise, then a frame with damage.
@@ -114,6 +118,15 @@ pub(super) fn strategy(
     (!asked.is_empty()).then(|| Union::new_weighted(asked).boxed())
 }
 
+/// Generates conversations for a host with these calls; `None` if it offers no such wire.
+pub(super) fn conversations(wire: Wire, hello: &Hello) -> Option<BoxedStrategy<Vec<Probe>>> {
+    if !hello.wires.iter().any(|offered| offered == wire.id()) {
+        return None;
+    }
+    let talk = (wire::of(wire)?.host?.talk)(hello)?;
+    Some(talk.prop_map(Probe::Converse).prop_map(alone).boxed())
+}
+
 fn alone(probe: Probe) -> Vec<Probe> {
     vec![probe]
 }
@@ -154,7 +167,7 @@ fn noise(probes: Probes) -> BoxedStrategy<Vec<u8>> {
 }
 
 /// Several damages, one that the CRC does not show, or a byte after the frame.
-fn damages() -> impl Strategy<Value = Vec<Damage>> {
+pub(super) fn damages() -> impl Strategy<Value = Vec<Damage>> {
     let hidden = damage().prop_map(|damage| vec![damage, Damage::Repair]);
     let front = (FROM_FRONT..FROM_FRONT + 8, select(&TELLING[..]))
         .prop_map(|(at, byte)| vec![Damage::Set(at, byte), Damage::Repair]);
@@ -275,8 +288,16 @@ impl Probe {
         Some(author.check(id, &requirement, question, demand))
     }
 
-    /// What the probe is about.
-    pub(super) fn topic(&self, spec: &Spec, wire: Wire) -> Topic {
+    /// Each beginning of a conversation, and the whole as the last one; any other probe as it is.
+    pub(super) fn beginnings(self) -> Vec<Self> {
+        match self {
+            Self::Converse(talk) => talk.beginnings().map(Self::Converse).collect(),
+            probe => vec![probe],
+        }
+    }
+
+    /// What the probe is about; several topics if it makes several calls.
+    pub(super) fn topics(&self, spec: &Spec, wire: Wire) -> Vec<Topic> {
         let name = |packet: &Packet| wire::of(wire).map(|probes| (probes.name)(spec, packet));
         let (op, packet) = match self {
             Self::Crc(_) => ("crc", None),
@@ -293,8 +314,14 @@ impl Probe {
                 let direction = parts.first().map(|part| part.packet.direction());
                 ("stream", direction.map(|direction| direction.to_string()))
             }
+            Self::Converse(talk) => {
+                let names = talk.exchanges.iter().filter_map(|exchange| name(&exchange.packet));
+                let topics: BTreeSet<_> =
+                    names.map(|packet| Topic { op: "call", packet }).collect();
+                return topics.into_iter().collect();
+            }
         };
-        Topic { op, packet: packet.unwrap_or_default() }
+        vec![Topic { op, packet: packet.unwrap_or_default() }]
     }
 }
 

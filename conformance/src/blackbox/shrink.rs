@@ -25,6 +25,7 @@ impl Shrink for Probe {
                 let packets = packet.smaller();
                 Box::new(less.chain(packets.map(|packet| Self::Decode(packet, damage.clone()))))
             }
+            Self::Converse(talk) => Box::new(talk.smaller().map(Self::Converse)),
             Self::Stream(parts, cuts) => {
                 let fewer = parts.smaller().map(|parts| Self::Stream(parts, cuts.clone()));
                 let longer = cuts.smaller().map(|cuts| Self::Stream(parts.clone(), cuts));

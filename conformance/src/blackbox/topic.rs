@@ -38,29 +38,33 @@ pub(super) struct Topics {
 }
 
 impl Topics {
-    /// Whether questions about this topic are asked.
-    pub(super) fn is_open(&self, topic: &Topic) -> bool {
-        !self.closed.contains(topic)
+    /// Whether questions about these topics are asked.
+    pub(super) fn are_open(&self, topics: &[Topic]) -> bool {
+        !topics.iter().any(|topic| self.closed.contains(topic))
     }
 
-    /// Whether a question about this topic is for a role of the adapter; otherwise the topic is
-    /// closed.
-    pub(super) fn is_for(&mut self, topic: &Topic, question: &Question, hello: &Hello) -> bool {
+    /// Whether a question about these topics is for a role of the adapter; otherwise they are closed.
+    pub(super) fn are_for(&mut self, topics: &[Topic], question: &Question, hello: &Hello) -> bool {
         if let Some(role) = question.role()
             && !hello.roles.contains(&role)
         {
-            self.close(topic, format!("only a {role} does this, and the adapter plays no {role}"));
+            let reason = format!("only a {role} does this, and the adapter plays no {role}");
+            for topic in topics {
+                self.close(topic, reason.clone());
+            }
             return false;
         }
         true
     }
 
     /// Takes note of an answer: the reason if the question was skipped.
-    pub(super) fn note(&mut self, topic: &Topic, skipped: Option<&str>) {
+    pub(super) fn note(&mut self, topics: &[Topic], skipped: Option<&str>) {
         let Some(reason) = skipped else {
-            self.skips.insert(topic.clone(), None);
+            self.skips.extend(topics.iter().map(|topic| (topic.clone(), None)));
             return;
         };
+        // Of several it is unknown which one it is.
+        let [topic] = topics else { return };
         let skips = self.skips.entry(topic.clone()).or_insert(Some(0));
         if let Some(count) = skips {
             *count += 1;

@@ -19,6 +19,8 @@ pub(crate) struct Script(Arc<Mutex<Scene>>);
 #[derive(Debug, Default)]
 struct Scene {
     answers: Answers,
+    has_come: bool,
+    /// Whether what has come is recorded too.
     is_heard: bool,
     /// What else is answered.
     greetings: Greetings,
@@ -47,9 +49,15 @@ impl Script {
         self.scene().greetings = Greetings::to(greeted);
     }
 
-    /// Whether the packet was heard.
+    /// Whether the packet was heard, and is recorded.
     pub(crate) fn is_heard(&self) -> bool {
         self.scene().is_heard
+    }
+
+    /// What was heard is recorded.
+    pub(crate) fn recorded(&self) {
+        let mut scene = self.scene();
+        scene.is_heard = scene.has_come;
     }
 
     /// The line is looked at.
@@ -148,7 +156,7 @@ impl Devices for Script {
         for byte in bytes {
             let greeted = scene.greetings.hear(*byte);
             if let Some(answer) = scene.answers.hear(*byte) {
-                scene.is_heard = true;
+                scene.has_come = true;
                 bursts.extend(answer);
             } else {
                 bursts.extend(greeted.unwrap_or_default());

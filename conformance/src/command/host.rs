@@ -53,11 +53,8 @@ fn plan<'a>(
     subjects: &Subjects,
 ) -> Result<Planned<'a>, Failure> {
     let hello = &subjects.hello;
-    let offers = |op: &&str| hello.ops.iter().any(|offered| offered == op);
-    if !offers(&"open") || !["call", "exchange"].iter().any(offers) {
-        let message = "no host to check: give after `--` the command of an adapter with the ops `open` \
-            and `call`, or `open` and `exchange`, as `actucheck adapter guide` describes them";
-        return Err(Failure::usage(message));
+    if !hello.is_host() {
+        return Err(shared::no_host());
     }
     let wires = selection.offered_wires(hello)?;
     let plan = suite::host_plan(spec, &wires);

@@ -64,8 +64,9 @@ struct Watcher {
 impl Watch for Watcher {
     fn passed(&mut self, direction: Direction, bytes: &[u8], _: Duration) {
         self.record.add(direction, bytes);
-        if direction == Direction::Reply {
-            self.script.arrived(bytes.len());
+        match direction {
+            Direction::Request => self.script.recorded(),
+            Direction::Reply => self.script.arrived(bytes.len()),
         }
     }
 

@@ -24,6 +24,7 @@ mod answer;
 mod bus;
 mod cases;
 mod faults;
+mod fuzzed;
 mod host;
 mod inbox;
 mod innfos;
@@ -93,8 +94,14 @@ fn tests() -> ExitCode {
     let cases =
         CASES.iter().map(|case| test(format!("fault::{}", case.fault), Box::new(|| case.wrong())));
     let mut trials: Vec<_> = cases.collect();
+    let found = fuzzed::FOUND
+        .iter()
+        .map(|fault| test(format!("fuzzed::{fault}"), Box::new(|| fuzzed::wrong(fault))));
+    trials.extend(found);
     for port in ["terminal", "memory"] {
         trials.extend(killed("dynamixel2", port, FAULTS).map(|(name, killed)| test(name, killed)));
+        let name = format!("fuzzed::nothing_in_the_right_host::{port}");
+        trials.push(test(name, Box::new(move || fuzzed::right(port))));
     }
     trials.extend(killed("innfos", "udp", innfos::FAULTS).map(|(name, killed)| test(name, killed)));
     trials.push(test("bus::every_call".to_owned(), Box::new(bus::every_call)));

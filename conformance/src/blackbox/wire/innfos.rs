@@ -26,6 +26,7 @@ pub(super) const PROBES: Probes = Probes {
     smaller,
     limit: "innfos.frame.length",
     question,
+    host: None,
 };
 
 /// Bytes that could be taken for the first or the last one of a frame, flags, modes, and others.

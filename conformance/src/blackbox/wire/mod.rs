@@ -8,7 +8,8 @@ use actucheck_spec::wire::{Direction, Packet, Wire};
 use proptest::prelude::BoxedStrategy;
 
 use super::probe::Probe;
-use crate::adapter::{Limits, Question};
+use super::talk::{Exchange, Talk};
+use crate::adapter::{Hello, Limits, Question};
 use crate::suite::Author;
 use crate::suite::check::Demand;
 
@@ -32,6 +33,17 @@ pub(crate) struct Probes {
     pub(crate) limit: &'static str,
     /// The question of a probe; `None` if the documents leave the right answer unspecified.
     pub(crate) question: fn(&Author<'_>, &Probe) -> Option<Asked>,
+    /// Conversations of hosts; `None` if there are none yet.
+    pub(crate) host: Option<HostProbes>,
+}
+
+/// Conversations of hosts on a wire.
+#[derive(Clone, Copy)]
+pub(crate) struct HostProbes {
+    /// Generates conversations for a host that says `hello`; `None` if it has no call that is asked.
+    pub(crate) talk: fn(&Hello) -> Option<BoxedStrategy<Talk>>,
+    /// The same exchange with plainer packets, in the call and in its answers alike.
+    pub(crate) smaller: fn(&Exchange) -> Vec<Exchange>,
 }
 
 /// A requirement, the question, and the right answer.

@@ -28,7 +28,7 @@ pub(crate) use failure::Failure;
 pub(crate) use look::{Look, next, terminal_width};
 pub(crate) use outputs::{Outputs, Reports, both};
 pub(crate) use progress::progress;
-pub(crate) use selection::{Growth, Selection, not_offered};
+pub(crate) use selection::{Growth, Selection, no_host, not_offered};
 pub(crate) use streams::Streams;
 pub(crate) use subjects::{Adapter, Exchange, Subjects, finish};
 pub(crate) use target::{Draft, Target, print, printed, seen};

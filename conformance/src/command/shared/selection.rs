@@ -77,6 +77,14 @@ impl Selection {
     }
 }
 
+/// Why an adapter that opens no port is not asked for conversations.
+pub(crate) fn no_host() -> Failure {
+    Failure::usage(
+        "no host to check: give after `--` the command of an adapter with the ops `open` and `call`, or \
+         `open` and `exchange`, as `actucheck adapter guide` describes them",
+    )
+}
+
 /// Says which wires an adapter offers instead of this one.
 pub(crate) fn not_offered(wire: Wire, hello: &Hello) -> Failure {
     let offered = |wire: &Wire| hello.wires.iter().any(|id| id == wire.id());

@@ -3,7 +3,7 @@
 //! For each call a basic check looks at what the host puts on the line, and one at what it returns of a
 //! right answer. All other checks rest on those of their calls.
 
-mod dynamixel2;
+pub(crate) mod dynamixel2;
 mod innfos;
 
 use std::borrow::Cow;

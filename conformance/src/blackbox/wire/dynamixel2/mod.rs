@@ -1,6 +1,7 @@
 //! Probes of DYNAMIXEL Protocol 2.0, with the reference model's answers.
 
 mod exists;
+mod host;
 mod packets;
 mod smaller;
 
@@ -31,6 +32,7 @@ pub(super) const PROBES: Probes = Probes {
     },
     limit: LIMIT,
     question,
+    host: Some(host::PROBES),
 };
 
 /// The requirement on packets that are too long.
@@ -73,6 +75,7 @@ fn question(author: &Author<'_>, probe: &Probe) -> Option<Asked> {
         Probe::Encode(packet) => encode(author, packet),
         Probe::Decode(packet, damage) => decode(author, packet, damage),
         Probe::Stream(parts, cuts) => stream(author, parts, cuts),
+        Probe::Converse(talk) => host::question(talk),
     }
 }
 

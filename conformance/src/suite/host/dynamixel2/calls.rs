@@ -142,6 +142,14 @@ fn every() -> Vec<Right> {
     ]
 }
 
+/// The requirements on what a call sends and on what it returns of a right answer.
+pub(super) fn requirements(call: &str) -> [&'static str; 2] {
+    let own = every().into_iter().find(|right| right.call() == call);
+    own.map_or(["dynamixel2.packet.layout", "dynamixel2.status-packet.layout"], |right| {
+        right.requirements
+    })
+}
+
 /// What each call sends, and what it returns.
 pub(super) fn basics(author: &Author<'_>) -> Vec<Check> {
     let [sent, result] = BASIC;

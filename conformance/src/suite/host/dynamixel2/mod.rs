@@ -3,10 +3,12 @@
 //! - calls: each call with a right answer, what comes after it, and calls that nothing answers;
 //! - faults: answers to Read that are damaged, late, or of something else;
 //! - writes: answers to Write that are damaged, or tell an error;
-//! - several: devices that are missing, swapped or damaged among several.
+//! - several: devices that are missing, swapped or damaged among several;
+//! - found: what any call may return of any bytes, for conversations that no check foresees.
 
 mod calls;
 mod faults;
+pub(crate) mod found;
 mod several;
 mod writes;
 

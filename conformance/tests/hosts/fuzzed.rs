@@ -1,0 +1,76 @@
+//! Random conversations find faults of the host, and none in the right one.
+
+use std::process::Command;
+
+use actucheck::adapter::Question;
+use actucheck::suite::saved;
+
+/// How long the right host waits, and how long the others do, in milliseconds.
+const PATIENT: &str = "150";
+const HASTY: &str = "30";
+/// The most calls that are needed to show any of the faults.
+const CALLS: usize = 2;
+
+/// So many conversations find each fault.
+const CASES: &str = "96";
+
+/// Faults that are found.
+pub(crate) const FOUND: [&str; 18] = [
+    "no-stuffing",
+    "action-to-all",
+    "keeps-half",
+    "no-drain",
+    "late-answer-for-next",
+    "chunks-not-joined",
+    "gives-up-at-split",
+    "ignores-crc",
+    "no-unstuffing",
+    "any-id",
+    "echo-as-answer",
+    "ignores-error",
+    "cuts-to-length",
+    "zero-on-timeout",
+    "last-good-on-timeout",
+    "sync-by-position",
+    "missing-is-stale",
+    "fast-unstuffs",
+];
+
+/// What a run comes to: its exit status, what it says, and how many calls each finding has.
+fn fuzz(fault: &str, limit: &str, port: &str) -> (Option<i32>, String, Vec<usize>) {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("findings.yaml");
+    let output = Command::new(env!("CARGO_BIN_EXE_actucheck"))
+        .args(["fuzz", "--host", "--timeout", "1", "--seed", "1", "--cases", CASES])
+        .arg("--out")
+        .arg(&out)
+        .arg("--")
+        .arg(std::env::current_exe().unwrap())
+        .args(["adapter", fault, limit, port])
+        .output()
+        .unwrap();
+    let found = if out.is_file() { saved::read(&out).unwrap() } else { Vec::new() };
+    let calls = found.iter().map(|check| match &check.question {
+        Question::Converse { steps, .. } => steps.len(),
+        other => panic!("{other}"),
+    });
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    (output.status.code(), text, calls.collect())
+}
+
+/// What is wrong with the findings of a fault; empty if nothing is.
+pub(crate) fn wrong(fault: &str) -> String {
+    let (status, text, calls) = fuzz(fault, HASTY, "memory");
+    let is_short = calls.iter().any(|calls| *calls <= CALLS);
+    if status == Some(1) && is_short {
+        String::new()
+    } else {
+        format!("{status:?} {calls:?} {text}")
+    }
+}
+
+/// What is found in the right host on such a port; empty if nothing is.
+pub(crate) fn right(port: &str) -> String {
+    let (status, text, _) = fuzz("none", PATIENT, port);
+    if status == Some(0) && text.ends_with(": nothing found\n") { String::new() } else { text }
+}
