@@ -19,6 +19,7 @@ pub mod schema;
 mod trace;
 mod value;
 
+use std::fmt;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
@@ -57,6 +58,26 @@ impl Default for Timeouts {
     }
 }
 
+/// The port that a host gets where packets are no datagrams. There it gets a UDP port.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum HostPort {
+    /// The end of a pseudo-terminal.
+    #[default]
+    Pty,
+    /// A TCP port of this machine.
+    Tcp,
+}
+
+/// The word that the option `--port` has for it.
+impl fmt::Display for HostPort {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Pty => "pty",
+            Self::Tcp => "tcp",
+        })
+    }
+}
+
 /// How an adapter is run.
 #[derive(Clone, Debug)]
 pub struct Settings {
@@ -69,6 +90,9 @@ pub struct Settings {
     pub trace: Option<Trace>,
     /// The number of this process in the trace.
     pub number: u32,
+    /// The port that a host gets; if it is absent, one in memory if the adapter has that, or else the
+    /// default.
+    pub port: Option<HostPort>,
     /// When this is set, no answer is awaited any more.
     pub interrupted: Arc<AtomicBool>,
 }
@@ -80,6 +104,7 @@ impl Default for Settings {
             restarts: None,
             trace: None,
             number: 1,
+            port: None,
             interrupted: Arc::default(),
         }
     }

@@ -51,6 +51,7 @@ What fails is asked again in a second process. If it does not fail in the same w
 /// Checks a codec: the built-in one, or a library behind an adapter
 #[derive(Debug, Args)]
 #[command(after_help = format!("{EXAMPLES}\n\n{EXIT}, {ENDED}"))]
+#[command(mut_arg("port", |arg| arg.hide(true)))]
 pub(crate) struct Codec {
     #[command(flatten)]
     selection: Selection,

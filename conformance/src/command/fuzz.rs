@@ -138,6 +138,7 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
         implementation: &hello.implementation,
         wires: &[options.wire],
         options: Options { seed, ..Options::new() },
+        port: options.adapter.port(),
         command: &options.adapter.command,
         again: &[],
         records: found

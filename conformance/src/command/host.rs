@@ -20,6 +20,8 @@ Examples:
       answers with one byte changed, with a page to read
   actucheck host --wire innfos -- conformance/adapters/innfos-python/run
       a library that sends datagrams
+  actucheck host --port tcp -- ./my-adapter
+      a library that opens serial ports over TCP
   actucheck replay dynamixel2.host.after.action/read -- ./my-adapter
       one conversation again
 

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use actucheck_spec::Spec;
 
 use super::model::{CheckResult, Header};
-use crate::adapter::{Implementation, Question, Wire};
+use crate::adapter::{HostPort, Implementation, Question, Wire};
 use crate::explain::diff;
 use crate::legible::{LONGEST_TEXT, legible};
 use crate::suite::Options;
@@ -32,6 +32,8 @@ pub struct Run<'a> {
     pub command_line: String,
     /// The options that determine the checks.
     pub options: Options,
+    /// The port that hosts get, if it was chosen.
+    pub port: Option<HostPort>,
     /// The adapter's command; empty for the built-in codec.
     pub command: &'a [String],
     /// The words that ask checks again, before the option that selects them; empty if `replay` does.
@@ -107,6 +109,9 @@ impl Run<'_> {
             if cases > Options::new().cases {
                 words.extend(["--cases".to_owned(), cases.to_string()]);
             }
+        }
+        if let (Some(Question::Converse { .. }), Some(port)) = (&outcome.request, self.port) {
+            words.extend(["--port".to_owned(), port.to_string()]);
         }
         Some(self.with_command(words))
     }

@@ -248,7 +248,7 @@ impl Subject for Process {
 
     fn ask(&mut self, question: &Question) -> Answer {
         if let Question::Converse { wire, steps } = question {
-            let line = Line::of(&self.hello);
+            let line = Line::of(&self.hello, self.settings.port);
             return self
                 .talk(|conversation, limit| line.converse(conversation, limit, *wire, steps));
         }

@@ -14,7 +14,7 @@ use super::passing::{Passing, milliseconds};
 use super::{Answer, BAUD, bursts, port};
 use crate::adapter::conversation::{Conversation, Lost};
 use crate::adapter::{
-    CallError, CallTo, Course, Output, Request, Returned, Step, Trouble, devices,
+    CallError, CallTo, Course, HostPort, Output, Request, Returned, Step, Trouble, devices,
 };
 use crate::bus::{Script, VirtualBus};
 use crate::link::{Links, Watch};
@@ -94,11 +94,12 @@ pub(crate) fn converse(
     conversation: &mut Conversation,
     limit: Duration,
     wire: Wire,
+    kind: HostPort,
     steps: &[Step],
 ) -> Result<Answer, Lost> {
     let mut tries = 1..TRIES;
     loop {
-        let (answer, was_late) = once(conversation, limit, wire, steps)?;
+        let (answer, was_late) = once(conversation, limit, wire, kind, steps)?;
         if tries.next().is_none() || !was_late {
             return Ok(answer);
         }
@@ -110,6 +111,7 @@ fn once(
     conversation: &mut Conversation,
     limit: Duration,
     wire: Wire,
+    kind: HostPort,
     steps: &[Step],
 ) -> Result<(Answer, bool), Lost> {
     let (script, record) = (Script::default(), Record::default());
@@ -117,7 +119,7 @@ fn once(
         return Ok((Answer::NotAsked(format!("there is no line for {wire}")), false));
     };
     let mut links = Links::default();
-    let opened = port(&mut links, wire).map_err(|error| error.to_string());
+    let opened = port(&mut links, wire, kind).map_err(|error| error.to_string());
     let ends = UnixStream::pair().map_err(|error| error.to_string());
     let (address, (stop, stopped)) = match (opened, ends) {
         (Ok(port), Ok(ends)) => (port.name(), ends),

@@ -17,7 +17,7 @@ use std::time::Duration;
 use actucheck_spec::wire::Wire;
 
 use crate::adapter::conversation::{Conversation, Lost};
-use crate::adapter::{Burst, Hello, Output, Question, Rejection, Step};
+use crate::adapter::{Burst, Hello, HostPort, Output, Question, Rejection, Step};
 use crate::bus::Bursts;
 #[cfg(unix)]
 use crate::bus::has_datagrams;
@@ -114,13 +114,16 @@ pub(crate) enum Line {
     /// On a port in memory, which the adapter has, with a clock of its own.
     Memory,
     /// On a port of the operating system.
-    System,
+    System(HostPort),
 }
 
 impl Line {
-    /// The best one of an adapter: on a port in memory nobody waits.
-    pub(crate) fn of(hello: &Hello) -> Self {
-        if hello.offers("exchange") { Self::Memory } else { Self::System }
+    /// The one that is chosen, or the best one of an adapter: on a port in memory nobody waits.
+    pub(crate) fn of(hello: &Hello, chosen: Option<HostPort>) -> Self {
+        match chosen {
+            None if hello.offers("exchange") => Self::Memory,
+            port => Self::System(port.unwrap_or_default()),
+        }
     }
 
     /// Lets a host make calls on a line of its own. Returns what became of them, or what else the adapter
@@ -138,9 +141,11 @@ impl Line {
         match self {
             Self::Memory => exchange::converse(conversation, limit, wire, steps),
             #[cfg(unix)]
-            Self::System => host::converse(conversation, limit, wire, steps),
+            Self::System(kind) => host::converse(conversation, limit, wire, kind, steps),
             #[cfg(not(unix))]
-            Self::System => Ok(Answer::Skipped("this system has no pseudo-terminals".to_owned())),
+            Self::System(_) => {
+                Ok(Answer::Skipped("this system has no pseudo-terminals".to_owned()))
+            }
         }
     }
 }
@@ -163,24 +168,26 @@ impl QuietPort {
                 _links: None,
             }),
             #[cfg(unix)]
-            Line::System => {
+            Line::System(kind) => {
                 let mut links = Links::default();
-                let port = port(&mut links, wire).map_err(|error| error.to_string())?;
+                let port = port(&mut links, wire, kind).map_err(|error| error.to_string())?;
                 Ok(Self { address: port.name(), _links: Some(links) })
             }
             #[cfg(not(unix))]
-            Line::System => Err(format!("this system has no port for {wire}")),
+            Line::System(_) => Err(format!("this system has no port for {wire}")),
         }
     }
 }
 
 /// The port of the operating system that a host of a wire gets.
 #[cfg(unix)]
-fn port(links: &mut Links, wire: Wire) -> Result<Port, LinkError> {
-    if has_datagrams(wire) {
-        return links.udp(SocketAddr::from((Ipv4Addr::LOCALHOST, 0)));
+fn port(links: &mut Links, wire: Wire, kind: HostPort) -> Result<Port, LinkError> {
+    let address = SocketAddr::from((Ipv4Addr::LOCALHOST, 0));
+    match kind {
+        _ if has_datagrams(wire) => links.udp(address),
+        HostPort::Pty => links.pty(None),
+        HostPort::Tcp => links.tcp(address),
     }
-    links.pty(None)
 }
 
 /// What answers a packet each time that it is heard, in the words of the bus.

@@ -3,6 +3,7 @@
 import json
 import os
 import select
+import socket
 import sys
 import time
 import tty
@@ -97,6 +98,15 @@ def call(port, call):
     return None
 
 
+def open_port(name):
+    if name.startswith("tcp://"):
+        host, number = name.removeprefix("tcp://").split(":")
+        return socket.create_connection((host, int(number))).detach()
+    port = os.open(name, os.O_RDWR | os.O_NOCTTY)
+    tty.setraw(port)
+    return port
+
+
 def main():
     port = None
     for line in sys.stdin:
@@ -114,9 +124,7 @@ def main():
         elif op in ("open", "close"):
             if port is not None:
                 os.close(port)
-            port = os.open(request["port"], os.O_RDWR | os.O_NOCTTY) if op == "open" else None
-            if port is not None:
-                tty.setraw(port)
+            port = open_port(request["port"]) if op == "open" else None
             reply = {"ok": {}}
             if op == "open" and WRONG == "opens-nothing":
                 reply = {"err": {"class": "port", "detail": "no such port"}}

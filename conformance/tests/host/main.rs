@@ -124,6 +124,24 @@ fn a_conversation_is_shown_in_rows_and_can_be_replayed() {
     assert_eq!(replayed.status.code(), Some(1), "{text}");
 }
 
+#[test]
+fn a_host_may_open_its_port_over_tcp() {
+    let checks = ["--select", "*.basic.*", "--select", "*.read.late/*", "--port", "tcp"];
+    let run = check("right", &checks);
+    assert_eq!(
+        run.output.status.code(),
+        Some(0),
+        "{}",
+        String::from_utf8_lossy(&run.output.stdout)
+    );
+    assert!(run.total("pass") > 5);
+    let run = check("no-drain", &checks);
+    assert_eq!(run.ids("fail"), ["dynamixel2.host.read.late/next"]);
+    let replay = "replay    actucheck replay dynamixel2.host.read.late/next --port tcp -- python3 ";
+    let text = String::from_utf8_lossy(&run.output.stdout);
+    assert!(text.contains(replay), "{text}");
+}
+
 /// The second reading of the document opens a UDP port.
 #[test]
 fn a_host_that_sends_datagrams_is_checked_too() {

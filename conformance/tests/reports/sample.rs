@@ -154,6 +154,7 @@ pub(crate) fn run(implementation: &Implementation) -> Run<'_> {
         implementation,
         wires: &WIRES,
         options: OPTIONS,
+        port: None,
         again: &[],
         command: COMMAND.as_slice(),
         records: BTreeMap::new(),

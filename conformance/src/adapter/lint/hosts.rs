@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::Problem;
 use super::points::{Found, Points};
 use super::talk::Talk;
-use crate::adapter::{CallError, Hello, Question, Trouble};
+use crate::adapter::{CallError, Hello, HostPort, Question, Trouble};
 use crate::subject::heard::Heard;
 use crate::subject::{Answer, Line, QuietPort};
 use crate::suite::check::Check;
@@ -27,7 +27,7 @@ struct Way {
 const WAYS: [Way; 2] = [
     Way {
         op: "call",
-        line: Line::System,
+        line: Line::System(HostPort::Pty),
         port: "a port",
         ok: r#"{"devices": [{"id": 1, "data": "a6000000"}]}"#,
     },
@@ -55,10 +55,18 @@ pub(super) fn look(points: &mut Points, hello: &Hello, check: &Check) -> Control
 }
 
 impl Way {
+    /// The line, with the port that the user chose.
+    const fn line(&self, talk: &Talk) -> Line {
+        match self.line {
+            Line::System(_) => Line::System(talk.port),
+            Line::Memory => Line::Memory,
+        }
+    }
+
     /// What the library makes of the call is its own matter.
     fn makes(&self, talk: &mut Talk, check: &Check) -> Found {
         let Question::Converse { wire, steps } = &check.question else { return Ok(String::new()) };
-        match talk.converse(self.line, *wire, steps)? {
+        match talk.converse(self.line(talk), *wire, steps)? {
             Answer::Faulty(what) => {
                 let Self { op, ok, .. } = self;
                 let mend = format!(
@@ -73,7 +81,7 @@ impl Way {
     }
 
     fn skips_a_name(&self, talk: &mut Talk, wire: Wire) -> Found {
-        let port = QuietPort::of(self.line, wire).map_err(closed)?;
+        let port = QuietPort::of(self.line(talk), wire).map_err(closed)?;
         done(talk, &open(wire, &port.address), "open")?;
         let heard = talk.hear_host(&self.call(wire, "no-such-call"))?;
         done(talk, &json!({"op": "close", "wire": wire}), "close")?;
@@ -88,7 +96,7 @@ impl Way {
 
     /// Opens a port twice, closes it twice, and makes a call then.
     fn opens_and_closes(&self, talk: &mut Talk, wire: Wire) -> Found {
-        let port = QuietPort::of(self.line, wire).map_err(closed)?;
+        let port = QuietPort::of(self.line(talk), wire).map_err(closed)?;
         for op in ["open", "open", "close", "close"] {
             let request = match op {
                 "open" => open(wire, &port.address),
@@ -111,7 +119,7 @@ impl Way {
     fn call(&self, wire: Wire, name: &str) -> Value {
         let call = json!({"name": name, "device": 1});
         match self.line {
-            Line::System => json!({"op": self.op, "wire": wire, "call": call}),
+            Line::System(_) => json!({"op": self.op, "wire": wire, "call": call}),
             Line::Memory => json!({
                 "op": self.op, "wire": wire, "call": call, "frame": "00", "answers": [], "late": "",
                 "hurries": false,

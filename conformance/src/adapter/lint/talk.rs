@@ -9,7 +9,7 @@ use serde_json::Value;
 use super::{Problem, Said};
 use crate::adapter::conversation::{Conversation, Lost, Malformed, Reply, ended, rejection};
 use crate::adapter::process;
-use crate::adapter::{Misfit, Rejection, Settings, Step, Wire, reading};
+use crate::adapter::{HostPort, Misfit, Rejection, Settings, Step, Wire, reading};
 use crate::subject::heard::{Heard, hear};
 use crate::subject::{self, Line};
 
@@ -30,13 +30,16 @@ pub(super) struct Talk {
     conversation: Conversation,
     /// The time limit for a request.
     pub(super) limit: Duration,
+    /// The port that a host gets.
+    pub(super) port: HostPort,
 }
 
 impl Talk {
     pub(super) fn start(command: &[String], settings: &Settings) -> io::Result<Self> {
         let mut conversation = Conversation::start(command, settings)?;
         conversation.keep_lines();
-        Ok(Self { conversation, limit: settings.timeouts.request })
+        let (limit, port) = (settings.timeouts.request, settings.port.unwrap_or_default());
+        Ok(Self { conversation, limit, port })
     }
 
     /// Lets the adapter make calls on a line.

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use actucheck::adapter::Wire;
+use actucheck::adapter::{HostPort, Wire};
 use actucheck::report::{Collector, End, Run, Stopped, screen};
 use actucheck::run;
 use actucheck::suite::Options;
@@ -73,6 +73,8 @@ pub(crate) struct Planned<'a> {
 /// Who is asked.
 #[derive(Clone, Copy)]
 pub(crate) struct Asked<'c> {
+    /// The port that hosts get, if it is chosen.
+    pub(crate) port: Option<HostPort>,
     /// The command that was started; empty without one.
     pub(crate) command: &'c [String],
     /// The words that ask checks again, before the glob of their ids, if `replay` does not.
@@ -88,7 +90,7 @@ impl Checking {
         plan: impl FnOnce(&mut Subjects) -> Result<Planned<'a>, Failure>,
     ) -> Result<ExitCode, Failure> {
         let Self { running, jobs, adapter } = self;
-        let asked = Asked { command: &adapter.command, again: &[] };
+        let asked = Asked { port: adapter.port(), command: &adapter.command, again: &[] };
         running.run(spec, selection, adapter.trace(), asked, |interrupted| {
             let mut subjects = Subjects::start(adapter, *jobs, interrupted)?;
             let planned = plan(&mut subjects)?;
@@ -105,7 +107,7 @@ impl Running {
         spec: &'a Spec,
         selection: &Selection,
         trace: Option<&Path>,
-        Asked { command, again }: Asked<'_>,
+        Asked { port, command, again }: Asked<'_>,
         start: impl FnOnce(&Arc<AtomicBool>) -> Result<(Subjects, Planned<'a>), Failure>,
     ) -> Result<ExitCode, Failure> {
         let others = trace.into_iter().chain(self.write_expect.as_deref());
@@ -129,6 +131,7 @@ impl Running {
             implementation: &hello.implementation,
             wires: &wires,
             options,
+            port,
             command,
             again,
             records,

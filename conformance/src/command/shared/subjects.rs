@@ -5,12 +5,12 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-use actucheck::adapter::{Hello, Settings, Timeouts, Trace, lint};
+use actucheck::adapter::{Hello, HostPort, Settings, Timeouts, Trace, lint};
 use actucheck::subject::{Builtin, Process, Subject};
 use actucheck::suite::plan::Plan;
 use clap::Args;
 
-use super::value::seconds;
+use super::value::{one_of, seconds};
 use super::{Failure, Target};
 
 /// An adapter, or none.
@@ -35,9 +35,23 @@ pub(crate) struct Exchange {
     /// Write every line exchanged with the adapter to this file
     #[arg(long, value_name = "FILE")]
     trace: Option<PathBuf>,
+    /// The port that a host opens where packets are no datagrams [default: one in memory if the adapter has
+    /// it, or else pty]
+    #[arg(long, value_name = "KIND", value_parser = one_of(PORTS))]
+    port: Option<HostPort>,
 }
 
+const PORTS: [(HostPort, &str, &str); 2] = [
+    (HostPort::Pty, "pty", "The end of a pseudo-terminal"),
+    (HostPort::Tcp, "tcp", "A TCP port of this machine, tcp://127.0.0.1:PORT"),
+];
+
 impl Adapter {
+    /// The port that hosts get, if it is chosen.
+    pub(crate) const fn port(&self) -> Option<HostPort> {
+        self.exchange.port
+    }
+
     /// The file that the exchange is written to, if it is.
     pub(crate) fn trace(&self) -> Option<&Path> {
         self.exchange.trace.as_deref()
@@ -50,7 +64,7 @@ impl Exchange {
         let timeouts = Timeouts { start: self.start_timeout, request: self.timeout };
         let trace = self.trace.as_deref().map(open_trace).transpose()?;
         let interrupted = Arc::clone(interrupted);
-        Ok(Settings { timeouts, trace, interrupted, ..Settings::default() })
+        Ok(Settings { timeouts, trace, port: self.port, interrupted, ..Settings::default() })
     }
 }
 
