@@ -1,18 +1,19 @@
-//! The ops `open`, `call` and `close`.
+//! The ops of a host.
 
 use std::error::Error;
 use std::io;
 use std::time::Duration;
 
-use actucheck_adapter::{Call, Port, Refusal, Reported};
+use actucheck_adapter::{Call, Memory, Port, Refusal, Reported};
 use rustypot::CommunicationErrorKind;
 use serialport::SerialPort;
 
 use crate::calls::{self, Failure};
 use crate::cause;
+use crate::memory_port::MemoryPort;
 
 /// How long the port waits for bytes; the library leaves it to its user.
-const TIMEOUT: Duration = Duration::from_millis(100);
+pub(crate) const TIMEOUT: Duration = Duration::from_millis(100);
 
 /// A port that is opened as the library's documentation says.
 pub(crate) struct Host(Box<dyn SerialPort>);
@@ -21,6 +22,10 @@ impl Port for Host {
     fn open(path: &str, baud: u32) -> Result<Self, Refusal> {
         let port = serialport::new(path, baud).timeout(TIMEOUT).open();
         Ok(Self(port.map_err(|error| Refusal::rejected("port", error))?))
+    }
+
+    fn on(line: Memory, baud: u32) -> Result<Self, Refusal> {
+        Ok(Self(Box::new(MemoryPort { line, baud, timeout: TIMEOUT })))
     }
 
     fn call(&mut self, device: u8, call: &Call) -> Result<Vec<Reported>, Refusal> {

@@ -12,7 +12,7 @@ use std::io;
 use std::process::ExitCode;
 
 use actucheck_adapter::{
-    Block, Fast, Hex, Identity, Library, Packet, Refusal, locked_version, serve,
+    Block, Fast, Hex, Identity, Library, Memory, Packet, Refusal, locked_version, serve,
 };
 use calls::Failure;
 use memory_port::MemoryPort;
@@ -20,6 +20,8 @@ use rustypot::{CommunicationErrorKind, DynamixelProtocolHandler, SyncReadError};
 
 /// Offset of a frame's ID.
 const ID: usize = 4;
+/// The rate of a port that has none; a broadcast Ping computes its waiting time from it.
+const BAUD: u32 = 1_000_000;
 
 struct Rustypot;
 
@@ -32,7 +34,7 @@ impl Library for Rustypot {
             version: locked_version(include_str!("../Cargo.lock"), "rustypot"),
             url: "https://github.com/pollen-robotics/rustypot",
             roles: &["host"],
-            ops: &["encode", "decode", "open", "call", "close"],
+            ops: &["encode", "decode", "open", "call", "exchange", "close"],
             max_send: None,
             max_receive: None,
         }
@@ -43,11 +45,12 @@ impl Library for Rustypot {
             return Err(Refusal::skipped("the library sends no status packets"));
         };
         // The answer that the function may wait for does not arrive.
-        let mut port = MemoryPort::default();
-        match calls::make(&mut port, *id, call) {
-            Err(Failure::Missing(refusal)) => Err(refusal),
-            Err(Failure::Failed(error)) if port.written.is_empty() => Err(refusal(error.as_ref())),
-            _ => Ok(port.written),
+        let line = Memory::default();
+        let called = calls::make(&mut port(&line), *id, call);
+        match (called, line.sent()) {
+            (Err(Failure::Missing(refusal)), _) => Err(refusal),
+            (Err(Failure::Failed(error)), sent) if sent.is_empty() => Err(refusal(error.as_ref())),
+            (_, sent) => Ok(sent),
         }
     }
 
@@ -56,12 +59,17 @@ impl Library for Rustypot {
     }
 }
 
+/// The library's end of a line.
+fn port(line: &Memory) -> MemoryPort {
+    MemoryPort { line: line.clone(), baud: BAUD, timeout: host::TIMEOUT }
+}
+
 /// The result of a Read. The library accepts only the answer of the device that it asked and does
 /// not return the ID, so the adapter asks the device that the frame names.
 fn status(frame: &[u8]) -> Result<Packet, Refusal> {
     let id = frame.get(ID).copied().unwrap_or_default();
     let handler = DynamixelProtocolHandler::v2();
-    let read = handler.read_with_error(&mut MemoryPort::holding(frame), id, 0, 0);
+    let read = handler.read_with_error(&mut port(&Memory::answering(frame)), id, 0, 0);
     let (params, error) = read.map_err(|error| refusal(error.as_ref()))?;
     Ok(Packet::Status { id, error: error.byte(), params: Hex(params) })
 }
@@ -72,7 +80,7 @@ fn fast_status(frame: &[u8], fast: &Fast) -> Result<Packet, Refusal> {
     }
     let length = calls::length_of(fast.length)?;
     let handler = DynamixelProtocolHandler::v2().with_fast_sync_read();
-    let mut port = MemoryPort::holding(frame);
+    let mut port = port(&Memory::answering(frame));
     let read = handler.sync_read_with_error(&mut port, &fast.ids, 0, length);
     let blocks = read.map_err(|error| refusal(error.as_ref()))?;
     let block = |(id, (data, error)): (&u8, (Vec<u8>, rustypot::StatusError))| Block {

@@ -1,34 +1,30 @@
-//! A serial port without a serial line.
+//! The library's trait of a port, over a port in memory.
 
 use std::io::{self, Read, Write};
 use std::time::Duration;
 
+use actucheck_adapter::Memory;
 use serialport::{ClearBuffer, DataBits, FlowControl, Parity, SerialPort, StopBits};
 
-/// Returns the received bytes and keeps the written ones. Reading ends at once when all bytes were
-/// read.
-#[derive(Default)]
+/// A serial port without a serial line. A read waits to the time-out by the line's own clock.
 pub(crate) struct MemoryPort {
-    incoming: io::Cursor<Vec<u8>>,
-    pub(crate) written: Vec<u8>,
-}
-
-impl MemoryPort {
-    /// A port that receives these bytes.
-    pub(crate) fn holding(bytes: &[u8]) -> Self {
-        Self { incoming: io::Cursor::new(bytes.to_vec()), written: Vec::new() }
-    }
+    pub(crate) line: Memory,
+    pub(crate) baud: u32,
+    pub(crate) timeout: Duration,
 }
 
 impl Read for MemoryPort {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        self.incoming.read(buffer)
+        match self.line.read(buffer, Some(self.timeout)) {
+            0 => Err(io::ErrorKind::TimedOut.into()),
+            count => Ok(count),
+        }
     }
 }
 
 impl Write for MemoryPort {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.written.extend_from_slice(bytes);
+        self.line.write(bytes);
         Ok(bytes.len())
     }
 
@@ -43,8 +39,7 @@ impl SerialPort for MemoryPort {
     }
 
     fn baud_rate(&self) -> serialport::Result<u32> {
-        // A broadcast Ping computes its waiting time from this; the end of the bytes comes earlier.
-        Ok(1_000_000)
+        Ok(self.baud)
     }
 
     fn data_bits(&self) -> serialport::Result<DataBits> {
@@ -64,10 +59,11 @@ impl SerialPort for MemoryPort {
     }
 
     fn timeout(&self) -> Duration {
-        Duration::from_secs(1)
+        self.timeout
     }
 
-    fn set_baud_rate(&mut self, _: u32) -> serialport::Result<()> {
+    fn set_baud_rate(&mut self, baud: u32) -> serialport::Result<()> {
+        self.baud = baud;
         Ok(())
     }
 
@@ -87,7 +83,8 @@ impl SerialPort for MemoryPort {
         Ok(())
     }
 
-    fn set_timeout(&mut self, _: Duration) -> serialport::Result<()> {
+    fn set_timeout(&mut self, timeout: Duration) -> serialport::Result<()> {
+        self.timeout = timeout;
         Ok(())
     }
 
@@ -116,15 +113,17 @@ impl SerialPort for MemoryPort {
     }
 
     fn bytes_to_read(&self) -> serialport::Result<u32> {
-        // The answer arrives after the request, so there are no bytes to discard yet.
-        Ok(0)
+        Ok(u32::try_from(self.line.waiting()).unwrap_or(u32::MAX))
     }
 
     fn bytes_to_write(&self) -> serialport::Result<u32> {
         Ok(0)
     }
 
-    fn clear(&self, _: ClearBuffer) -> serialport::Result<()> {
+    fn clear(&self, buffer: ClearBuffer) -> serialport::Result<()> {
+        if buffer != ClearBuffer::Output {
+            self.line.clear();
+        }
         Ok(())
     }
 

@@ -4,7 +4,9 @@
 #![forbid(unsafe_code)]
 
 mod hex;
+mod host;
 mod identity;
+mod memory;
 mod packet;
 mod port;
 mod serve;
@@ -13,6 +15,7 @@ use std::fmt::Display;
 
 pub use hex::Hex;
 pub use identity::{Identity, locked_version};
+pub use memory::Memory;
 pub use packet::{Block, Call, Device, Fast, Packet};
 pub use port::{Port, Reported};
 pub use serve::serve;
@@ -23,7 +26,7 @@ pub use serve::serve;
 /// implements. All but those of [`Port`] are independent of each other. A panic is reported as the
 /// error class `internal`.
 pub trait Library {
-    /// The library with an open port, for the ops `open`, `call` and `close`.
+    /// The library with an open port, for the ops `open`, `call`, `exchange` and `close`.
     type Port: Port;
 
     /// The adapter's statement about the library.

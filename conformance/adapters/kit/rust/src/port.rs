@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::{Call, Hex, Refusal};
+use crate::{Call, Hex, Memory, Refusal};
 
 /// A library with an open port; to drop it closes the port.
 pub trait Port: Sized {
@@ -11,6 +11,14 @@ pub trait Port: Sized {
     /// # Errors
     /// If it cannot be opened: the error class `port`.
     fn open(path: &str, baud: u32) -> Result<Self, Refusal>;
+
+    /// Opens a port in memory, for the op `exchange`.
+    ///
+    /// # Errors
+    /// If the library takes no port but one of the system.
+    fn on(_memory: Memory, _baud: u32) -> Result<Self, Refusal> {
+        Err(Refusal::skipped("the library takes no port in memory"))
+    }
 
     /// Makes a call. Returns what the library's user gets, an entry a device that answered.
     ///

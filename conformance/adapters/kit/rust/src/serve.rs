@@ -8,7 +8,8 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value, json};
 
-use crate::{Call, Fast, Hex, Library, Packet, Port, Refusal};
+use crate::host::{self, Open};
+use crate::{Fast, Hex, Library, Packet, Refusal};
 
 /// A request. Its other fields depend on the op.
 #[derive(Deserialize)]
@@ -25,7 +26,7 @@ struct Request {
 /// If a line is not a request, so that no answer is possible, or if a pipe breaks.
 pub fn serve<L: Library>() -> io::Result<()> {
     let mut replies = io::stdout().lock();
-    let mut port = None;
+    let mut open = None;
     for line in io::stdin().lock().lines() {
         let request: Request = serde_json::from_str(&line?)?;
         if request.op == "bye" {
@@ -33,7 +34,7 @@ pub fn serve<L: Library>() -> io::Result<()> {
         }
         let id = request.id;
         // Nothing else is asked of the port after a panic, and all other requests start anew.
-        let answer = catch_unwind(AssertUnwindSafe(|| answer::<L>(request, &mut port)))
+        let answer = catch_unwind(AssertUnwindSafe(|| answer::<L>(request, &mut open)))
             .unwrap_or_else(|panic| Err(Refusal::rejected("internal", told(panic.as_ref()))));
         let reply = match answer {
             Ok(ok) => json!({ "id": id, "ok": ok }),
@@ -50,7 +51,7 @@ pub fn serve<L: Library>() -> io::Result<()> {
 
 fn answer<L: Library>(
     Request { op, fields, .. }: Request,
-    port: &mut Option<L::Port>,
+    open: &mut Option<Open<L::Port>>,
 ) -> Result<Value, Refusal> {
     #[derive(Deserialize)]
     struct Bytes {
@@ -69,22 +70,6 @@ fn answer<L: Library>(
     struct Stream {
         chunks: Vec<Hex>,
     }
-    #[derive(Deserialize)]
-    struct Open {
-        port: String,
-        baud: u32,
-    }
-    #[derive(Deserialize)]
-    struct Calling {
-        call: CallTo,
-    }
-    #[derive(Deserialize)]
-    struct CallTo {
-        device: u8,
-        #[serde(flatten)]
-        call: Call,
-    }
-
     if op == "hello" {
         return Ok(L::identity().hello());
     }
@@ -111,27 +96,16 @@ fn answer<L: Library>(
             Ok(json!({ "packet": L::decode(&bytes, fast.as_ref())? }))
         }
         "stream" => Ok(json!({ "packets": L::stream(&read::<Stream>(fields)?.chunks)? })),
-        "open" => {
-            let Open { port: path, baud } = read(fields)?;
-            *port = None; // closes it
-            *port = Some(L::Port::open(&path, baud)?);
-            Ok(json!({}))
-        }
-        "call" => {
-            let Calling { call: CallTo { device, call } } = read(fields)?;
-            let port = port.as_mut().ok_or_else(|| Refusal::rejected("port", "no port is open"))?;
-            Ok(json!({ "devices": port.call(device, &call)? }))
-        }
-        "close" => {
-            *port = None;
-            Ok(json!({}))
-        }
+        op if host::OPS.contains(&op) => host::answer(op, fields, open),
         other => Err(Refusal::skipped(format!("the adapter offers no {other}"))),
     }
 }
 
 /// The role that does this; `None` if both do.
 fn role(op: &str, fields: &Map<String, Value>) -> Option<&'static str> {
+    if host::OPS.contains(&op) {
+        return Some("host");
+    }
     let builds = op == "encode";
     let is_request = if builds {
         fields.get("packet")?.get("kind")? == "instruction"
@@ -142,7 +116,7 @@ fn role(op: &str, fields: &Map<String, Value>) -> Option<&'static str> {
 }
 
 /// The fields of an op.
-fn read<T: DeserializeOwned>(fields: Map<String, Value>) -> Result<T, Refusal> {
+pub(crate) fn read<T: DeserializeOwned>(fields: Map<String, Value>) -> Result<T, Refusal> {
     serde_json::from_value(Value::Object(fields))
         .map_err(|error| Refusal::rejected("parameter", format!("bad request: {error}")))
 }
