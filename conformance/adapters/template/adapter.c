@@ -25,6 +25,17 @@ unsigned char *bytes(const char *value, size_t *count);  /* NULL if it is no hex
 /* Bytes as hex digits; to be freed. */
 char *hex(const unsigned char *data, size_t count);
 
+/* A port in memory, for a library that sends and receives with functions of its user. It counts
+ * the time, and waits for nothing. */
+void memory_open(void);
+void memory_send(const unsigned char *data, size_t count);
+/* How many bytes it takes; 0 if none is there in so many milliseconds. */
+size_t memory_receive(unsigned char *data, size_t size, long milliseconds);
+long memory_now(void); /* in milliseconds */
+/* Before and after a call: what the line plays in it, and what `ok` holds beside what was sent. */
+void memory_begin(const char *request);
+void memory_end(const char *format, ...);
+
 /* An op takes the request, for example:
  *
  *     static void crc(const char *request)
@@ -40,6 +51,51 @@ char *hex(const unsigned char *data, size_t count);
  *     }
  *
  * and {"crc", crc} at the head of OPS. */
+
+/* A library that sends and receives with functions of its user has the ops `open`, `exchange` and
+ * `close`, and is checked by `actucheck host`, for example:
+ *
+ *     static int is_open;
+ *
+ *     static void open_port(const char *request)
+ *     {
+ *         (void)request;
+ *         memory_open();
+ *         my_library_open(memory_send, memory_receive);
+ *         is_open = 1;
+ *         ok("{}");
+ *     }
+ *
+ *     static void close_port(const char *request)
+ *     {
+ *         (void)request;
+ *         is_open = 0;
+ *         ok("{}");
+ *     }
+ *
+ *     static void exchange(const char *request)
+ *     {
+ *         const char *call = field(request, "call");
+ *         long device = number(field(call, "device"));
+ *         long length = number(field(call, "length"));
+ *         unsigned char data[256];
+ *         if (!is(field(call, "name"), "read") || length > (long)sizeof data) {
+ *             skipped("the library reads up to 256 bytes, and nothing else");
+ *         } else if (!is_open) {
+ *             rejected("port", "no port is open");
+ *         } else {
+ *             memory_begin(request);
+ *             if (my_library_read(device, number(field(call, "address")), length, data)) {
+ *                 char *text = hex(data, (size_t)length);
+ *                 memory_end("\"devices\":[{\"id\":%ld,\"data\":\"%s\"}]", device, text);
+ *                 free(text);
+ *             } else {
+ *                 memory_end("\"err\":{\"class\":\"timeout\",\"detail\":\"no answer\"}");
+ *             }
+ *         }
+ *     }
+ *
+ * and {"open", open_port}, {"exchange", exchange}, {"close", close_port} at the head of OPS. */
 
 static const struct op {
     const char *name;
@@ -230,6 +286,118 @@ char *hex(const unsigned char *data, size_t count)
     return text;
 }
 
+/* What the port in memory holds at most, each way. */
+enum { ROOM = 1 << 16 };
+
+/* Bytes that are not taken yet, in the order in which they are there. */
+static struct {
+    long at;
+    unsigned char byte;
+} coming[ROOM];
+static size_t coming_count;
+
+/* What was sent in this call: the bytes, and the pieces as JSON. */
+static unsigned char sent[ROOM];
+static size_t sent_count;
+static char *pieces;
+
+static long now, begun;
+/* What the line plays in this call. */
+static const char *play;
+static size_t times;
+
+long memory_now(void)
+{
+    return now;
+}
+
+/* Lets bytes be there at a time. */
+static void arrive(long at, const char *value)
+{
+    size_t count = 0, i, place;
+    unsigned char *data = bytes(value, &count);
+    for (i = 0; i < count && coming_count < ROOM; i++) {
+        for (place = coming_count++; place > 0 && coming[place - 1].at > at; place--)
+            coming[place] = coming[place - 1];
+        coming[place].at = at;
+        coming[place].byte = data[i];
+    }
+    free(data);
+}
+
+void memory_open(void)
+{
+    now = 0;
+    coming_count = 0;
+}
+
+void memory_begin(const char *request)
+{
+    play = request;
+    times = 0;
+    begun = now;
+    sent_count = 0;
+    pieces = allocated(pieces, 1);
+    pieces[0] = '\0';
+}
+
+void memory_send(const unsigned char *data, size_t count)
+{
+    size_t frame_count = 0, length = strlen(pieces), i, chunk;
+    unsigned char *frame = bytes(field(play, "frame"), &frame_count);
+    const char *answer, *burst;
+    char *text;
+    if (count > ROOM - sent_count)
+        count = ROOM - sent_count;
+    text = hex(data, count);
+    pieces = allocated(pieces, length + 2 * count + 64);
+    if (count > 0)
+        sprintf(pieces + length, "%s{\"at_ms\":%ld,\"bytes\":\"%s\"}", length > 0 ? "," : "",
+                now - begun, text);
+    for (i = 0; i < count; i++) {
+        sent[sent_count++] = data[i];
+        if (frame == NULL || sent_count < frame_count ||
+            memcmp(sent + sent_count - frame_count, frame, frame_count) != 0)
+            continue;
+        answer = element(field(play, "answers"), times++);
+        for (chunk = 0; (burst = element(answer, chunk)) != NULL; chunk++)
+            arrive(now + number(field(burst, "after_ms")), field(burst, "bytes"));
+    }
+    free(frame);
+    free(text);
+}
+
+size_t memory_receive(unsigned char *data, size_t size, long milliseconds)
+{
+    size_t count = 0;
+    if (coming_count > 0 && coming[0].at <= now + milliseconds)
+        now = coming[0].at > now ? coming[0].at : now;
+    else
+        now += milliseconds;
+    while (count < size && count < coming_count && coming[count].at <= now) {
+        data[count] = coming[count].byte;
+        count++;
+    }
+    coming_count -= count;
+    memmove(coming, coming + count, coming_count * sizeof coming[0]);
+    return count;
+}
+
+void memory_end(const char *format, ...)
+{
+    const char *hurries = field(play, "hurries");
+    va_list values;
+    va_start(values, format);
+    printf("{\"id\":%ld,\"ok\":{\"sent\":[%s],\"ms\":%ld,", id, pieces, now - begun);
+    vprintf(format, values);
+    printf("}}\n");
+    va_end(values);
+    if ((hurries == NULL || *hurries != 't') && coming_count > 0 &&
+        coming[coming_count - 1].at > now)
+        now = coming[coming_count - 1].at;
+    arrive(now, field(play, "late"));
+}
+
 /* One line of standard input, however long, without its end; NULL at the end. */
 static char *read_line(void)
 {
@@ -254,7 +422,7 @@ static void say_hello(void)
 {
     const char *const *role;
     const struct op *op;
-    printf("{\"id\":%ld,\"ok\":{\"protocol\":2,\"implementation\":%s", id, IMPLEMENTATION);
+    printf("{\"id\":%ld,\"ok\":{\"protocol\":3,\"implementation\":%s", id, IMPLEMENTATION);
     printf(",\"roles\":[");
     for (role = ROLES; *role != NULL; role++)
         printf("%s\"%s\"", role == ROLES ? "" : ",", *role);

@@ -11,6 +11,7 @@
 #include <functional>
 #include <iostream>
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -72,6 +73,45 @@ std::string quoted(const std::string &text);
 //     }
 //
 // and {"crc", crc} in OPS.
+
+// A library that opens a port and talks with devices has the ops `open`, `call` and `close`, and is
+// checked by `actucheck host`, for example:
+//
+//     std::unique_ptr<my_library::Port> port;
+//
+//     std::string close_port(const Json &)
+//     {
+//         port.reset();
+//         return "{}";
+//     }
+//
+//     std::string open_port(const Json &request)
+//     {
+//         port.reset();
+//         const std::string &path = request["port"].text();
+//         port = std::make_unique<my_library::Port>(path, request["baud"].number());
+//         return "{}";
+//     }
+//
+//     std::string call(const Json &request)
+//     {
+//         const Json &call = request["call"];
+//         if (call["name"].text() != "read")
+//             throw Skipped("no " + call["name"].text());
+//         if (!port)
+//             throw Rejected("no port is open", "port");
+//         const long device = call["device"].number();
+//         const long address = call["address"].number(), length = call["length"].number();
+//         try {
+//             const std::string data = quoted(hex(port->read(device, address, length)));
+//             const std::string id = std::to_string(device);
+//             return "{\"devices\":[{\"id\":" + id + ",\"data\":" + data + "}]}";
+//         } catch (const my_library::Timeout &error) {
+//             throw Rejected(error.what(), "timeout");
+//         }
+//     }
+//
+// and {"open", open_port}, {"call", call}, {"close", close_port} in OPS.
 using Op = std::function<std::string(const Json &)>;
 const std::map<std::string, Op> OPS = {};
 
@@ -102,7 +142,7 @@ std::string hello()
     std::vector<std::string> ops;
     for (const auto &op : OPS)
         ops.push_back(op.first);
-    return R"({"protocol":2,"implementation":)" + IMPLEMENTATION + R"(,"roles":)" + listed(ROLES) +
+    return R"({"protocol":3,"implementation":)" + IMPLEMENTATION + R"(,"roles":)" + listed(ROLES) +
            R"(,"wires":)" + listed(WIRES) + R"(,"ops":)" + listed(ops) + R"(,"limits":)" + LIMITS +
            "}";
 }

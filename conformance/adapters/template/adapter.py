@@ -23,11 +23,21 @@ class Skipped(Exception):
 #
 #     OPS = {"crc": crc}
 
-# A library that opens a port and talks with devices has the ops `open`, `call` and `close`, and is checked by
-# `actucheck host`, for example:
+# A library that opens a port and talks with devices has the ops `open`, `call` and `close`, and is
+# checked by `actucheck host`, for example:
+#
+#     port = None
+#
+#     def close(request):
+#         global port
+#         if port is not None:
+#             port.close()
+#         port = None
+#         return {}
 #
 #     def open_port(request):
 #         global port
+#         close(request)
 #         port = my_library.open(request["port"], request["baud"])
 #         return {}
 #
@@ -35,13 +45,15 @@ class Skipped(Exception):
 #         call = request["call"]
 #         if call["name"] != "read":
 #             raise Skipped(f"no {call['name']}")
+#         if port is None:
+#             raise Rejected("no port is open", "port")
 #         try:
 #             data = port.read(call["device"], call["address"], call["length"])
 #         except my_library.Timeout as error:
 #             raise Rejected(str(error), "timeout")
 #         return {"devices": [{"id": call["device"], "data": data.hex()}]}
 #
-#     OPS = {"open": open_port, "call": call, "close": close_port}
+#     OPS = {"open": open_port, "call": call, "close": close}
 OPS = {}
 
 HELLO = {

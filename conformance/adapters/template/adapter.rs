@@ -17,6 +17,47 @@ use std::panic::{catch_unwind, AssertUnwindSafe};
 //     }
 //
 // and ("crc", crc) in OPS.
+
+// A library that opens a port and talks with devices has the ops `open`, `call` and `close`, and is
+// checked by `actucheck host`, for example:
+//
+//     use std::cell::RefCell;
+//
+//     thread_local!(static PORT: RefCell<Option<my_library::Port>> = const { RefCell::new(None) });
+//
+//     fn close(_: &Json) -> Answer {
+//         PORT.with(|open| *open.borrow_mut() = None);
+//         Ok("{}".to_owned())
+//     }
+//
+//     fn open(request: &Json) -> Answer {
+//         close(request)?;
+//         let port = my_library::open(request.text("port")?, request.number("baud")?);
+//         let port = port.map_err(|error| No::Rejected("port", error.to_string()))?;
+//         PORT.with(|open| *open.borrow_mut() = Some(port));
+//         Ok("{}".to_owned())
+//     }
+//
+//     fn call(request: &Json) -> Answer {
+//         let call = request.field("call")?;
+//         if call.text("name")? != "read" {
+//             return Err(No::Skipped(format!("no {}", call.text("name")?)));
+//         }
+//         let device = call.number("device")?;
+//         let (address, length) = (call.number("address")?, call.number("length")?);
+//         PORT.with(|open| match open.borrow_mut().as_mut() {
+//             None => Err(No::Rejected("port", "no port is open".to_owned())),
+//             Some(port) => match port.read(device, address, length) {
+//                 Err(error) => Err(No::Rejected("timeout", error.to_string())),
+//                 Ok(data) => {
+//                     let data = hex(&data);
+//                     Ok(format!("{{\"devices\":[{{\"id\":{device},\"data\":\"{data}\"}}]}}"))
+//                 }
+//             },
+//         })
+//     }
+//
+// and ("open", open), ("call", call), ("close", close) in OPS.
 const OPS: &[(&str, Op)] = &[];
 
 const IMPLEMENTATION: &str = r#"{"name":"my_library","version":"0","language":"Rust"}"#;
@@ -93,7 +134,7 @@ fn hello() -> String {
     let ops: Vec<&str> = OPS.iter().map(|(name, _)| *name).collect();
     let (roles, wires, ops) = (listed(ROLES), listed(WIRES), listed(&ops));
     format!(
-        "{{\"protocol\":2,\"implementation\":{IMPLEMENTATION},\"roles\":{roles},\"wires\":{wires},\
+        "{{\"protocol\":3,\"implementation\":{IMPLEMENTATION},\"roles\":{roles},\"wires\":{wires},\
          \"ops\":{ops},\"limits\":{LIMITS}}}"
     )
 }

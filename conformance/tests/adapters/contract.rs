@@ -103,7 +103,8 @@ fn the_guides_examples_are_right() {
     let replies: Vec<_> = with("ok").chain(with("err")).chain(with("skip")).collect();
     for line in with("op") {
         assert_fits(&request, &line.to_string());
-        if matches!(line["op"].as_str(), Some("hello" | "open" | "call" | "close" | "bye")) {
+        let of_a_library = ["hello", "open", "call", "exchange", "close", "bye"];
+        if of_a_library.iter().any(|op| line["op"] == *op) {
             continue;
         }
         let question: Question = serde_json::from_value(line.clone()).unwrap();

@@ -12,6 +12,7 @@ mod early_end;
 mod expected;
 mod fuzzing;
 mod hostile;
+mod libraries;
 mod misbehaving;
 mod sanitizer;
 mod several;

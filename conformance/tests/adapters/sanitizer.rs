@@ -5,7 +5,8 @@ use std::process::Command;
 
 use serde_json::Value;
 
-use super::templates::{C_LIBRARY, compile, template, there_is};
+use super::libraries::C_LIBRARY;
+use super::templates::{compile, template, there_is};
 
 /// Takes a quarter more for enough. It is a byte short for a body of little but patterns.
 const C_STUFFING: &str = r#"

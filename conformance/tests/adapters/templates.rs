@@ -1,77 +1,11 @@
-//! The templates: a new adapter passes the check, and the op in its comment gets a verdict.
+//! The templates: a new adapter passes the check, and the ops in its comments get verdicts.
 
 use std::path::Path;
 use std::process::Command;
 
-/// CRC-16/UMTS bit by bit, as the library in the comments.
-const PYTHON_LIBRARY: &str = "
-class my_library:
-    def crc(data):
-        crc = 0
-        for byte in data:
-            crc ^= byte << 8
-            for _ in range(8):
-                crc = (crc << 1 ^ (0x8005 if crc & 0x8000 else 0)) & 0xFFFF
-        return crc
-
-";
-pub(super) const C_LIBRARY: &str = "
-static unsigned my_library_crc(const unsigned char *data, size_t count)
-{
-    unsigned crc = 0;
-    size_t bit;
-    for (bit = 0; bit < 8 * count; bit++) {
-        if (bit % 8 == 0)
-            crc ^= (unsigned)data[bit / 8] << 8;
-        crc = (crc << 1 ^ (crc & 0x8000 ? 0x8005 : 0)) & 0xFFFF;
-    }
-    return crc;
-}
-
-";
-
-const CPP_LIBRARY: &str = "
-namespace my_library {
-unsigned crc(const Bytes &bytes)
-{
-    unsigned crc = 0;
-    for (const std::uint8_t byte : bytes) {
-        crc ^= static_cast<unsigned>(byte) << 8;
-        for (int bit = 0; bit < 8; bit++)
-            crc = (crc << 1 ^ (crc & 0x8000 ? 0x8005 : 0)) & 0xFFFF;
-    }
-    return crc;
-}
-} // namespace my_library
-
-";
-const RUST_LIBRARY: &str = "
-mod my_library {
-    pub fn crc(bytes: &[u8]) -> u16 {
-        bytes.iter().fold(0, |crc, byte| {
-            (0..8).fold(crc ^ u16::from(*byte) << 8, |crc, _| {
-                crc << 1 ^ if crc & 0x8000 == 0 { 0 } else { 0x8005 }
-            })
-        })
-    }
-}
-
-";
-const JAVASCRIPT_LIBRARY: &str = "
-const myLibrary = {
-    crc(bytes) {
-        let crc = 0;
-        for (const byte of bytes) {
-            crc ^= byte << 8;
-            for (let bit = 0; bit < 8; bit++) {
-                crc = ((crc << 1) ^ (crc & 0x8000 ? 0x8005 : 0)) & 0xffff;
-            }
-        }
-        return crc;
-    },
+use super::libraries::{
+    C_HOST_LIBRARY, C_LIBRARY, CPP_LIBRARY, JAVASCRIPT_LIBRARY, PYTHON_LIBRARY, RUST_LIBRARY,
 };
-
-";
 
 #[test]
 fn the_one_in_cpp_gets_a_verdict() {
@@ -90,10 +24,13 @@ fn the_one_in_cpp_gets_a_verdict() {
     compile(&template);
     skips_everything(&command);
 
-    let filled = [CPP_LIBRARY, &example(&template, "//     "), "\nusing Op"].concat();
+    let [crc, host] = examples(&template, "//     ");
+    let filled = [CPP_LIBRARY, &crc, &host, "\nusing Op"].concat();
     let text = template.replace("\nusing Op", &filled);
-    compile(&text.replace("OPS = {}", "OPS = {{\"crc\", crc}}"));
+    let ops = r#"{{"crc", crc}, {"open", open_port}, {"call", call}, {"close", close_port}}"#;
+    compile(&text.replace("OPS = {}", &format!("OPS = {ops}")));
     knows_the_crc(&command);
+    reads(&command);
 }
 
 #[test]
@@ -111,10 +48,13 @@ fn the_one_in_rust_gets_a_verdict() {
     compile(&template);
     skips_everything(&command);
 
-    let filled = [RUST_LIBRARY, &example(&template, "//     "), "\nconst OPS"].concat();
+    let [crc, host] = examples(&template, "//     ");
+    let filled = [RUST_LIBRARY, &crc, &host, "\nconst OPS"].concat();
     let text = template.replace("\nconst OPS", &filled);
-    compile(&text.replace("= &[];", "= &[(\"crc\", crc)];"));
+    let ops = r#"[("crc", crc), ("open", open), ("call", call), ("close", close)]"#;
+    compile(&text.replace("= &[];", &format!("= &{ops};")));
     knows_the_crc(&command);
+    reads(&command);
 }
 
 #[test]
@@ -130,9 +70,15 @@ fn the_one_in_javascript_gets_a_verdict() {
     std::fs::write(&path, &template).unwrap();
     skips_everything(&command);
 
-    let filled = [JAVASCRIPT_LIBRARY, &example(&template, "//     ")].concat();
-    std::fs::write(&path, template.replace("const OPS = {};\n", &filled)).unwrap();
+    let fill = |example: &str| {
+        let filled = [JAVASCRIPT_LIBRARY, example].concat();
+        std::fs::write(&path, template.replace("const OPS = {};\n", &filled)).unwrap();
+    };
+    let [crc, host] = examples(&template, "//     ");
+    fill(&crc);
     knows_the_crc(&command);
+    fill(&host);
+    reads(&command);
 }
 
 #[test]
@@ -148,9 +94,15 @@ fn the_one_in_python_gets_a_verdict() {
     std::fs::write(&path, &template).unwrap();
     skips_everything(&command);
 
-    let filled = [PYTHON_LIBRARY, &example(&template, "#     ")].concat();
-    std::fs::write(&path, template.replace("OPS = {}\n", &filled)).unwrap();
+    let fill = |example: &str| {
+        let filled = [PYTHON_LIBRARY, example].concat();
+        std::fs::write(&path, template.replace("OPS = {}\n", &filled)).unwrap();
+    };
+    let [crc, host] = examples(&template, "#     ");
+    fill(&crc);
     knows_the_crc(&command);
+    fill(&host);
+    reads(&command);
 }
 
 #[test]
@@ -171,10 +123,14 @@ fn the_one_in_c_gets_a_verdict() {
     compile(&template);
     skips_everything(&command);
 
-    let filled = [C_LIBRARY, &example(&template, " *     "), "\nstatic const struct op"].concat();
+    let [crc, host] = examples(&template, " *     ");
+    let filled = [C_LIBRARY, C_HOST_LIBRARY, &crc, &host, "\nstatic const struct op"].concat();
     let text = template.replace("\nstatic const struct op", &filled);
-    compile(&text.replace("OPS[] = {", "OPS[] = {\n    {\"crc\", crc},"));
+    let ops =
+        r#"{"crc", crc}, {"open", open_port}, {"exchange", exchange}, {"close", close_port},"#;
+    compile(&text.replace("OPS[] = {", &format!("OPS[] = {{\n    {ops}")));
     knows_the_crc(&command);
+    reads(&command);
 }
 
 /// Whether a program is installed.
@@ -205,14 +161,17 @@ pub(super) fn template(language: &str) -> String {
     text
 }
 
-/// The op that a comment of the template shows.
-fn example(template: &str, margin: &str) -> String {
-    let lines = template.lines().skip_while(|line| !line.contains("for example:")).skip(1);
-    let comment = lines.take_while(|line| line.starts_with(margin.trim_end()));
-    let code = comment.map(|line| line.strip_prefix(margin).unwrap_or_default());
-    let code: Vec<_> = code.collect();
-    assert!(code.len() > 3, "{template}");
-    code.join("\n") + "\n"
+/// What the comments of the template show: an op of a codec, and those of a host.
+fn examples(template: &str, margin: &str) -> [String; 2] {
+    let after = |part: &str| {
+        let lines = part.lines().skip(1).take_while(|line| line.starts_with(margin.trim_end()));
+        let code: Vec<_> =
+            lines.map(|line| line.strip_prefix(margin).unwrap_or_default()).collect();
+        assert!(code.len() > 3, "{part}");
+        code.join("\n") + "\n"
+    };
+    let parts: Vec<_> = template.split("for example:").skip(1).map(after).collect();
+    parts.try_into().unwrap()
 }
 
 fn skips_everything(command: &[&str]) {
@@ -227,6 +186,15 @@ fn knows_the_crc(command: &[&str]) {
     let (status, text) = actucheck(&[&["codec", "--select", "*/crc", "--"], command].concat());
     assert_eq!(status, 0, "{text}");
     assert!(matches!(last_line(&text)[..], ["passed", _, "pass"]), "{text}");
+}
+
+/// It sends a Read, and returns what answers it, or that nothing does.
+fn reads(command: &[&str]) {
+    well(command);
+    let checks = ["host", "--select", "*.host.basic.read/*", "--select", "*.read.split-05/result"];
+    let (status, text) = actucheck(&[&checks[..], &["--"], command].concat());
+    assert_eq!(status, 0, "{text}");
+    assert!(matches!(last_line(&text)[..], ["passed", "3", "pass"]), "{text}");
 }
 
 /// The words of the last line.

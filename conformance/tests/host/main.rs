@@ -8,6 +8,7 @@ use std::process::{Command, Output};
 use serde_json::Value;
 
 const HOST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/host/host.py");
+const MEMORY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/host/memory.py");
 
 struct Run {
     output: Output,
@@ -31,12 +32,17 @@ impl Run {
 
 /// Checks a host that is wrong in this way.
 fn check(wrong: &str, options: &[&str]) -> Run {
+    check_with(HOST, wrong, options)
+}
+
+/// The same with another adapter.
+fn check_with(adapter: &str, wrong: &str, options: &[&str]) -> Run {
     let folder = tempfile::tempdir().unwrap();
     let report = folder.path().join("json");
     let output = Command::new(env!("CARGO_BIN_EXE_actucheck"))
         .args(["host", "--report", &format!("json={}", report.display())])
         .args(options)
-        .args(["--", "python3", HOST, wrong])
+        .args(["--", "python3", adapter, wrong])
         .output()
         .unwrap();
     let report = std::fs::read_to_string(report).unwrap_or_default();
@@ -98,6 +104,55 @@ fn an_adapter_without_a_port_is_no_host() {
 fn calls_that_hello_does_not_name_are_not_asked() {
     let run = check("no-reboot", &["--select", "*.basic.reboot/*"]);
     assert_eq!(run.total("skip"), 2);
+}
+
+/// Whatever an adapter says of its port in memory, there is a verdict.
+#[test]
+fn a_port_in_memory_may_be_made_up() {
+    for (wrong, verdict) in [
+        ("right", "pass"),
+        ("negative-ms", "adapter-fault"),
+        ("negative-at", "adapter-fault"),
+        ("sent-after-the-end", "adapter-fault"),
+        ("sent-backwards", "adapter-fault"),
+        ("both", "adapter-fault"),
+        ("neither", "adapter-fault"),
+        ("no-time", "adapter-fault"),
+        ("no-list", "adapter-fault"),
+        ("capitals", "adapter-fault"),
+        ("long-line", "adapter-fault"),
+        ("long-ok", "adapter-fault"),
+        ("err-alone", "adapter-fault"),
+        ("floods", "fail"),
+        ("an-hour", "timeout"),
+        ("ages", "timeout"),
+        ("exception", "fail"),
+    ] {
+        let run = check_with(MEMORY, wrong, &["--select", "*.basic.read/sent"]);
+        let text = String::from_utf8_lossy(&run.output.stdout);
+        assert_eq!(run.total(verdict), 1, "{wrong}: {text}");
+    }
+}
+
+/// The check of an adapter finds what is wrong with its ports before a run does.
+#[test]
+fn the_check_of_an_adapter_looks_at_its_ports() {
+    for (wrong, point) in [
+        ("right", ""),
+        ("no-time", "makes a call through a port in memory"),
+        ("takes-any-call", "skips a call that it does not know through a port in memory"),
+        ("always-open", "opens and closes a port in memory as it is told"),
+        ("closes-once", "opens and closes a port in memory as it is told"),
+    ] {
+        let output = Command::new(env!("CARGO_BIN_EXE_actucheck"))
+            .args(["adapter", "check", "--", "python3", MEMORY, wrong])
+            .output()
+            .unwrap();
+        let text = String::from_utf8_lossy(&output.stdout);
+        let found = text.lines().find_map(|line| line.strip_prefix("  WRONG  "));
+        let found = found.and_then(|line| line.split(':').next()).unwrap_or_default();
+        assert_eq!(found, point, "{wrong}: {text}");
+    }
 }
 
 /// The report shows the conversation, and the line that asks it again.

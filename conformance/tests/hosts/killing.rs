@@ -51,6 +51,19 @@ pub(crate) fn wrong<F>(wire: &str, port: &str, row: &Row<F>) -> String {
     if is_right { String::new() } else { format!("{:?}: {}", run.status, run.text) }
 }
 
+/// What the check of adapters says of the right host's; empty if it is well.
+pub(crate) fn well(port: &str) -> String {
+    let own = std::env::current_exe().unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_actucheck"))
+        .args(["adapter", "check", "--"])
+        .arg(own)
+        .args(["adapter", "none", HASTY, port])
+        .output()
+        .unwrap();
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    if output.status.success() { String::new() } else { text }
+}
+
 /// What is said of the right host on such a port; empty if nothing is.
 pub(crate) fn right(port: &str) -> String {
     let run = run(port, "none", PATIENT, &["--jobs", "2"]);

@@ -113,7 +113,7 @@ fn tests() -> ExitCode {
 /// A test, by its name.
 type Named = (String, Box<dyn Fn() -> String + Send>);
 
-/// A test for each fault of a host that a check finds, and one for the right host.
+/// A test for each fault of a host that a check finds, and for the right host and its adapter.
 fn killed<F: Sync>(
     wire: &'static str,
     port: &'static str,
@@ -124,8 +124,9 @@ fn killed<F: Sync>(
         (name(row.name), Box::new(move || killing::wrong(wire, port, row)))
     };
     let right: Named = (name("none_is_right"), Box::new(move || killing::right(port)));
+    let well: Named = (format!("adapter::is_well::{port}"), Box::new(move || killing::well(port)));
     let is_seen = |row: &&Row<F>| !matches!(row.judged, Judged::Unseen);
-    table.iter().filter(is_seen).map(of_row).chain([right])
+    table.iter().filter(is_seen).map(of_row).chain([right, well])
 }
 
 /// The faults whose switch is not in exactly one place.

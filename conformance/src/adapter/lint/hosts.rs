@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::Problem;
 use super::points::{Found, Points};
 use super::talk::Talk;
-use crate::adapter::{CallError, Hello, HostPort, Question, Trouble};
+use crate::adapter::{CallError, CallTo, Hello, HostPort, Question, Trouble};
 use crate::subject::heard::Heard;
 use crate::subject::{Answer, Line, QuietPort};
 use crate::suite::check::Check;
@@ -41,14 +41,15 @@ const WAYS: [Way; 2] = [
 
 /// Looks at each way that the adapter offers.
 pub(super) fn look(points: &mut Points, hello: &Hello, check: &Check) -> ControlFlow<()> {
+    let Some(call) = call(check) else { return ControlFlow::Continue(()) };
     for way in WAYS.iter().filter(|way| hello.offers(way.op)) {
         let (port, wire) = (way.port, check.question.wire());
         points.point(format!("makes a call through {port}"), |talk| way.makes(talk, check))?;
         points.point(format!("skips a call that it does not know through {port}"), |talk| {
-            way.skips_a_name(talk, wire)
+            way.skips_a_name(talk, wire, call.clone())
         })?;
         points.point(format!("opens and closes {port} as it is told"), |talk| {
-            way.opens_and_closes(talk, wire)
+            way.opens_and_closes(talk, wire, &call)
         })?;
     }
     ControlFlow::Continue(())
@@ -80,10 +81,13 @@ impl Way {
         }
     }
 
-    fn skips_a_name(&self, talk: &mut Talk, wire: Wire) -> Found {
+    fn skips_a_name(&self, talk: &mut Talk, wire: Wire, mut call: Value) -> Found {
+        if let Some(name) = call.get_mut("name") {
+            *name = json!("no-such-call");
+        }
         let port = QuietPort::of(self.line(talk), wire).map_err(closed)?;
         done(talk, &open(wire, &port.address), "open")?;
-        let heard = talk.hear_host(&self.call(wire, "no-such-call"))?;
+        let heard = talk.hear_host(&self.request(wire, &call))?;
         done(talk, &json!({"op": "close", "wire": wire}), "close")?;
         match heard {
             Heard::Other(Answer::Skipped(_)) => Ok(String::new()),
@@ -95,7 +99,7 @@ impl Way {
     }
 
     /// Opens a port twice, closes it twice, and makes a call then.
-    fn opens_and_closes(&self, talk: &mut Talk, wire: Wire) -> Found {
+    fn opens_and_closes(&self, talk: &mut Talk, wire: Wire, call: &Value) -> Found {
         let port = QuietPort::of(self.line(talk), wire).map_err(closed)?;
         for op in ["open", "open", "close", "close"] {
             let request = match op {
@@ -104,7 +108,7 @@ impl Way {
             };
             done(talk, &request, op)?;
         }
-        match talk.hear_host(&self.call(wire, "ping"))? {
+        match talk.hear_host(&self.request(wire, call))? {
             Heard::Err(CallError { class: Trouble::Port, .. })
             | Heard::Other(Answer::Skipped(_)) => Ok(String::new()),
             _ => Err(Problem::new(
@@ -115,9 +119,8 @@ impl Way {
         }
     }
 
-    /// The request for a call without parameters.
-    fn call(&self, wire: Wire, name: &str) -> Value {
-        let call = json!({"name": name, "device": 1});
+    /// The request for a call that nothing answers.
+    fn request(&self, wire: Wire, call: &Value) -> Value {
         match self.line {
             Line::System(_) => json!({"op": self.op, "wire": wire, "call": call}),
             Line::Memory => json!({
@@ -126,6 +129,14 @@ impl Way {
             }),
         }
     }
+}
+
+/// The call of a check.
+fn call(check: &Check) -> Option<Value> {
+    let Question::Converse { wire, steps } = &check.question else { return None };
+    let step = steps.first()?;
+    let device = wire.device(&step.packet.packet);
+    serde_json::to_value(CallTo { call: step.packet.call.clone()?, device }).ok()
 }
 
 fn open(wire: Wire, port: &str) -> Value {

@@ -73,6 +73,9 @@ impl Adapter {
     }
 
     fn call(&mut self, call: &Value) -> Answer {
+        if call["name"] != "request" {
+            return ("skip", json!({"reason": "no such call"}));
+        }
         let devices = match (Call::deserialize(call), &mut self.host) {
             (Err(error), _) => Err(Failure::new("internal", error.to_string())),
             (_, None) => Err(Failure::new("port", "no port is open")),
