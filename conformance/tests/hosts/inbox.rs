@@ -1,7 +1,7 @@
 //! What came in, and the packets in it.
 
 use super::faults::{Fault, Switch};
-use super::packet::{HEADER, PREFIX, crc, unstuff};
+use super::packet::{BROADCAST, HEADER, LARGEST_ID, PREFIX, crc, unstuff};
 
 /// Bytes of the longest packet that the host takes.
 pub(crate) const LONGEST: usize = 4096;
@@ -137,6 +137,10 @@ impl Inbox {
         }
         while size < PREFIX + 3 && self.on.is(Fault::SpinsOnLengthZero) {
             std::hint::spin_loop();
+        }
+        // Nobody else has an ID.
+        if self.bytes.get(start + 4).is_some_and(|id| *id > LARGEST_ID && *id != BROADCAST) {
+            return Found::Bad;
         }
         // There are an instruction and a CRC in each packet.
         if !(PREFIX + 3..=LONGEST).contains(&size) {

@@ -3,6 +3,7 @@
 
 mod smaller;
 
+use actucheck_spec::Spec;
 use actucheck_spec::wire::dynamixel2::reference::BROADCAST;
 use actucheck_spec::wire::dynamixel2::{Packet, WIRE};
 use proptest::collection::vec;
@@ -11,7 +12,7 @@ use proptest::prop_oneof;
 use proptest::sample::{select, subsequence};
 use proptest::strategy::Union;
 
-use super::exists::{CLEAR, FACTORY_RESET};
+use super::exists::{CLEAR, FACTORY_RESET, exists};
 use super::{Asked, own, packets};
 use crate::adapter::{Hello, Question};
 use crate::blackbox::probe::{Damage, Part, damages};
@@ -23,8 +24,13 @@ use crate::suite::random::data;
 
 pub(super) const PROBES: HostProbes = HostProbes { talk, smaller: smaller::exchanges };
 
-/// The check of a conversation.
-pub(super) fn question(talk: &Talk) -> Option<Asked> {
+/// The check of a conversation. `None` if the documents have no such call too.
+pub(super) fn question(spec: &Spec, talk: &Talk) -> Option<Asked> {
+    let is_call =
+        |exchange: &Exchange| own(&exchange.packet).is_some_and(|sent| exists(spec, sent));
+    if !talk.exchanges.iter().all(is_call) {
+        return None;
+    }
     let (last, before) = talk.exchanges.split_last()?;
     let (mut steps, mut earlier) = (Vec::new(), Vec::new());
     for exchange in before {

@@ -75,7 +75,7 @@ fn question(author: &Author<'_>, probe: &Probe) -> Option<Asked> {
         Probe::Encode(packet) => encode(author, packet),
         Probe::Decode(packet, damage) => decode(author, packet, damage),
         Probe::Stream(parts, cuts) => stream(author, parts, cuts),
-        Probe::Converse(talk) => host::question(talk),
+        Probe::Converse(talk) => host::question(author.spec, talk),
     }
 }
 
