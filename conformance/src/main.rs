@@ -40,6 +40,8 @@ fn run() -> Result<ExitCode, Failure> {
         Command::Host(options) => command::host::run(options),
         #[cfg(unix)]
         Command::Device(options) => command::device::run(options),
+        #[cfg(unix)]
+        Command::Scan(options) => command::scan::run(options),
         Command::Fuzz(options) => command::fuzz::run(options),
         Command::Decode(options) => command::decode::run(options),
         Command::Encode(options) => command::encode::run(options),

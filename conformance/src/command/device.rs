@@ -187,12 +187,10 @@ impl Device {
     }
 
     fn nothing_answers(&self, place: &Place, baud: u32) -> Failure {
-        let rate = match place {
-            Place::Serial(_) => format!(", --baud {baud}"),
-            _ => String::new(),
-        };
+        let rate = if place.has_rate() { format!(", --baud {baud}") } else { String::new() };
         Failure::not_started(format!(
-            "{place}: nothing answers a Ping; is the device on, and are --id {}{rate} and the wiring right?",
+            "{place}: nothing answers a Ping; is the device on, and are --id {}{rate} and the wiring right? \
+             `actucheck scan` looks for devices at every rate",
             self.id
         ))
     }

@@ -15,6 +15,8 @@ pub(crate) mod host;
 pub(crate) mod list;
 pub(crate) mod replay;
 pub(crate) mod report;
+#[cfg(unix)]
+pub(crate) mod scan;
 mod shared;
 pub(crate) mod show;
 pub(crate) mod spec;
@@ -47,6 +49,8 @@ pub(crate) enum Command {
     Host(host::Host),
     #[cfg(unix)]
     Device(device::Device),
+    #[cfg(unix)]
+    Scan(scan::Scan),
     Fuzz(fuzz::Fuzz),
     Decode(decode::Decode),
     Encode(encode::Encode),

@@ -48,6 +48,14 @@ impl FromStr for Place {
     }
 }
 
+impl Place {
+    /// Whether it is a serial port, which has a rate.
+    #[must_use]
+    pub const fn has_rate(&self) -> bool {
+        matches!(self, Self::Serial(_))
+    }
+}
+
 /// As a user writes it.
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

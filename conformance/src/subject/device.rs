@@ -98,7 +98,7 @@ impl Line {
     }
 
     /// The packets that come back after a packet, until so many are there or nothing comes for so long.
-    /// Finds out whether what is sent comes back too, and keeps the only answer to the packet as what
+    /// Finds out whether what is sent comes back too, and keeps the first only answer to a packet as what
     /// tells that the device is there.
     ///
     /// # Errors
@@ -117,7 +117,7 @@ impl Line {
         self.limit = usual;
         let heard = heard.map_err(|error| PortError::new(&self.place, error))?;
         let packets = step.packets(self.wire, &heard.received());
-        if let [answer] = packets.as_slice() {
+        if let ([answer], None) = (packets.as_slice(), &self.hello) {
             self.hello = Some((bytes, answer.clone()));
         }
         Ok(packets)

@@ -154,6 +154,7 @@ fn help_lists_the_subcommands_and_the_exit_status() {
       codec        Checks a codec: the built-in one, or a library behind an adapter
       host         Checks a host: a library that talks with devices, behind an adapter
       device       Checks a device: firmware, on its port
+      scan         Looks which devices are at a port, and at which rate
       fuzz         Looks for failures that no check foresees, and shrinks them
       decode       Explains packets field by field: one, or all in a log, a dump or a capture
       encode       Builds a packet from words
@@ -203,7 +204,7 @@ fn the_help_of_each_subcommand_has_an_example_of_it() {
             seen += 1;
         }
     }
-    assert_eq!(seen, if cfg!(unix) { 23 } else { 20 });
+    assert_eq!(seen, if cfg!(unix) { 24 } else { 20 });
     assert!(ran > 35, "{ran} examples");
 }
 

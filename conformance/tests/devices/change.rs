@@ -63,3 +63,16 @@ pub(crate) fn names_it(mut heard: Vec<u8>, code: u8) -> Vec<u8> {
     }
     heard
 }
+
+/// Changes the parameters of an instruction.
+pub(crate) fn with_params(heard: Vec<u8>, code: u8, change: impl Fn(&mut Vec<u8>)) -> Vec<u8> {
+    match packets(&heard).first() {
+        Some(Packet::Instruction { id, instruction, params }) if *instruction == code => {
+            let mut params = params.0.clone();
+            change(&mut params);
+            let packet = Packet::Instruction { id: *id, instruction: code, params: params.into() };
+            WIRE.encode(&packet.into()).unwrap()
+        }
+        _ => heard,
+    }
+}

@@ -2,43 +2,8 @@
 
 use actucheck_spec::wire::dynamixel2::reference::{HEADER, frame, packets, repair};
 
-use super::change::{each, instruction, names_it, read_of, renamed};
-
-/// Makes what is answered of what was asked and the right answer.
-type Answers = fn(&[u8], Vec<u8>) -> Vec<u8>;
-
-/// A fault: what it changes of what the device hears, or of what it answers.
-pub(crate) struct Fault {
-    pub(crate) name: &'static str,
-    /// What the device does, in words.
-    pub(crate) does: &'static str,
-    /// The devices on the line; the first is checked.
-    pub(crate) devices: &'static str,
-    /// The check that must fail.
-    pub(crate) found_by: &'static str,
-    /// Makes what the devices hear of what was sent at once.
-    pub(crate) hears: Option<fn(Vec<u8>) -> Vec<u8>>,
-    /// Makes what they answer of that.
-    pub(crate) answers: Option<Answers>,
-}
-
-const fn hearing(
-    name: &'static str,
-    does: &'static str,
-    found_by: &'static str,
-    hears: fn(Vec<u8>) -> Vec<u8>,
-) -> Fault {
-    Fault { name, does, devices: "ja40@1", found_by, hears: Some(hears), answers: None }
-}
-
-const fn answering(
-    name: &'static str,
-    does: &'static str,
-    found_by: &'static str,
-    answers: Answers,
-) -> Fault {
-    Fault { name, does, devices: "ja40@1", found_by, hears: None, answers: Some(answers) }
-}
+use super::change::{each, instruction, names_it, read_of, renamed, with_params};
+use super::fault::{Fault, answering, hearing};
 
 /// The faults. `found_by` is a check's id after `dynamixel2.device.`.
 pub(crate) const FAULTS: &[Fault] = &[
@@ -170,9 +135,7 @@ pub(crate) const FAULTS: &[Fault] = &[
         "has an alarm of its own",
         "table.hardware-error-status/bit-0",
         |asked, answer| {
-            if read_of(asked).is_some_and(|(_, length)| length == 1)
-                && read_of(asked) == Some((518, 1))
-            {
+            if read_of(asked) == Some((518, 1)) {
                 each(answer, |_, _, data| data[0] |= 1)
             } else {
                 answer
@@ -388,6 +351,15 @@ pub(crate) const FAULTS: &[Fault] = &[
             heard.truncate(10);
             heard
         },
+    ),
+    hearing("reads-from-zero", "reads from address 0", "table.neighbours/order", |heard| {
+        with_params(heard, 0x02, |params| params[..2].fill(0))
+    }),
+    hearing(
+        "sync-read-other-register",
+        "reads the next address in a Sync Read",
+        "several.sync-read.as-read/data",
+        |heard| with_params(heard, 0x82, |params| params[0] += 2),
     ),
     hearing(
         "sync-read-of-others",

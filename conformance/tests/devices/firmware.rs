@@ -7,7 +7,8 @@ use std::time::{Duration, Instant};
 
 use actucheck::bus::{Sender, VirtualBus};
 
-use super::faults::{FAULTS, Fault};
+use super::fault::Fault;
+use super::faults::FAULTS;
 
 /// How often it is looked whether an answer is there.
 const LOOK: Duration = Duration::from_millis(1);

@@ -4,7 +4,7 @@ use std::process::Command;
 
 use serde_json::Value;
 
-use super::faults::Fault;
+use super::fault::Fault;
 
 /// The verdicts of a run by check, and its exit status.
 pub(crate) struct Run {

@@ -13,6 +13,7 @@
 #![cfg(unix)]
 
 mod change;
+mod fault;
 mod faults;
 mod firmware;
 mod killing;

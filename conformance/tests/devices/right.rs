@@ -15,7 +15,11 @@ use super::killing::run;
 type Test = (&'static str, fn() -> String);
 
 /// The tests. Each returns what is wrong.
-pub(crate) const TESTS: [Test; 9] = [
+pub(crate) const TESTS: [Test; 11] = [
+    ("scan_of_a_socket", || scan(&["--tcp", "0"], "tcp://", "ID 2: JA40, model 5210, firmware 0")),
+    ("scan_of_a_terminal", || {
+        scan(&["--pty"], "", "ID 1 at 57600 bit/s: JA40, model 5210, firmware 0")
+    }),
     ("ja40", || program("ja40")),
     ("ja_variant", || program("ja-variant")),
     ("xm430", || program("xm430-w210")),
@@ -62,6 +66,16 @@ fn port(options: &[&str], before: &str) -> String {
     let bus = Bus::start(options);
     let port = format!("{before}{}", bus.address);
     judged(&[&port, "--device", "ja40", "--neighbour", "2"])
+}
+
+/// The devices of a port are found.
+fn scan(options: &[&str], before: &str, line: &str) -> String {
+    let bus = Bus::start(options);
+    let mut command = Command::new(env!("CARGO_BIN_EXE_actucheck"));
+    let output = command.args(["scan", &format!("{before}{}", bus.address)]).output().unwrap();
+    let text = String::from_utf8_lossy(&output.stdout);
+    let is_found = text.lines().any(|found| found == line);
+    if output.status.success() && is_found { String::new() } else { format!("{line}: {output:?}") }
 }
 
 fn judged(arguments: &[&str]) -> String {

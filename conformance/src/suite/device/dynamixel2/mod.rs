@@ -152,8 +152,8 @@ impl Talk<'_> {
     /// DYNAMIXEL document.
     fn row(&self, names: &[impl AsRef<str>]) -> Option<String> {
         let documents = || self.document().into_iter().chain([WIRE.id()]);
-        let mut ids = names.iter().flat_map(|name| {
-            documents().map(move |document| format!("{document}.{}", name.as_ref()))
+        let mut ids = documents().flat_map(|document| {
+            names.iter().map(move |name| format!("{document}.{}", name.as_ref()))
         });
         let binds = |id: &String| {
             let row = self.author.spec.requirement(id);

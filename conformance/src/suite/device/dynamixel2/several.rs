@@ -121,7 +121,14 @@ fn of_kind(talk: &Talk<'_>, kind: Kind, range: (u16, u16)) -> Vec<Check> {
         vec![talk.packet_then_ping(kind.packet(id, &[id], range))],
         &format!("How does it answer a {} to its own ID?", kind.name()),
     );
-    let mut checks = vec![silence, missing, own_id];
+    let part = Part::Same { step: 0, from: 0, count: size.into() };
+    let as_read = talk.check(
+        named(&format!("several.{word}.as-read/data")),
+        &kind.rows("same-registers"),
+        vec![asked(talk.read(range.0, size), 1), kind.asked(&[id], range, 1)],
+        vec![vec![vec![data(id, size)]], vec![vec![talk.done(part)]]],
+    );
+    let mut checks = vec![silence, missing, own_id, as_read];
     let Some(neighbour) = talk.target.neighbour else { return checks };
     for (name, ids) in [("first", [id, neighbour]), ("second", [neighbour, id])] {
         checks.push(talk.check(

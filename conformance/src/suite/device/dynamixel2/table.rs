@@ -57,7 +57,8 @@ const HELD: [Held; 10] = [
 pub(super) fn checks(talk: &Talk<'_>) -> Vec<Check> {
     let Some(device) = talk.target.device else { return Vec::new() };
     let registers = device.registers.iter().map(|register| readable(talk, register));
-    registers.chain(longest(talk, device)).chain(part(talk, device)).chain(held(talk)).collect()
+    let whole = [longest(talk, device), neighbours(talk, device), part(talk, device)];
+    registers.chain(whole.into_iter().flatten()).chain(held(talk)).collect()
 }
 
 fn readable(talk: &Talk<'_>, register: &Register) -> Check {
@@ -90,6 +91,25 @@ fn longest(talk: &Talk<'_>, device: &Device) -> Option<Check> {
         &["read.status"],
         vec![asked(talk.read(address, length), 1)],
         vec![vec![vec![talk.done(Part::Any(length.into()))]]],
+    ))
+}
+
+/// Two registers of the EEPROM area that are neighbours, in one Read and the second alone.
+fn neighbours(talk: &Talk<'_>, device: &Device) -> Option<Check> {
+    let mut pairs = device.registers.iter().zip(device.registers.iter().skip(1));
+    let (first, second) = pairs.find(|(first, second)| {
+        second.area == Area::Eeprom && first.address + first.kind.size() == second.address
+    })?;
+    let (from, count) = (first.kind.size(), second.kind.size());
+    let part = Part::Same { step: 0, from: from.into(), count: count.into() };
+    Some(talk.check(
+        named("table.neighbours/order"),
+        &["read.status"],
+        vec![
+            asked(talk.read(first.address, from + count), 1),
+            asked(talk.read(second.address, count), 1),
+        ],
+        vec![vec![vec![talk.done(Part::Any((from + count).into()))]], vec![vec![talk.done(part)]]],
     ))
 }
 
