@@ -9,7 +9,7 @@ use actucheck::report::{Format, json, read};
 use actucheck::suite::check::{Check, Demand};
 use actucheck::suite::expect::{Expectations, Failures};
 use actucheck::suite::plan::Plan;
-use actucheck::suite::{Options, host_plan, plan, saved};
+use actucheck::suite::{Options, every_device_plan, host_plan, plan, saved};
 use actucheck_spec::Spec;
 use actucheck_spec::wire::Wire;
 use serde::Deserialize;
@@ -36,7 +36,9 @@ static CHECKS: LazyLock<BTreeMap<String, Check>> = LazyLock::new(|| {
     let options = Options { cases: 10, ..Options::new().with_bodies(1) };
     let mut first = BTreeMap::new();
     let of_codecs = plan(&SPEC, &Wire::ALL, &options);
-    for check in of_codecs.checks().chain(host_plan(&SPEC, &Wire::ALL).checks()) {
+    let (of_hosts, of_devices) =
+        (host_plan(&SPEC, &Wire::ALL), every_device_plan(&SPEC, &Wire::ALL));
+    for check in of_codecs.checks().chain(of_hosts.checks()).chain(of_devices.checks()) {
         let demand = match check.demand {
             Demand::Yield(_) => "yield",
             Demand::Near { .. } => "near",
@@ -45,6 +47,7 @@ static CHECKS: LazyLock<BTreeMap<String, Check>> = LazyLock::new(|| {
             Demand::Send => "send",
             Demand::Withhold => "withhold",
             Demand::Return(_) => "return",
+            Demand::Answer(_) => "answer",
             Demand::Record(_) => "record",
         };
         let (wire, op) = (check.question.wire(), check.question.name());
