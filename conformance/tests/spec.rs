@@ -131,6 +131,25 @@ fn a_row_of_the_matrix_fits_a_wide_screen() {
     }
 }
 
+/// What packets can't show of a host has a reason, and nothing else has.
+#[test]
+fn every_must_of_a_host_has_a_check_or_a_reason() {
+    let (_, stdout, _) = spec(&["coverage", "--role", "host", "--uncovered"]);
+    let without: Vec<_> = stdout.lines().filter(|line| line.contains(" must ")).collect();
+    // The last table has the totals.
+    let rows = without.iter().filter(|line| !line.starts_with("host"));
+    assert_eq!(rows.count(), 0, "{without:#?}");
+    let (_, stdout, _) = spec(&["coverage", "--role", "host"]);
+    let spec = actucheck_spec::Spec::embedded().unwrap();
+    for row in spec.requirements.iter().flat_map(|file| &file.content.requirements) {
+        let line = stdout.lines().find(|line| line.split_whitespace().next() == Some(&row.id));
+        let is_checked = line.is_some_and(|line| {
+            ["check of a host", "checks of a host"].iter().any(|words| line.contains(words))
+        });
+        assert!(!is_checked || row.unseen.host.is_none(), "{} has a check and a reason", row.id);
+    }
+}
+
 #[test]
 fn what_is_checked_is_not_among_what_is_not() {
     let (_, stdout, _) =

@@ -111,6 +111,9 @@ pub struct Course {
     pub more: usize,
     /// How many milliseconds the call took.
     pub ms: u64,
+    /// Whether the machine was too busy for the line, so that the host may have missed an answer.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub late: bool,
     /// What the call returned.
     #[serde(flatten)]
     pub returned: Returned,
@@ -189,14 +192,16 @@ pub struct Reported {
 }
 
 impl Reported {
-    /// Whether this is what another one says, as far as the library tells. It must tell the data, and an
-    /// error number.
+    /// Whether this is what another one says, as far as the library tells. It must tell the data, or an
+    /// error number, beside which data mean nothing.
     #[must_use]
     pub fn fits(&self, right: &Self) -> bool {
         let told = |same: Option<bool>| same.unwrap_or(true);
         let Self { id, data, model_number, firmware_version, mac, error, alert } = self;
         *id == right.id
-            && (*data == right.data || right.data.is_none() && data.as_ref().is_some_and(is_empty))
+            && (*data == right.data
+                || right.data.is_none() && data.as_ref().is_some_and(is_empty)
+                || right.error.is_some())
             && error.unwrap_or_default() == right.error.unwrap_or_default()
             && told(model_number.map(|number| Some(number) == right.model_number))
             && told(firmware_version.map(|version| Some(version) == right.firmware_version))
@@ -281,17 +286,22 @@ impl fmt::Display for Returned {
     }
 }
 
+/// What passed on the line in a call, in words.
+pub(crate) fn passed(line: &[Passed], more: usize) -> Vec<String> {
+    let passed = line.iter().map(|Passed { at_ms, direction, bytes }| {
+        let arrow = if *direction == Direction::Request { "->" } else { "<-" };
+        format!("{arrow} {bytes} at {at_ms} ms")
+    });
+    let more = (more > 0).then(|| format!("and {more} bytes more"));
+    passed.chain(more).collect()
+}
+
 /// A line each for what passed and what was returned, over several steps.
 pub(super) fn told(steps: &[Course]) -> String {
     let told = |(place, step): (usize, &Course)| {
-        let passed = step.line.iter().map(|Passed { at_ms, direction, bytes }| {
-            let arrow = if *direction == Direction::Request { "->" } else { "<-" };
-            format!("{arrow} {bytes} at {at_ms} ms")
-        });
-        let more = (step.more > 0).then(|| format!("and {} bytes more", step.more));
-        let Course { returned, ms, .. } = step;
-        let end = format!("returned {returned} after {ms} ms");
-        let lines: Vec<_> = passed.chain(more).chain([end]).collect();
+        let Course { line, more, returned, ms, .. } = step;
+        let mut lines = passed(line, *more);
+        lines.push(format!("returned {returned} after {ms} ms"));
         format!("call {}: {}", place + 1, lines.join(", "))
     };
     steps.iter().enumerate().map(told).collect::<Vec<_>>().join("; ")

@@ -39,9 +39,9 @@ impl Script {
     /// Answers this packet from now on, and no other.
     pub(crate) fn begin(&self, packet: Vec<u8>, answers: impl IntoIterator<Item = Bursts>) {
         let (answers, mut scene) = (Answers::to(packet, answers), self.scene());
-        let Scene { looked, was_late, coming, .. } = *scene;
+        let Scene { looked, coming, .. } = *scene;
         let greetings = mem::take(&mut scene.greetings);
-        *scene = Scene { answers, greetings, looked, was_late, coming, ..Scene::default() };
+        *scene = Scene { answers, greetings, looked, coming, ..Scene::default() };
     }
 
     /// Answers these packets too, unless one of them is the script's.
@@ -73,13 +73,8 @@ impl Script {
         self.scene().looked.is_some()
     }
 
-    /// What passes on the line came too late.
-    pub(crate) fn be_late(&self) {
-        self.scene().was_late = true;
-    }
-
-    /// Whether the machine was too busy to look at the line all the time, so that a host that does not
-    /// wait long may have missed an answer.
+    /// Whether the machine was too busy to look at the line all the time since the script began, so that
+    /// a host that does not wait long may have missed an answer.
     pub(crate) fn was_late(&self) -> bool {
         self.scene().was_late
     }

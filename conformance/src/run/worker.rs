@@ -313,7 +313,7 @@ pub(crate) fn not_offered(hello: &Hello, check: &Check) -> Option<String> {
         return missing.map(|name| format!("the library has no {name}"));
     }
     let limit = match check.question {
-        Question::Encode { .. } => hello.limits.send(),
+        Question::Encode { .. } | Question::Converse { .. } => hello.limits.send(),
         _ => hello.limits.receive(),
     };
     let limit = limit?;

@@ -121,9 +121,9 @@ impl Process {
     }
 
     /// Talks with the adapter, which has so long for each request. Ends it if it fails.
-    fn talk(
+    fn talk<E: Into<Answer>>(
         &mut self,
-        talk: impl FnOnce(&mut Conversation, Duration) -> Result<Answer, Lost>,
+        talk: impl FnOnce(&mut Conversation, Duration) -> Result<Answer, E>,
     ) -> Answer {
         let limit = self.settings.timeouts.request;
         let conversation = match self.conversation() {

@@ -35,8 +35,11 @@ pub(super) fn converse(
     let (mut line, mut courses) = (Line::default(), Vec::new());
     for step in steps {
         let packet = &step.packet.packet;
-        let (Some(frame), Some(call)) = (wire.encode(packet), &step.packet.call) else {
+        let Some(call) = &step.packet.call else {
             return Ok(Answer::NotAsked("no call sends this packet".to_owned()));
+        };
+        let Some(frame) = wire.encode(packet) else {
+            return Ok(Answer::Skipped("no packet is so long".to_owned()));
         };
         let Step { answers, late, hurries, .. } = step;
         let call = CallTo { call: call.clone(), device: wire.device(packet) };
@@ -122,6 +125,6 @@ impl Line {
             passing.add(at_ms, direction, &bytes);
         }
         let Passing { line, more } = passing;
-        Ok(Course { line, more, ms, returned })
+        Ok(Course { line, more, ms, late: false, returned })
     }
 }

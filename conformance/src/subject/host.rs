@@ -11,22 +11,24 @@ use actucheck_spec::wire::{Direction, Wire};
 
 use super::heard::{Heard, ask, own};
 use super::passing::{Passing, milliseconds};
-use super::{Answer, BAUD, bursts, port};
+use super::{Answer, BAUD, Interrupted, bursts, port};
 use crate::adapter::conversation::{Conversation, Lost};
 use crate::adapter::{
-    CallError, CallTo, Course, HostPort, Output, Request, Returned, Step, Trouble, devices,
+    CallError, CallTo, Course, HostPort, Output, Request, Returned, Step, Trouble, devices, passed,
 };
 use crate::bus::{Script, VirtualBus};
 use crate::link::{Links, Watch};
 
 /// How often the line is looked at for the packet of a call that has returned.
 const WRITTEN: u32 = 50;
-/// How often a conversation is tried for which the machine is too busy.
+/// How often a conversation is tried for which the machine is too busy, and one in which a packet is never
+/// heard.
 const TRIES: usize = 5;
+const UNHEARD_TRIES: usize = 2;
 /// How often it is looked whether something is to be played, or has passed.
 const LOOK: Duration = Duration::from_millis(1);
 /// How long what was written last takes through the terminal, on a busy machine.
-const THROUGH: Duration = Duration::from_millis(20);
+const THROUGH: Duration = Duration::from_millis(50);
 
 /// What passes in a step.
 #[derive(Clone, Default)]
@@ -46,6 +48,13 @@ impl Record {
         let old =
             std::mem::replace(&mut *self.0.lock().unwrap_or_else(PoisonError::into_inner), new);
         old.passing
+    }
+
+    /// What has passed in the last call, in words.
+    fn told(&self) -> String {
+        let recorded = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let words = passed(&recorded.passing.line, recorded.passing.more);
+        if words.is_empty() { "nothing passed".to_owned() } else { words.join(", ") }
     }
 
     fn add(&self, direction: Direction, bytes: &[u8]) {
@@ -96,47 +105,79 @@ pub(crate) fn converse(
     wire: Wire,
     kind: HostPort,
     steps: &[Step],
-) -> Result<Answer, Lost> {
-    let mut tries = 1..TRIES;
+) -> Result<Answer, Interrupted> {
+    let mut count = 0;
     loop {
-        let (answer, was_late) = once(conversation, limit, wire, kind, steps)?;
-        if tries.next().is_none() || !was_late {
+        let (answer, seen) = once(conversation, limit, wire, kind, steps)?;
+        count += 1;
+        let most = match seen {
+            Seen::Right => count,
+            Seen::Late | Seen::HeardLate => TRIES,
+            Seen::Unheard => UNHEARD_TRIES,
+        };
+        if count >= most {
             return Ok(answer);
         }
     }
 }
 
-/// The same, and whether the machine was too busy for the line.
+/// How the line saw a conversation.
+enum Seen {
+    Right,
+    /// The machine was too busy for the line.
+    Late,
+    /// A call returned before its packet was heard.
+    HeardLate,
+    /// A packet was never heard.
+    Unheard,
+}
+
+/// The same, and how the line saw it.
 fn once(
     conversation: &mut Conversation,
     limit: Duration,
     wire: Wire,
     kind: HostPort,
     steps: &[Step],
-) -> Result<(Answer, bool), Lost> {
+) -> Result<(Answer, Seen), Interrupted> {
     let (script, record) = (Script::default(), Record::default());
     let Some(mut bus) = VirtualBus::scripted(wire, script.clone()) else {
-        return Ok((Answer::NotAsked(format!("there is no line for {wire}")), false));
+        return Ok((Answer::NotAsked(format!("there is no line for {wire}")), Seen::Right));
     };
     let mut links = Links::default();
     let opened = port(&mut links, wire, kind).map_err(|error| error.to_string());
     let ends = UnixStream::pair().map_err(|error| error.to_string());
     let (address, (stop, stopped)) = match (opened, ends) {
         (Ok(port), Ok(ends)) => (port.name(), ends),
-        (Err(error), _) | (_, Err(error)) => return Ok((Answer::NotAsked(error), false)),
+        (Err(error), _) | (_, Err(error)) => return Ok((Answer::NotAsked(error), Seen::Right)),
     };
     let mut watcher = Watcher { script: script.clone(), record: record.clone() };
     thread::scope(|scope| {
         let line = scope.spawn(move || links.serve(&mut bus, stopped.as_fd(), &mut watcher));
-        let mut host = Host { conversation, limit, wire, script: script.clone(), record };
+        let mut host = Host {
+            conversation,
+            limit,
+            wire,
+            script: script.clone(),
+            record: record.clone(),
+            gave_up: false,
+            was_late: false,
+        };
         let answer = host.converse(&address, steps);
+        let answer = answer.map_err(|lost| Interrupted { lost, passed: Some(record.told()) });
         drop(stop);
         let answer = match line.join() {
             Ok(Ok(_)) => answer?,
             Ok(Err(error)) => Answer::NotAsked(error.to_string()),
             Err(_) => Answer::NotAsked("the line broke down".to_owned()),
         };
-        Ok((answer, script.was_late()))
+        let seen = match (host.was_late, host.gave_up, script.is_heard()) {
+            (true, ..) => Seen::Late,
+            (false, true, true) => Seen::HeardLate,
+            (false, true, false) => Seen::Unheard,
+            (false, false, _) => Seen::Right,
+        };
+        Ok((answer, seen))
     })
 }
 
@@ -147,6 +188,11 @@ struct Host<'a> {
     wire: Wire,
     script: Script,
     record: Record,
+    /// Whether a call returned before its packet was heard: it does not send it, or does not wait, or the
+    /// machine was too busy.
+    gave_up: bool,
+    /// Whether the machine was too busy for the line in a call.
+    was_late: bool,
 }
 
 impl Host<'_> {
@@ -173,9 +219,11 @@ impl Host<'_> {
     /// What becomes of a step, or why its call has no result that can be judged.
     fn step(&mut self, step: &Step) -> Result<Result<Course, Answer>, Lost> {
         let packet = &step.packet.packet;
-        let (Some(frame), Some(call)) = (self.wire.encode(packet), &step.packet.call) else {
+        let Some(call) = &step.packet.call else {
             return Ok(Err(Answer::NotAsked("no call sends this packet".to_owned())));
         };
+        // Nothing is heard of a packet that no length can tell.
+        let frame = self.wire.encode(packet).unwrap_or_default();
         self.script.begin(frame, bursts(&step.answers));
         self.record.turn();
         let call = CallTo { call: call.clone(), device: self.wire.device(packet) };
@@ -186,18 +234,20 @@ impl Host<'_> {
             &reply,
             Heard::Other(_) | Heard::Err(CallError { class: Trouble::Refused, .. })
         );
-        if !is_refused && !self.script.is_heard() && !step.answers.is_empty() {
-            // Either the host did not send it, or gave up before it was heard.
-            self.script.be_late();
-        }
+        let gave_up = !self.script.is_heard() && !step.answers.is_empty();
         // The host may have written without waiting for what becomes of it.
         let looks = self.script.looks();
         wait(self.limit, || {
             is_refused || self.script.is_heard() || self.script.looks() > looks + WRITTEN
         });
+        if !is_refused && (gave_up || !self.script.is_heard()) {
+            self.gave_up = true;
+        }
         if !step.hurries {
             wait(self.limit, || self.script.is_over());
         }
+        let late = self.script.was_late();
+        self.was_late |= late;
         let Passing { line, more } = self.record.turn();
         let returned = match reply {
             Heard::Ok(ok) => match devices(&ok) {
@@ -215,7 +265,7 @@ impl Host<'_> {
             wait(self.limit, || self.script.is_over());
             thread::sleep(THROUGH);
         }
-        Ok(Ok(Course { line, more, ms, returned }))
+        Ok(Ok(Course { line, more, ms, late, returned }))
     }
 
     fn ask(&mut self, request: &Request<'_>) -> Result<Heard, Lost> {

@@ -137,15 +137,37 @@ impl Line {
         limit: Duration,
         wire: Wire,
         steps: &[Step],
-    ) -> Result<Answer, Lost> {
+    ) -> Result<Answer, Interrupted> {
         match self {
-            Self::Memory => exchange::converse(conversation, limit, wire, steps),
+            Self::Memory => exchange::converse(conversation, limit, wire, steps)
+                .map_err(|lost| Interrupted { lost, passed: None }),
             #[cfg(unix)]
             Self::System(kind) => host::converse(conversation, limit, wire, kind, steps),
             #[cfg(not(unix))]
             Self::System(_) => {
                 Ok(Answer::Skipped("this system has no pseudo-terminals".to_owned()))
             }
+        }
+    }
+}
+
+/// The adapter is lost in a conversation.
+pub(crate) struct Interrupted {
+    pub(crate) lost: Lost,
+    /// What has passed on the line in the last call, in words, if that is known.
+    passed: Option<String>,
+}
+
+impl From<Interrupted> for Answer {
+    fn from(Interrupted { lost, passed }: Interrupted) -> Self {
+        let with_line = |detail: String| match &passed {
+            None => detail,
+            Some(passed) => format!("{detail}; on the line: {passed}"),
+        };
+        match lost.into() {
+            Self::TimedOut(detail) => Self::TimedOut(with_line(detail)),
+            Self::Crashed(detail) => Self::Crashed(with_line(detail)),
+            answer => answer,
         }
     }
 }

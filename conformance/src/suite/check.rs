@@ -212,6 +212,10 @@ impl Check {
         let size = match (&self.question, self.expected()) {
             (Question::Decode { bytes, .. }, _)
             | (Question::Encode { .. }, Some(Output::Bytes(bytes))) => bytes.len(),
+            (Question::Converse { wire, steps }, _) => {
+                let frames = steps.iter().filter_map(|step| wire.encode(&step.packet.packet));
+                frames.map(|frame| frame.len()).max()?
+            }
             (Question::Stream { wire, chunks, .. }, Some(Output::Packets(packets))) => {
                 let all: usize = chunks.iter().map(|chunk| chunk.len()).sum();
                 if all <= limit {

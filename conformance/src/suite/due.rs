@@ -11,6 +11,8 @@ use crate::verdict::Verdict;
 
 /// How often a call may send its packet that is answered right.
 const ASKED: usize = 4;
+/// The size in bytes up to which every library should send packets.
+const LONG: usize = 128;
 
 /// What a call must return.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -50,8 +52,30 @@ pub(super) fn judge(question: &Question, demand: &Demand, courses: &[Course]) ->
     };
     let frame = wire.encode(&packet.packet).unwrap_or_default();
     let sent = host::sent(*wire, &frame, course);
-    let has = |sent: &[u8]| sent.windows(frame.len().max(1)).any(|part| part == frame);
+    let (verdict, detail) = judge_last(demand, course, &frame, &sent);
+    // A busy machine may be why nothing was heard, or why an answer came too late.
+    let by_time = sent.is_empty() || matches!(demand, Demand::Return(_)) && holds(&sent, &frame);
+    let was_late = courses.iter().any(|course| course.late);
+    if was_late && by_time && matches!(verdict, Verdict::Fail | Verdict::Warn) {
+        let busy = "the machine was too busy for the line; ask it again when it is less busy";
+        return (Verdict::NotRun, format!("{busy} ({detail})"));
+    }
+    (verdict, detail)
+}
+
+/// Whether a frame is in these bytes.
+fn holds(bytes: &[u8], frame: &[u8]) -> bool {
+    bytes.windows(frame.len().max(1)).any(|part| part == frame)
+}
+
+fn judge_last(demand: &Demand, course: &Course, frame: &[u8], sent: &[u8]) -> (Verdict, String) {
+    let is_refused =
+        matches!(&course.returned, Returned::Err(error) if error.class == Trouble::Refused);
     match demand {
+        // A library may have a limit, which it must not exceed.
+        Demand::Send if sent.is_empty() && is_refused && frame.len() > LONG => {
+            (Verdict::Skip, format!("the library refuses a packet of {} bytes", frame.len()))
+        }
         Demand::Send if sent.is_empty() => fail("the call sends nothing"),
         // A host that is not content with the answer may ask again.
         Demand::Send
@@ -61,11 +85,15 @@ pub(super) fn judge(question: &Question, demand: &Demand, courses: &[Course]) ->
         {
             (Verdict::Pass, String::new())
         }
-        Demand::Withhold if has(&sent) => fail(format!("sends {}", packet_of(&frame))),
+        // There is no such packet, as its length would be too long.
+        Demand::Withhold if frame.is_empty() && !sent.is_empty() => {
+            fail("sends bytes of a packet that is longer than its length can say")
+        }
+        Demand::Withhold if holds(sent, frame) => fail(format!("sends {}", packet_of(frame))),
         Demand::Withhold => (Verdict::Pass, String::new()),
-        Demand::Send => fail(format!("the call must send {}", packet_of(&frame))),
-        Demand::Return(_) if !has(&sent) => {
-            fail(format!("nothing answers, as the call does not send {}", packet_of(&frame)))
+        Demand::Send => fail(format!("the call must send {}", packet_of(frame))),
+        Demand::Return(_) if !holds(sent, frame) => {
+            fail(format!("nothing answers, as the call does not send {}", packet_of(frame)))
         }
         Demand::Return(due) => due.judge(&course.returned),
         _ => unjudged(),

@@ -130,11 +130,9 @@ pub(crate) fn blocks(on: Switch, packet: &Packet, ids: &[u8], length: usize) -> 
         if id != *asked {
             return Err(corrupt("the ID of a block"));
         }
-        devices.push(judge(
-            on,
-            Status { id, error: block[0], data: block[2..size - 2].to_vec() },
-            length,
-        )?);
+        let error = if on.is(Fault::FastDropsError) { 0 } else { block[0] };
+        let data = block[2..size - 2].to_vec();
+        devices.push(judge(on, Status { id, error, data }, length)?);
     }
     Ok(devices)
 }

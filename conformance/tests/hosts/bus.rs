@@ -160,7 +160,7 @@ pub(crate) fn every_call() -> String {
                 sleep(Duration::from_millis(50));
             }
         }
-        for call in ["status", "fast_sync_write"] {
+        for call in ["status", "fast_bulk_read"] {
             let skip =
                 host.ask(&json!({"op": "call", "wire": "dynamixel2", "call": {"name": call}}));
             if skip.as_ref().is_ok_and(|reply| reply["skip"].is_null()) {

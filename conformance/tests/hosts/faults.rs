@@ -57,6 +57,8 @@ pub(crate) use faults;
 faults! {
     // The packet that it sends.
     NoStuffing: "no-stuffing", Fails("call.write.stuffed/sent"), "sends FF FF FD as it is";
+    StuffsFirstOnly: "stuffs-first-only", Fails("said.stuffing.length/sent"), "stuffs the first FF FF FD only";
+    MissesThirdFf: "misses-third-ff", Fails("vector.dynamixel2.stuffing.three-ff/sent"), "does not stuff FF FF FD behind another FF";
     LengthBeforeStuffing: "length-before-stuffing", Fails("call.write.stuffed/sent"), "counts the bytes without stuffing in the length that it sends";
     CrcBeforeStuffing: "crc-before-stuffing", Fails("call.write.stuffed/sent"), "computes the CRC that it sends before it stuffs";
     SendsLengthHighByteFirst: "sends-length-high-byte-first", Fails("read.error-1/result"), "sends the high byte of the length first";
@@ -71,6 +73,7 @@ faults! {
     RegWriteAsWrite: "reg-write-as-write", Fails("basic.reg-write/sent"), "sends a Write for a Reg Write";
     ActionToAll: "action-to-all", Fails("basic.action/sent"), "sends each Action to the broadcast ID";
     FactoryResetAll: "factory-reset-all", Fails("basic.factory-reset/sent"), "sends the option that resets the ID too, whatever is asked for";
+    FastWriteAsWrite: "fast-write-as-write", Fails("basic.fast-sync-write/sent"), "sends a Sync Write for a Fast Sync Write";
     RebootNotSent: "reboot-not-sent", Fails("basic.reboot/sent"), "tells that a Reboot succeeded and sends nothing";
     RefusesIdZero: "refuses-id-zero", Fails("call.read.id-0/result"), "takes ID 0 for a missing ID";
     ReadFromAll: "read-from-all", Recorded, "sends a Read to the broadcast ID and waits for the answer";
@@ -93,6 +96,7 @@ faults! {
     FixedSize: "fixed-size", Fails("read.length-0/result"), "reads as many bytes as it expects, whatever the length says";
     ReadsLengthHighByteFirst: "reads-length-high-byte-first", Fails("basic.reg-write/result"), "takes the first byte of a length for the high one";
     IgnoresCrc: "ignores-crc", Fails("read.flip-09/result"), "takes packets with a wrong CRC";
+    IgnoresCrcWithoutData: "ignores-crc-without-data", Fails("write.flip-10/result"), "takes answers without data whose CRC is wrong";
     UnstuffsBeforeCrc: "unstuffs-before-crc", Fails("call.read.stuffed/result"), "computes the CRC of what it has unstuffed";
     NoUnstuffing: "no-unstuffing", Fails("call.read.stuffed/result"), "leaves the stuffing in the data";
     UnstuffsTooMuch: "unstuffs-too-much", Fails("call.read.like-stuffing/result"), "takes an FD away behind every FD";
@@ -107,7 +111,7 @@ faults! {
     // Time.
     WaitsForever: "waits-forever", Fails("read.flip-00/next"), "waits for an answer without a limit";
     WaitsForeverForRest: "waits-forever-for-rest", Fails("read.flip-00/next"), "waits without a limit for the rest of what has begun";
-    LimitRestarts: "limit-restarts", Unseen, "begins its limit anew with each byte";
+    LimitRestarts: "limit-restarts", Fails("read.drip/result"), "begins its limit anew with each byte";
     LimitTooShort: "limit-too-short", Fails("after.ping/read"), "waits a tenth of its limit";
     WaitsAfterBroadcast: "waits-after-broadcast", Fails("basic.bulk-write/result"), "waits to its limit for an answer to a broadcast write, and tells that none came";
     WaitsForeverAfterBroadcast: "waits-forever-after-broadcast", Fails("basic.bulk-write/result"), "waits for an answer to a broadcast write without a limit";
@@ -143,6 +147,8 @@ faults! {
     MissingIsStale: "missing-is-stale", Fails("bulk-read.missing-after-right/result"), "returns the last value of a device that does not answer a Sync Read or a Bulk Read";
     SyncAnyId: "sync-any-id", Fails("sync-read.uninvited/result"), "returns values of devices that it did not ask";
     SyncAliasesLast: "sync-aliases-last", Fails("bulk-read.swapped/result"), "returns the last device's data for each device";
+    SyncDropsError: "sync-drops-error", Fails("bulk-read.error-of-second/result"), "leaves a device out that answers a Sync Read or a Bulk Read with an error, and tells no error";
+    FastDropsError: "fast-drops-error", Fails("fast-sync-read.error-of-second/result"), "returns the data of a block of a fast status packet that tells an error";
     SyncErrorFailsAll: "sync-error-fails-all", Recorded, "drops all devices' values if one tells an error";
     FastByPosition: "fast-by-position", Fails("fast-sync-read.swapped/result"), "takes the blocks of a fast status packet for those of its devices in their order";
     FastLastCrcOnly: "fast-last-crc-only", Fails("fast-sync-read.first-crc/result"), "checks the last CRC of a fast status packet only";

@@ -264,6 +264,9 @@ impl Host {
                 devices.extend(last.cloned());
             }
         }
+        if on.is(Fault::SyncDropsError) {
+            devices.retain(|device| device.error.is_none());
+        }
         if on.is(Fault::SyncErrorFailsAll) && devices.iter().any(|device| device.error.is_some()) {
             return Err(Failure::new("status", "a device tells an error"));
         }

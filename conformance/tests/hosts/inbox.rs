@@ -151,7 +151,8 @@ impl Inbox {
         let (body, found) = rest.split_at(rest.len() - 2);
         let plain = self.on.is(Fault::UnstuffsBeforeCrc).then(|| unstuff(self.on, body)).flatten();
         let expected = crc(self.on, head, plain.as_deref().unwrap_or(body)).to_le_bytes();
-        if found != expected && !self.on.is(Fault::IgnoresCrc) {
+        let needs_none = self.asked == 0 && self.on.is(Fault::IgnoresCrcWithoutData);
+        if found != expected && !needs_none && !self.on.is(Fault::IgnoresCrc) {
             return Found::Bad;
         }
         Found::Whole(Packet { id: head[4], bytes: bytes.to_vec(), body: body.to_vec() })

@@ -67,6 +67,8 @@ pub(crate) fn well(port: &str) -> String {
 /// What is said of the right host on such a port; empty if nothing is.
 pub(crate) fn right(port: &str) -> String {
     let run = run(port, "none", PATIENT, &["--jobs", "2"]);
-    let is_right = run.status == Some(0) && run.verdicts.is_empty();
+    // A port in memory can't be told of a packet that is too long to be one.
+    let skipped: &[&str] = if port == "memory" { &["skip"] } else { &[] };
+    let is_right = run.status == Some(0) && run.verdicts == skipped;
     if is_right { String::new() } else { format!("{:?} {:?}", run.status, run.verdicts) }
 }

@@ -16,7 +16,7 @@ const PATTERN: [u8; 3] = [0xFF, 0xFF, 0xFD];
 /// An instruction packet.
 pub(crate) fn encode(on: Switch, id: u8, instruction: u8, params: &[u8]) -> Vec<u8> {
     let plain = [&[instruction], params].concat();
-    let stuffed = if on.is(Fault::NoStuffing) { plain.clone() } else { stuff(&plain) };
+    let stuffed = if on.is(Fault::NoStuffing) { plain.clone() } else { stuff(on, &plain) };
     let counted = if on.is(Fault::LengthBeforeStuffing) { &plain } else { &stuffed };
     // A request is refused before it becomes that long.
     let length = u16::try_from(counted.len() + 2).unwrap();
@@ -33,11 +33,14 @@ pub(crate) fn crc(on: Switch, head: &[u8], body: &[u8]) -> u16 {
     if on.is(Fault::CrcOfBody) { umts(body) } else { umts(&[head, body].concat()) }
 }
 
-fn stuff(plain: &[u8]) -> Vec<u8> {
+fn stuff(on: Switch, plain: &[u8]) -> Vec<u8> {
     let mut stuffed = Vec::with_capacity(plain.len());
     for (at, byte) in plain.iter().enumerate() {
         stuffed.push(*byte);
-        if plain[..=at].ends_with(&PATTERN) {
+        let before = &plain[..=at];
+        let is_done = on.is(Fault::StuffsFirstOnly) && stuffed.len() > before.len();
+        let is_missed = on.is(Fault::MissesThirdFf) && before.ends_with(b"\xFF\xFF\xFF\xFD");
+        if before.ends_with(&PATTERN) && !is_done && !is_missed {
             stuffed.push(0xFD);
         }
     }

@@ -23,12 +23,13 @@ pub(crate) enum Call {
     SyncRead { address: u16, length: u16, ids: Vec<u8> },
     FastSyncRead { address: u16, length: u16, ids: Vec<u8> },
     SyncWrite { address: u16, length: u16, devices: Vec<Write> },
+    FastSyncWrite { address: u16, length: u16, devices: Vec<Write> },
     BulkRead { devices: Vec<Read> },
     BulkWrite { devices: Vec<Write> },
 }
 
 /// Calls that the host has.
-pub(crate) const CALLS: [&str; 14] = [
+pub(crate) const CALLS: [&str; 15] = [
     "ping",
     "read",
     "write",
@@ -41,6 +42,7 @@ pub(crate) const CALLS: [&str; 14] = [
     "sync_read",
     "fast_sync_read",
     "sync_write",
+    "fast_sync_write",
     "bulk_read",
     "bulk_write",
 ];
@@ -164,6 +166,13 @@ impl Call {
             Self::SyncWrite { address, length, devices } => {
                 order(BROADCAST, 0x83, sync_write(on, *address, *length, devices)?)
             }
+            Self::FastSyncWrite { address, length, devices } => {
+                let ids = devices.iter().map(|device| device.id).collect();
+                let params = sync_write(on, *address, *length, devices)?;
+                let wanted = Wanted::Fast { ids, length: 0 };
+                let instruction = if on.is(Fault::FastWriteAsWrite) { 0x83 } else { 0x8B };
+                Request { id: BROADCAST, instruction, params, wanted }
+            }
             Self::BulkRead { devices } => {
                 let params = bulk_read(on, devices)?;
                 let one_length = on.is(Fault::BulkReadOneLength);
@@ -191,7 +200,9 @@ impl Call {
     fn devices(&self) -> Option<usize> {
         match self {
             Self::SyncRead { ids, .. } | Self::FastSyncRead { ids, .. } => Some(ids.len()),
-            Self::SyncWrite { devices, .. } | Self::BulkWrite { devices } => Some(devices.len()),
+            Self::SyncWrite { devices, .. }
+            | Self::FastSyncWrite { devices, .. }
+            | Self::BulkWrite { devices } => Some(devices.len()),
             Self::BulkRead { devices } => Some(devices.len()),
             _ => None,
         }

@@ -96,6 +96,8 @@ const fn case(fault: &'static str, wrong: Wrong, steps: fn() -> Vec<Step>) -> Ca
 
 pub(crate) const CASES: &[Case] = &[
     case("no-stuffing", Sends, || vec![write_right(HEADER)]),
+    case("stuffs-first-only", Sends, || vec![write_right(&HEADER.repeat(2))]),
+    case("misses-third-ff", Sends, || vec![write_right(b"\xFF\xFF\xFF\xFD")]),
     case("length-before-stuffing", Sends, || vec![write_right(HEADER)]),
     case("crc-before-stuffing", Sends, || vec![write_right(HEADER)]),
     case("sends-length-high-byte-first", Sends, || vec![right()]),
@@ -117,6 +119,10 @@ pub(crate) const CASES: &[Case] = &[
     case("reg-write-as-write", Sends, || vec![step(1, 0x04, b"\x74\x00\xAA")]),
     case("action-to-all", Sends, || vec![step(1, 0x05, b"")]),
     case("factory-reset-all", Sends, || vec![step(1, 0x06, b"\x01")]),
+    case("fast-write-as-write", Sends, || {
+        let write = step(BROADCAST, 0x8B, b"\x74\x00\x01\x00\x01\xAA");
+        vec![write.hears(fast(&[(1, b"")])).returns("1:")]
+    }),
     case("reboot-not-sent", Sends, || vec![step(1, 0x08, b"")]),
     case("refuses-id-zero", Returns("refused"), || {
         vec![read(0).hears(status(0, 0, A)).returns("0:a6000000")]
@@ -154,6 +160,11 @@ pub(crate) const CASES: &[Case] = &[
     case("fixed-size", Returns("corrupt"), || vec![stuffed()]),
     case("reads-length-high-byte-first", Returns("corrupt"), || vec![right()]),
     case("ignores-crc", Returns("1:a6000000"), || vec![corrupt()]),
+    case("ignores-crc-without-data", Returns("1:"), || {
+        let mut answer = status(1, 0, b"");
+        *answer.last_mut().unwrap() ^= 1;
+        vec![write(1, A).hears(answer).returns("corrupt")]
+    }),
     case("unstuffs-before-crc", Returns("corrupt"), || vec![stuffed()]),
     case("no-unstuffing", Returns("corrupt"), || vec![stuffed()]),
     case("unstuffs-too-much", Returns("corrupt"), || {
@@ -251,6 +262,17 @@ pub(crate) const CASES: &[Case] = &[
         vec![sync_read(&[1, 2]).hears(answers).returns("1:a6000000 2:d0070000")]
     }),
     case("sync-aliases-last", Returns("1:d0070000 2:d0070000"), || vec![sync_right()]),
+    case("sync-drops-error", Returns("1:a6000000"), || {
+        let answers = [status(1, 0, A), status(2, ERROR, b"")].concat();
+        vec![sync_read(&[1, 2]).hears(answers).returns("1:a6000000 2:error 4")]
+    }),
+    case("fast-drops-error", Returns("1:a6000000 2:d0070000"), || {
+        // The error of the second block.
+        let mut answer = fast(&[(1, A), (2, B)]);
+        answer[16] = ERROR;
+        repair(&mut answer);
+        vec![fast_read().hears(answer).returns("1:a6000000 2:error 4")]
+    }),
     case("sync-error-fails-all", Returns("status"), || {
         let answers = [status(1, 0, A), status(2, ERROR, b"")].concat();
         vec![sync_read(&[1, 2]).hears(answers).returns("1:a6000000 2:error 4")]

@@ -50,7 +50,7 @@ impl Talk {
         steps: &[Step],
     ) -> Result<subject::Answer, Problem> {
         let answer = line.converse(&mut self.conversation, self.limit, wire, steps);
-        answer.map_err(|lost| without_reply(&lost))
+        answer.map_err(|interrupted| without_reply(&interrupted.lost))
     }
 
     /// Sends a request for an op of a host and waits for its reply.

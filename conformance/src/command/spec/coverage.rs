@@ -127,18 +127,20 @@ fn first(names: &[String]) -> Option<String> {
 }
 
 /// What checks the requirement. Checks of a role that it does not bind do not count, and are
-/// named if there are no others. One role's have an example. A test
-/// is named if there is no check.
+/// named if there are no others. If one role is asked, there is an example. A test is named if there is
+/// no check.
 fn checked_by(row: &Row<'_>) -> String {
     let mut parts = Vec::new();
     let binds = |role: &Role| row.requirement.binds.contains(role);
     let is_checked = row.checks.keys().any(binds);
-    for (role, checks) in row.checks.iter().filter(|(role, _)| !is_checked || binds(role)) {
+    let named: Vec<_> = row.checks.iter().filter(|(role, _)| !is_checked || binds(role)).collect();
+    let is_alone = named.len() == 1;
+    for (role, checks) in named {
         let word = if checks.count == 1 { "check" } else { "checks" };
         let many = format!("{} {word} of a {role}", checks.count);
         let many = if checks.only_record() { format!("only recorded: {many}") } else { many };
         parts.push(match binds(role) {
-            true if !parts.is_empty() => many,
+            true if !is_alone => many,
             true if checks.count == 1 => format!("{many}, {}", checks.example),
             true => format!("{many}, such as {}", checks.example),
             false => format!("{NOTHING}; {many} name it, such as {}", checks.example),

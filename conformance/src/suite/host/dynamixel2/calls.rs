@@ -1,60 +1,26 @@
 //! Each call with a right answer.
 
-use actucheck_spec::wire::dynamixel2::{Block, Packet, WIRE};
+use actucheck_spec::wire::dynamixel2::{Packet, WIRE};
 
-use super::{BROADCAST, all, burst, data, frame, instruction, read, refused, status, step, untold};
-use crate::adapter::{Burst, Called, Reported, Step};
+use super::{BROADCAST, Right, all, block, burst, data, frame, instruction, read, status, step};
+use crate::adapter::{Reported, Step};
 use crate::suite::Author;
 use crate::suite::check::{Check, Demand};
-use crate::suite::due::Due;
 use crate::suite::host::{BASIC, basic};
 
-/// Parameters of a Clear: what is done, and the key.
+/// Parameters of a Clear and of a Control Table Backup: what is done, and the key.
 const CLEAR: [u8; 5] = [0x01, 0x44, 0x58, 0x4C, 0x22];
+const BACKUP: [u8; 5] = [0x01, 0x43, 0x54, 0x52, 0x4C];
+/// The smallest and the largest ID, and one for each bit.
+const IDS: [u8; 10] = [0, 2, 4, 8, 16, 32, 64, 128, 251, 252];
 /// Four bytes in which nothing is like the pattern of byte stuffing.
 const FOUR: [u8; 4] = [0xA6, 0x01, 0x02, 0x83];
 const OTHER_FOUR: [u8; 4] = [0x17, 0x28, 0x39, 0x4A];
 /// The pattern of byte stuffing, and a byte after it.
 const PATTERN: [u8; 4] = [0xFF, 0xFF, 0xFD, 0x11];
 
-/// A call that is answered right.
-#[derive(Clone)]
-struct Right {
-    packet: Packet,
-    /// The answer; empty if there is none.
-    answer: Vec<u8>,
-    due: Due,
-    /// The requirements on the packet and on the answer.
-    requirements: [&'static str; 2],
-}
-
-impl Right {
-    fn new(packet: Packet, answer: Vec<u8>, due: Due, requirements: [&'static str; 2]) -> Self {
-        Self { packet, answer, due, requirements }
-    }
-
-    /// A call that is answered without data.
-    fn done(packet: Packet, requirements: [&'static str; 2]) -> Self {
-        let due = all([Reported { id: 1, ..Reported::default() }]);
-        Self::new(packet, status(1, 0, &[]), due, requirements)
-    }
-
-    fn step(&self) -> Step {
-        let answer: Vec<Burst> = match self.answer.as_slice() {
-            [] => Vec::new(),
-            bytes => vec![burst(bytes)],
-        };
-        // A host that asks again is answered again.
-        step(self.packet.clone(), vec![answer.clone(), answer.clone(), answer])
-    }
-
-    fn call(&self) -> &'static str {
-        Called::from(self.packet.clone()).call.map_or("", |call| call.name)
-    }
-}
-
 /// One call of each kind, the most basic first.
-fn every() -> Vec<Right> {
+pub(super) fn every() -> Vec<Right> {
     let of_two = |first: &[u8], second: &[u8]| [status(1, 0, first), status(2, 0, second)].concat();
     let both = || all([data(1, &FOUR), data(2, &OTHER_FOUR)]);
     let pinged = Reported {
@@ -68,9 +34,8 @@ fn every() -> Vec<Right> {
     let from_each = [&[1], &register[..], &[2], &register].concat();
     let bulk = [&[1], &register[..], &FOUR, &[2], &register, &OTHER_FOUR].concat();
     let ids = [&register[..], &[1, 2]].concat();
-    let blocks = [(1, FOUR), (2, OTHER_FOUR)];
-    let blocks = blocks.map(|(id, data)| Block { error: 0, id, data: data.to_vec().into() });
-    let fast = frame(Packet::FastStatus { blocks: blocks.to_vec() });
+    let blocks = vec![block(1, &FOUR), block(2, &OTHER_FOUR)];
+    let fast = frame(Packet::FastStatus { blocks });
     let written = [&116_u16.to_le_bytes()[..], &FOUR].concat();
     vec![
         Right::new(
@@ -109,6 +74,7 @@ fn every() -> Vec<Right> {
             instruction(1, 0x10, CLEAR),
             ["dynamixel2.clear.parameters", "dynamixel2.clear.status"],
         ),
+        Right::done(instruction(1, 0x20, BACKUP), ["ja40.backup.parameters", "ja40.backup.status"]),
         Right::new(
             instruction(BROADCAST, 0x82, ids.clone()),
             of_two(&FOUR, &OTHER_FOUR),
@@ -116,7 +82,7 @@ fn every() -> Vec<Right> {
             ["dynamixel2.sync-read.parameters", "dynamixel2.sync-read.same-registers"],
         ),
         Right::new(
-            instruction(BROADCAST, 0x83, to_each),
+            instruction(BROADCAST, 0x83, to_each.clone()),
             Vec::new(),
             all([]),
             ["dynamixel2.sync-write.parameters", "dynamixel2.sync-write.silence"],
@@ -139,12 +105,18 @@ fn every() -> Vec<Right> {
             both(),
             ["ja40.fast-sync-read.parameters", "ja40.fast-sync-read.status"],
         ),
+        Right::new(
+            instruction(BROADCAST, 0x8B, to_each),
+            frame(Packet::FastStatus { blocks: [1, 2].map(|id| block(id, &[])).to_vec() }),
+            all([1, 2].map(|id| Reported { id, ..Reported::default() })),
+            ["ja40.fast-sync-write.parameters", "ja40.fast-sync-write.status"],
+        ),
     ]
 }
 
 /// The requirements on what a call sends and on what it returns of a right answer.
 pub(super) fn requirements(call: &str) -> [&'static str; 2] {
-    let own = every().into_iter().find(|right| right.call() == call);
+    let own = every().into_iter().find(|right| right.name() == call.replace('_', "-"));
     own.map_or(["dynamixel2.packet.layout", "dynamixel2.status-packet.layout"], |right| {
         right.requirements
     })
@@ -154,7 +126,7 @@ pub(super) fn requirements(call: &str) -> [&'static str; 2] {
 pub(super) fn basics(author: &Author<'_>) -> Vec<Check> {
     let [sent, result] = BASIC;
     let both = |right: Right| {
-        let stem = right.call().replace('_', "-");
+        let stem = right.name();
         let id = |about| basic(WIRE, &stem, about);
         let [to_send, to_return] = right.requirements;
         [
@@ -187,11 +159,11 @@ pub(super) fn others(author: &Author<'_>) -> Vec<Check> {
         let steps = vec![right.step()];
         checks.push(author.returned(id(&format!("{name}/result")), requirement, steps, right.due));
     }
-    let written = [&116_u16.to_le_bytes()[..], &PATTERN].concat();
-    let stuffed = Right::done(instruction(1, 0x03, written), ["dynamixel2.stuffing.transmit"; 2]);
+    let stuffed = [&116_u16.to_le_bytes()[..], &PATTERN].concat();
+    let stuffed = Right::done(instruction(1, 0x03, stuffed), ["dynamixel2.stuffing.transmit"; 2]);
     let [requirement, _] = stuffed.requirements;
     checks.push(author.sent(id("write.stuffed/sent"), requirement, vec![stuffed.step()]));
-    for device in [0, 252] {
+    for device in IDS {
         let right = Right::new(
             read(device, 132, 4),
             status(device, 0, &FOUR),
@@ -202,12 +174,17 @@ pub(super) fn others(author: &Author<'_>) -> Vec<Check> {
         let id = id(&format!("read.id-{device}/result"));
         checks.push(author.returned(id, requirement, vec![right.step()], right.due));
     }
-    for (name, code, params) in [
-        ("write", 0x03, [&116_u16.to_le_bytes()[..], &FOUR].concat()),
-        ("action", 0x05, Vec::new()),
-        ("reboot", 0x08, Vec::new()),
+    let silence = "dynamixel2.response.broadcast.silence";
+    let written = [&116_u16.to_le_bytes()[..], &FOUR].concat();
+    for (name, requirement, code, params) in [
+        ("write", silence, 0x03, written.clone()),
+        ("reg-write", silence, 0x04, written),
+        ("action", silence, 0x05, Vec::new()),
+        ("factory-reset", silence, 0x06, vec![0x01]),
+        ("reboot", silence, 0x08, Vec::new()),
+        ("clear", silence, 0x10, CLEAR.to_vec()),
+        ("control-table-backup", "ja40.response.broadcast", 0x20, BACKUP.to_vec()),
     ] {
-        let requirement = "dynamixel2.response.broadcast.silence";
         let steps = vec![step(instruction(BROADCAST, code, params), Vec::new())];
         let id = id(&format!("{name}.broadcast/result"));
         checks.push(author.returned(id, requirement, steps, all([])));
@@ -294,35 +271,8 @@ pub(super) fn after(author: &Author<'_>) -> Vec<Check> {
         let requirement = "dynamixel2.status-packet.parameters";
         let answer = status(1, 0, &OTHER_FOUR);
         let read = Right::new(read(1, 140, 4), answer, due, [requirement; 2]);
-        let id = format!("dynamixel2.host.after.{}/read", right.call().replace('_', "-"));
+        let id = format!("dynamixel2.host.after.{}/read", right.name());
         author.returned(id, requirement, vec![slow(right.step()), slow(read.step())], read.due)
     };
     every().into_iter().map(check).collect()
-}
-
-/// Each call to one device that it refuses, or that another device answers. Read and Write have checks of
-/// their own, and who answers a Ping is there, whatever it says.
-pub(super) fn unsuccessful(author: &Author<'_>) -> Vec<Check> {
-    let is_meant = |right: &Right| {
-        matches!(right.packet, Packet::Instruction { id: 1, instruction, .. }
-            if ![0x02, 0x03].contains(&instruction))
-    };
-    let both = |right: Right| {
-        let call = right.call().replace('_', "-");
-        let id = |what: &str| format!("dynamixel2.host.no-success.{call}/{what}");
-        let steps = |answer: Vec<u8>| vec![Right { answer, ..right.clone() }.step()];
-        let told = Reported { id: 1, error: Some(1), ..Reported::default() };
-        let fields = "dynamixel2.status-packet.error.fields";
-        let refusal = steps(status(1, 1, &[]));
-        let refused = author.returned(id("refused"), fields, refusal, refused(told));
-        let parameters = "dynamixel2.status-packet.parameters";
-        let mut other = right.answer.clone();
-        if let Some(id) = other.get_mut(4) {
-            *id = 2;
-        }
-        WIRE.repair(&mut other);
-        let other = author.returned(id("other-device"), parameters, steps(other), untold());
-        [(call != "ping").then_some(refused), Some(other)]
-    };
-    every().into_iter().filter(is_meant).flat_map(both).flatten().collect()
 }

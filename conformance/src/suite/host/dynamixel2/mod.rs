@@ -1,21 +1,27 @@
 //! Checks of hosts on DYNAMIXEL Protocol 2.0 and its JA dialect.
 //!
 //! - calls: each call with a right answer, what comes after it, and calls that nothing answers;
-//! - faults: answers to Read that are damaged, late, or of something else;
-//! - writes: answers to Write that are damaged, or tell an error;
+//! - said: single sentences of the documents;
+//! - vectors: the packets that the documents print;
+//! - faults: answers of one device that are damaged, late, or of something else;
 //! - several: devices that are missing, swapped or damaged among several;
+//! - damaged: answers of several devices, damaged at each byte;
 //! - found: what any call may return of any bytes, for conversations that no check foresees.
 
 mod calls;
+mod damaged;
 mod faults;
 pub(crate) mod found;
+mod right;
+mod said;
 mod several;
-mod writes;
+mod vectors;
 
 use actucheck_spec::wire::Call;
 use actucheck_spec::wire::dynamixel2::reference::BROADCAST;
-use actucheck_spec::wire::dynamixel2::{Packet, WIRE};
+use actucheck_spec::wire::dynamixel2::{Block, Packet, WIRE};
 
+use self::right::Right;
 use super::{NO_ANSWER, all, burst, data, failed, later, step, untold};
 use crate::adapter::{Reported, Trouble};
 use crate::suite::Author;
@@ -28,17 +34,23 @@ pub(super) fn rests_on(call: &Call) -> Vec<String> {
 }
 
 pub(super) fn families(author: Author<'_>) -> Vec<Family<'_>> {
-    vec![
+    let mut families = vec![
         Family::of("dynamixel2.host.basic.", move || calls::basics(&author)),
+        Family::of("dynamixel2.host.said.", move || said::checks(&author)),
+        Family::of("dynamixel2.host.vector.", move || vectors::checks(&author)),
         Family::of("dynamixel2.host.call.", move || calls::others(&author)),
         Family::of("dynamixel2.host.after.", move || calls::after(&author)),
-        Family::of("dynamixel2.host.no-success.", move || calls::unsuccessful(&author)),
-        Family::of("dynamixel2.host.read.", move || faults::checks(&author)),
-        Family::of("dynamixel2.host.write.", move || writes::checks(&author)),
-        Family::of("dynamixel2.host.sync-read.", move || several::sync(&author)),
-        Family::of("dynamixel2.host.bulk-read.", move || several::bulk(&author)),
-        Family::of("dynamixel2.host.fast-sync-read.", move || several::fast(&author)),
-    ]
+    ];
+    for right in calls::every() {
+        let id = format!("dynamixel2.host.{}.", right.name());
+        families.push(Family::of(id, move || {
+            let mut checks = faults::checks(&author, &right);
+            checks.extend(several::checks(&author, &right));
+            checks.extend(damaged::checks(&author, &right));
+            checks
+        }));
+    }
+    families
 }
 
 fn instruction(id: u8, instruction: u8, params: impl Into<Vec<u8>>) -> Packet {
@@ -53,6 +65,11 @@ fn frame(packet: Packet) -> Vec<u8> {
 /// The bytes of a status packet.
 fn status(id: u8, error: u8, params: &[u8]) -> Vec<u8> {
     frame(Packet::Status { id, error, params: params.to_vec().into() })
+}
+
+/// A block of a fast status packet.
+fn block(id: u8, data: &[u8]) -> Block {
+    Block { error: 0, id, data: data.to_vec().into() }
 }
 
 /// A Read of a device.
