@@ -177,8 +177,9 @@ impl Line {
 
     /// What was sent in the call, and how long it took so far.
     fn told(&self) -> Value {
-        let ms =
-            |time: Duration| u64::try_from(time.saturating_sub(self.begun).as_millis()).unwrap_or(u64::MAX);
+        let ms = |time: Duration| {
+            u64::try_from(time.saturating_sub(self.begun).as_millis()).unwrap_or(u64::MAX)
+        };
         let mut told = 0;
         let sent = self.counts.iter().map(|(at, count)| {
             let bytes = Hex(self.sent.get(told..*count).unwrap_or_default().to_vec());
