@@ -33,6 +33,8 @@ def packet(device, instruction, params):
     body = bytes([instruction]) + params
     if WRONG != "no-stuffing":
         body = body.replace(b"\xff\xff\xfd", b"\xff\xff\xfd\xfd")
+    if len(body) + 2 > 0xFFFF:
+        raise Failed("refused")
     packet = HEADER + bytes([device]) + (len(body) + 2).to_bytes(2, "little") + body
     return packet + crc(packet)
 
