@@ -3,6 +3,7 @@
 use std::io::{self, Write as _};
 use std::time::Duration;
 
+use actucheck_spec::wire::dynamixel2::WIRE;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -10,7 +11,7 @@ use super::answer::Failure;
 use super::faults::{Fault, Switch};
 use super::host::Host;
 use super::memory::Play;
-use super::request::{CALLS, Call};
+use super::request::Call;
 
 /// The version of the adapter protocol.
 const PROTOCOL: u32 = 3;
@@ -115,7 +116,7 @@ impl Adapter {
     }
 
     fn call(&mut self, call: &Value) -> Answer {
-        if !CALLS.iter().any(|name| call["name"] == *name) {
+        if !WIRE.calls().iter().any(|name| call["name"] == *name) {
             return skip("no such call");
         }
         let devices = match (Call::deserialize(call), &mut self.host) {
@@ -159,7 +160,7 @@ impl Adapter {
             "wires": ["dynamixel2"],
             "roles": ["host"],
             "ops": self.port.ops(),
-            "calls": CALLS,
+            "calls": WIRE.calls(),
         })
     }
 }

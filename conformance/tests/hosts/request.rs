@@ -28,25 +28,6 @@ pub(crate) enum Call {
     BulkWrite { devices: Vec<Write> },
 }
 
-/// Calls that the host has.
-pub(crate) const CALLS: [&str; 15] = [
-    "ping",
-    "read",
-    "write",
-    "reg_write",
-    "action",
-    "factory_reset",
-    "reboot",
-    "clear",
-    "control_table_backup",
-    "sync_read",
-    "fast_sync_read",
-    "sync_write",
-    "fast_sync_write",
-    "bulk_read",
-    "bulk_write",
-];
-
 /// What is for one device of several.
 #[derive(Deserialize)]
 pub(crate) struct Write {
