@@ -168,9 +168,19 @@ static WIRES: [Own; 2] = [
 ];
 
 /// Whether an answer on this wire is a datagram of its own.
-#[cfg(unix)]
 pub(crate) fn has_datagrams(wire: Wire) -> bool {
     WIRES.iter().any(|own| own.wire == wire && own.has_datagrams)
+}
+
+/// The IDs that devices on this wire may have.
+pub(crate) fn ids(wire: Wire) -> RangeInclusive<u8> {
+    let own = WIRES.iter().find(|own| own.wire == wire);
+    own.map_or(0..=u8::MAX, |own| own.ids.clone())
+}
+
+/// Whether devices on this wire have control tables.
+pub(crate) fn has_tables(wire: Wire) -> bool {
+    WIRES.iter().any(|own| own.wire == wire && own.has_tables)
 }
 
 /// No packet goes on after so long a pause.

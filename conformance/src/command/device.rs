@@ -10,7 +10,9 @@ use actucheck::adapter::{Permission, Question, Wire};
 use actucheck::device::{NONE, Tables, of_model};
 use actucheck::port::Place;
 use actucheck::subject::device::{Counts, Device as Subject, Line};
-use actucheck::suite::device::{Target, hello, hello_all, identity, is_checked, reported};
+use actucheck::suite::device::{
+    Target, has_tables, hello, hello_all, identity, ids, is_checked, reported,
+};
 use actucheck::suite::plan::Plan;
 use actucheck::suite::{self, Options};
 use actucheck_spec::{Spec, model};
@@ -29,6 +31,8 @@ Examples:
       the device with ID 3, and with the one with ID 4 what several devices answer together
   actucheck device tcp://127.0.0.1:7777 --device my-servo.yaml --report html=report.html
       a device of your own behind a socket, with a page to read
+  actucheck device udp://192.168.1.30:2000 --wire innfos --id 6
+      the actuator with the address 6 behind its board
   actucheck device --device ja40 -- ./firmware-on-this-machine
       firmware that was compiled for this machine, which speaks raw bytes on its standard input and output
   actucheck device --device ja40 -- actucheck bus ja40@1 --stdio
@@ -56,11 +60,11 @@ pub(crate) struct Device {
     port: Option<String>,
     #[command(flatten)]
     table: DeviceOption,
-    /// The device's ID
-    #[arg(long, value_name = "ID", default_value_t = 1, value_parser = clap::value_parser!(u8).range(0..=252))]
+    /// The device's ID, or its address
+    #[arg(long, value_name = "ID", default_value_t = 1)]
     id: u8,
     /// Another device on the line, which is read together with it
-    #[arg(long, value_name = "ID", value_parser = clap::value_parser!(u8).range(0..=252))]
+    #[arg(long, value_name = "ID")]
     neighbour: Option<u8>,
     /// The rate of a serial port in bit/s [default: that with which the device leaves the factory, or
     /// 57600]
@@ -96,6 +100,7 @@ pub(crate) fn run(options: &Device) -> Result<ExitCode, Failure> {
     if options.neighbour == Some(options.id) {
         return Err(Failure::usage("--neighbour is another device; give it an ID other than --id"));
     }
+    options.look_at_ids(options.wire()?)?;
     let tables = options.table.tables()?;
     if options.dry_run {
         return options.print_plan(&spec, &tables);
@@ -135,6 +140,24 @@ impl Device {
             .ok_or_else(|| Failure::usage("there are no checks of devices on this wire yet"))
     }
 
+    /// Refuses IDs that no device can have, and a control table where there is none.
+    fn look_at_ids(&self, wire: Wire) -> Result<(), Failure> {
+        let ids = ids(wire);
+        for (name, id) in [("id", Some(self.id)), ("neighbour", self.neighbour)] {
+            if id.is_some_and(|id| !ids.contains(&id)) {
+                let (first, last) = (ids.start(), ids.end());
+                let message = format!("--{name} is a number from {first} to {last} on this wire");
+                return Err(Failure::usage(message));
+            }
+        }
+        match self.table.words() {
+            Some(_) if !has_tables(wire) => Err(Failure::usage(
+                "devices on this wire have no control table; leave out --device",
+            )),
+            _ => Ok(()),
+        }
+    }
+
     /// Opens the port, and looks who is there.
     fn begin<'a>(
         &self,
@@ -147,6 +170,12 @@ impl Device {
         let baud = baud.unwrap_or(BAUD);
         let mut line = Line::open(wire, &place, baud, self.answer_within, Arc::clone(interrupted))
             .map_err(Failure::not_started)?;
+        // A program has to start first; what is sent meanwhile waits.
+        let limit = match &place {
+            Place::Program(_) => START.max(self.answer_within),
+            _ => self.answer_within,
+        };
+        let greeted = line.greet(limit).map_err(Failure::not_started)?;
         let mut ask = |packet, limit, awaits| {
             let answers = line.exchange(&packet, limit, awaits).map_err(Failure::not_started)?;
             let answers = answers.iter().flat_map(|answer| reported(wire, answer));
@@ -154,21 +183,18 @@ impl Device {
         };
         let mut found = None;
         if let Some(packet) = hello(wire, id) {
-            // A program has to start first; what is sent meanwhile waits.
-            let limit = match &place {
-                Place::Program(_) => START.max(self.answer_within),
-                _ => self.answer_within,
-            };
             let answers = ask(packet, limit, 1)?;
             found = answers.into_iter().find(|answer| answer.id == id);
         }
         let Some(found) = found else { return Err(self.nothing_answers(&place, baud)) };
-        let mut present = vec![id];
-        if let Some(packet) = hello_all(wire) {
-            present.extend(ask(packet, MORE, usize::MAX)?.iter().map(|answer| answer.id));
-            present.sort_unstable();
-            present.dedup();
-        }
+        let others = match (greeted, hello_all(wire)) {
+            (Some(found), _) => found.iter().flat_map(|answer| reported(wire, answer)).collect(),
+            (None, Some(packet)) => ask(packet, MORE, usize::MAX)?,
+            (None, None) => Vec::new(),
+        };
+        let mut present: Vec<u8> = [id].into_iter().chain(others.iter().map(|it| it.id)).collect();
+        present.sort_unstable();
+        present.dedup();
         if let Some(neighbour) = self.neighbour.filter(|id| !present.contains(id)) {
             let message = format!("the neighbour with ID {neighbour} does not answer at {place}");
             return Err(Failure::not_started(message));
@@ -178,7 +204,8 @@ impl Device {
             tables.learn(id, model);
         }
         let device = table_of(&tables, id, spec);
-        let name = device.map_or("a device that is not known", |device| &device.title);
+        let unknown = if has_tables(wire) { "a device that is not known" } else { "an actuator" };
+        let name = device.map_or(unknown, |device| &device.title);
         let firmware = said.firmware_version;
         let firmware = firmware.map_or_else(String::new, |version| format!("firmware {version}"));
         let subject = Subject::new(format!("{name}, ID {id}"), firmware, line, Permission::Read);
@@ -189,7 +216,7 @@ impl Device {
     fn nothing_answers(&self, place: &Place, baud: u32) -> Failure {
         let rate = if place.has_rate() { format!(", --baud {baud}") } else { String::new() };
         Failure::not_started(format!(
-            "{place}: nothing answers a Ping; is the device on, and are --id {}{rate} and the wiring right? \
+            "{place}: nothing answers; is the device on, and are --id {}{rate} and the wiring right? \
              `actucheck scan` looks for devices at every rate",
             self.id
         ))
@@ -202,6 +229,7 @@ impl Device {
         let mut option = |name: &str, value: Option<String>| {
             words.extend(value.into_iter().flat_map(|value| [format!("--{name}"), value]));
         };
+        option("wire", self.selection.wire_word());
         option("device", self.table.words());
         option("id", (self.id != 1).then(|| self.id.to_string()));
         option("neighbour", self.neighbour.map(|id| id.to_string()));

@@ -8,7 +8,7 @@ use actucheck::adapter::Wire;
 use actucheck::device::of_model;
 use actucheck::port::Place;
 use actucheck::subject::device::Line;
-use actucheck::suite::device::{hello_all, identity, reported};
+use actucheck::suite::device::{has_datagrams, hello_all, identity, reported};
 use actucheck_spec::{Spec, model};
 use clap::Args;
 
@@ -23,6 +23,8 @@ Examples:
       at one rate only
   actucheck scan tcp://127.0.0.1:7777
       the devices behind a socket
+  actucheck scan udp://192.168.1.30:2000
+      also actuators behind a board, which speak in datagrams
 
 All devices are asked whether they are there. That changes nothing on them.
 
@@ -58,12 +60,21 @@ pub(crate) fn run(options: &Scan) -> Result<ExitCode, Failure> {
     let mut found = 0;
     for wire in Wire::ALL {
         let Some(packet) = hello_all(wire) else { continue };
+        if has_datagrams(wire) && !place.has_datagrams() {
+            continue;
+        }
         for rate in &rates {
             let mut line =
                 Line::open(wire, &place, *rate, options.answer_within, Arc::clone(&interrupted))
                     .map_err(Failure::not_started)?;
-            let answers = line.exchange(&packet, options.answer_within, usize::MAX);
-            for answer in answers.map_err(Failure::not_started)? {
+            let greeted = line.greet(options.answer_within).map_err(Failure::not_started)?;
+            let answers = match greeted {
+                Some(answers) => answers,
+                None => line
+                    .exchange(&packet, options.answer_within, usize::MAX)
+                    .map_err(Failure::not_started)?,
+            };
+            for answer in answers {
                 for device in reported(wire, &answer) {
                     let said = identity(wire, &device);
                     let at =

@@ -35,6 +35,8 @@ impl fmt::Display for PortError {
                 "it was closed at the other end; see whether the device, or its program, is still there"
                     .to_owned()
             }
+            // No error of the system, but what came over the port.
+            (_, ErrorKind::Other) => error.to_string(),
             (Place::Serial(path), ErrorKind::PermissionDenied) => match group(path) {
                 Some(group) => format!(
                     "no permission; join the group {group} (sudo usermod -aG {group} $USER), and log in again"

@@ -49,6 +49,12 @@ impl FromStr for Place {
 }
 
 impl Place {
+    /// Whether what is sent at once is a datagram.
+    #[must_use]
+    pub const fn has_datagrams(&self) -> bool {
+        matches!(self, Self::Udp(_))
+    }
+
     /// Whether it is a serial port, which has a rate.
     #[must_use]
     pub const fn has_rate(&self) -> bool {

@@ -14,6 +14,7 @@ use crate::adapter::{
     Question, VERSION,
 };
 use crate::port::{Place, Port, PortError};
+use crate::suite::device;
 
 /// A pause in which bytes arrive alone.
 const MOMENT: Duration = Duration::from_millis(2);
@@ -21,6 +22,9 @@ const MOMENT: Duration = Duration::from_millis(2);
 const PAUSE: (Duration, Duration) = (Duration::from_millis(5), Duration::from_millis(200));
 /// After so many times the limit nothing more is listened to, even if bytes still come.
 const MOST: u32 = 20;
+const OTHER_HOST: &str = "another host sends on this line; stop it, and run this again, as the answers are not to one of them";
+/// How long it is listened for more devices.
+const MORE: Duration = Duration::from_millis(100);
 /// The most bytes of a step that are looked at, and that are kept in how many pieces.
 const KEPT: (usize, usize) = (1 << 16, 64);
 
@@ -97,6 +101,20 @@ impl Line {
         })
     }
 
+    /// Sends what comes before everything else, if the wire has that, and looks for all devices then, as
+    /// every host must there. Returns what answers, or nothing on other wires.
+    ///
+    /// # Errors
+    /// If the port is gone.
+    pub fn greet(&mut self, limit: Duration) -> Result<Option<Vec<Packet>>, PortError> {
+        let wire = self.wire;
+        let (Some(greeting), Some(all)) = (device::greeting(wire), device::hello_all(wire)) else {
+            return Ok(None);
+        };
+        self.ask(&greeting, limit, 1)?;
+        Ok(Some(self.ask(&all, MORE, usize::MAX)?))
+    }
+
     /// The packets that come back after a packet, until so many are there or nothing comes for so long.
     /// Finds out whether what is sent comes back too, and keeps the first only answer to a packet as what
     /// tells that the device is there.
@@ -109,18 +127,27 @@ impl Line {
         limit: Duration,
         awaits: usize,
     ) -> Result<Vec<Packet>, PortError> {
+        let packets = self.ask(packet, limit, awaits)?;
+        if let ([answer], None) = (packets.as_slice(), &self.hello) {
+            self.hello = Some((self.wire.encode(packet).unwrap_or_default(), answer.clone()));
+        }
+        Ok(packets)
+    }
+
+    fn ask(
+        &mut self,
+        packet: &Packet,
+        limit: Duration,
+        awaits: usize,
+    ) -> Result<Vec<Packet>, PortError> {
         let bytes = self.wire.encode(packet).unwrap_or_default();
-        let piece = Piece { after: Pause::None, bytes: bytes.clone().into() };
+        let piece = Piece { after: Pause::None, bytes: bytes.into() };
         let step = Asked { packet: None, fast: None, send: vec![piece], awaits, again: 0 };
         let usual = std::mem::replace(&mut self.limit, limit);
         let heard = self.tried(&step);
         self.limit = usual;
         let heard = heard.map_err(|error| PortError::new(&self.place, error))?;
-        let packets = step.packets(self.wire, &heard.received());
-        if let ([answer], None) = (packets.as_slice(), &self.hello) {
-            self.hello = Some((bytes, answer.clone()));
-        }
-        Ok(packets)
+        Ok(step.packets(self.wire, &heard.received()))
     }
 
     /// A step. Finds out whether what is sent comes back.
@@ -138,7 +165,29 @@ impl Line {
 
     fn converse(&mut self, steps: &[Asked]) -> io::Result<Vec<Heard>> {
         self.drain()?;
-        steps.iter().map(|step| self.step(step)).collect()
+        let heard: Vec<_> = steps.iter().map(|step| self.step(step)).collect::<io::Result<_>>()?;
+        if heard.iter().any(|heard| self.has_other_host(steps, heard)) {
+            return Err(io::Error::other(OTHER_HOST));
+        }
+        Ok(heard)
+    }
+
+    /// Whether an instruction for a device came that nothing was sent to. A device that answers with a wrong
+    /// instruction has its own ID in the packet.
+    fn has_other_host(&self, steps: &[Asked], heard: &Heard) -> bool {
+        let wire = self.wire;
+        if !wire.tells_direction() {
+            return false;
+        }
+        let requests = |bytes: Vec<u8>| {
+            let packets = wire.stream(&[bytes.into()], Some(Direction::Request));
+            packets.into_iter().filter(|packet| packet.direction() == Direction::Request)
+        };
+        let came = requests(heard.received()).map(|packet| wire.device(&packet));
+        let pieces = steps.iter().flat_map(|step| &step.send);
+        let sent: Vec<u8> = pieces.flat_map(|piece| piece.bytes.0.clone()).collect();
+        let sent: Vec<u8> = requests(sent).map(|packet| wire.device(&packet)).collect();
+        came.into_iter().any(|device| !sent.contains(&device))
     }
 
     /// Takes what came since the last conversation.
@@ -190,12 +239,16 @@ impl Line {
         awaited: Option<&Asked>,
     ) -> io::Result<()> {
         let begun = Instant::now();
+        let last_piece = awaited.and_then(|asked| asked.send.last());
+        let takes = |piece: &Piece| device::takes(self.wire, &piece.bytes);
+        let takes = last_piece.map_or(Duration::ZERO, takes);
         let (mut last, mut is_first) = (begun, true);
         let mut buffer = [0; 4096];
         loop {
             let is_over = awaited.is_some_and(|asked| self.is_over(record, asked));
-            let left = limit.saturating_sub(last.elapsed());
-            if is_over || begun.elapsed() > limit * MOST || self.is_interrupted() {
+            let limit_now = if is_first { limit + takes } else { limit };
+            let left = limit_now.saturating_sub(last.elapsed());
+            if is_over || begun.elapsed() > limit * MOST + takes || self.is_interrupted() {
                 return Ok(());
             }
             let count = self.port.receive(&mut buffer, left)?;
@@ -205,7 +258,8 @@ impl Line {
             let bytes = buffer.get(..count).unwrap_or_default();
             let is_answer = record.received(bytes) && std::mem::take(&mut is_first);
             // What is damaged may be answered late, if it is.
-            if is_answer && awaited.is_some_and(|asked| asked.packet.is_some()) {
+            let is_timed = awaited.is_some_and(|asked| asked.packet.is_some()) && takes.is_zero();
+            if is_answer && is_timed {
                 self.counts.times.truncate(TIMES - 1);
                 self.counts.times.push(begun.elapsed());
             }

@@ -97,7 +97,8 @@ pub fn device_plan<'a>(spec: &'a Spec, wires: &[Wire], target: &Target<'a>) -> P
 }
 
 /// Every check of a device of the spec on these wires: those of each device in turn, on a line with a
-/// neighbour. A check that several devices have comes several times.
+/// neighbour; and on a wire without control tables those of one device. A check that several devices
+/// have comes several times.
 #[must_use]
 pub fn every_device_plan<'a>(spec: &'a Spec, wires: &[Wire]) -> Plan<'a> {
     let devices = spec.devices.iter().map(|file| &file.content);
@@ -105,7 +106,10 @@ pub fn every_device_plan<'a>(spec: &'a Spec, wires: &[Wire]) -> Plan<'a> {
     let plan = |device: &'a model::Device| {
         device_plan(spec, &[device.wire], &Target::alone(Some(device)).with_neighbour(2))
     };
-    devices.map(plan).fold(Plan::new(Vec::new()), Plan::and)
+    let others = wires.iter().filter(|wire| !device::has_tables(**wire));
+    let others =
+        others.map(|wire| device_plan(spec, &[*wire], &Target::alone(None).with_neighbour(2)));
+    devices.map(plan).chain(others).fold(Plan::new(Vec::new()), Plan::and)
 }
 
 /// The ids of the basic checks that the answer to a question rests on, the most basic first.

@@ -46,6 +46,17 @@ pub enum Part {
         /// How many they are.
         count: usize,
     },
+    /// A register of so many bytes that is not 0 exactly if the answer has the alert.
+    Alarms(usize),
+    /// A signed number of so many bytes, high byte first, between two others.
+    Between {
+        /// How many bytes it has.
+        size: usize,
+        /// The lowest that it may be.
+        lowest: i64,
+        /// The highest that it may be.
+        highest: i64,
+    },
     /// A number of so many bytes, low byte first, some bits of which have one of these values.
     Bits {
         /// How many bytes it has.
@@ -70,11 +81,22 @@ impl Told {
     fn of(wire: Wire, asked: &Asked, heard: &Heard) -> Self {
         let bytes = heard.received();
         let packets = asked.packets(wire, &bytes);
-        let size = |packet: &Packet| wire.encode(packet).map_or(0, |frame| frame.len());
+        let size = |packet: &Packet| size_in(wire, packet, &bytes);
         let found: usize = packets.iter().map(size).sum();
         let answers = packets.iter().flat_map(|packet| device::reported(wire, packet)).collect();
         Self { answers, stray: bytes.len().saturating_sub(found) + heard.more }
     }
+}
+
+/// How many bytes of these a packet has: some may be written in several ways.
+fn size_in(wire: Wire, packet: &Packet, bytes: &[u8]) -> usize {
+    let (frame, context) = (wire.encode(packet).unwrap_or_default(), wire.context(packet));
+    if !wire.is_unspecified(&frame, &context) {
+        return frame.len();
+    }
+    let is_it = |bytes: &[u8]| wire.decode(bytes, &context).is_ok_and(|found| found == *packet);
+    let mut sizes = frame.len()..=bytes.len();
+    sizes.find(|size| bytes.windows(*size).any(is_it)).unwrap_or_default()
 }
 
 /// The verdict on what came back, and the reason.
@@ -134,18 +156,17 @@ impl Like {
     fn fits(&self, answer: &Reported, all: &[Told]) -> bool {
         self.id == answer.id
             && self.error.is_none_or(|error| answer.error.unwrap_or_default() == error)
-            && self.data.as_ref().is_none_or(|parts| {
-                are_in(parts, answer.data.as_ref().map_or(&[], |data| data.0.as_slice()), all)
-            })
+            && self.data.as_ref().is_none_or(|parts| are_in(parts, answer, all))
     }
 }
 
-fn are_in(parts: &[Part], data: &[u8], all: &[Told]) -> bool {
-    let mut rest = data;
+fn are_in(parts: &[Part], answer: &Reported, all: &[Told]) -> bool {
+    let mut rest = answer.data.as_ref().map_or(&[][..], |data| data.0.as_slice());
+    let alert = answer.alert.unwrap_or_default();
     for part in parts {
         let Some((bytes, after)) = rest.split_at_checked(part.size()) else { return false };
         rest = after;
-        if !part.is(bytes, all) {
+        if !part.is(bytes, alert, all) {
             return false;
         }
     }
@@ -156,17 +177,28 @@ impl Part {
     const fn size(&self) -> usize {
         match self {
             Self::Bytes(bytes) => bytes.0.len(),
-            Self::Any(size) | Self::Same { count: size, .. } | Self::Bits { size, .. } => *size,
+            Self::Any(size)
+            | Self::Alarms(size)
+            | Self::Same { count: size, .. }
+            | Self::Between { size, .. }
+            | Self::Bits { size, .. } => *size,
         }
     }
 
-    fn is(&self, bytes: &[u8], all: &[Told]) -> bool {
+    fn is(&self, bytes: &[u8], alert: bool, all: &[Told]) -> bool {
         match self {
             Self::Bytes(expected) => expected.0 == bytes,
             Self::Any(_) => true,
+            Self::Alarms(_) => bytes.iter().any(|byte| *byte != 0) == alert,
             Self::Same { step, from, count } => {
                 let earlier = all.get(*step).and_then(|told| told.answers.first()?.data.as_ref());
                 earlier.and_then(|data| data.get(*from..from + count)) == Some(bytes)
+            }
+            Self::Between { lowest, highest, .. } => {
+                let sign = bytes.first().map_or(0, |first| if *first < 0x80 { 0 } else { -1 });
+                let number =
+                    bytes.iter().fold(sign, |number: i64, byte| (number << 8) | i64::from(*byte));
+                (*lowest..=*highest).contains(&number)
             }
             Self::Bits { lowest, width, one_of, .. } => {
                 let number =
@@ -207,9 +239,13 @@ impl fmt::Display for Part {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Bytes(bytes) => write!(f, "data {bytes}"),
+            Self::Alarms(size) => write!(f, "{size} bytes, which are 0 unless there is the alert"),
             Self::Any(1) => f.write_str("1 byte"),
             Self::Any(size) => write!(f, "{size} bytes"),
             Self::Same { step, .. } => write!(f, "what step {} told", step + 1),
+            Self::Between { size, lowest, highest } => {
+                write!(f, "{size} bytes, a number from {lowest} to {highest}")
+            }
             Self::Bits { size, lowest, width, one_of } => {
                 let values: Vec<_> = one_of.iter().map(ToString::to_string).collect();
                 let last = u32::from(*lowest) + u32::from(*width) - 1;

@@ -1,7 +1,7 @@
 //! A fault of firmware.
 
 /// Makes what is answered of what was asked and the right answer.
-type Answers = fn(&[u8], Vec<u8>) -> Vec<u8>;
+pub(crate) type Answers = fn(&[u8], Vec<u8>) -> Vec<u8>;
 
 /// A fault: what it changes of what the device hears, or of what it answers.
 pub(crate) struct Fault {
@@ -16,6 +16,13 @@ pub(crate) struct Fault {
     pub(crate) hears: Option<fn(Vec<u8>) -> Vec<u8>>,
     /// Makes what they answer of that.
     pub(crate) answers: Option<Answers>,
+}
+
+impl Fault {
+    /// The wire of its devices.
+    pub(crate) fn wire(&self) -> &'static str {
+        if self.devices.starts_with("dd-") { "innfos" } else { "dynamixel2" }
+    }
 }
 
 /// A device that hears wrong.

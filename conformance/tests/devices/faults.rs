@@ -373,4 +373,39 @@ pub(crate) const FAULTS: &[Fault] = &[
         "several.fast-sync-read.not-named/silence",
         |heard| names_it(heard, 0x8A),
     ),
+    answering(
+        "alert-always",
+        "has the alert without an error",
+        "sentence.status-packet-alert/shown",
+        |_, answer| each(answer, |_, error, _| *error |= 0x80),
+    ),
+    answering(
+        "stuffed-silent",
+        "does not answer what is stuffed",
+        "sentence.stuffing/shown",
+        |asked, answer| {
+            let is_stuffed = asked.windows(4).any(|bytes| bytes == [0xFF, 0xFF, 0xFD, 0xFD]);
+            if is_stuffed { Vec::new() } else { answer }
+        },
+    ),
+    answering(
+        "printed-clear-done",
+        "answers the printed Clear, which is a byte short",
+        "damaged.printed-clear/ignored",
+        |asked, answer| {
+            if asked.len() == 14 && asked[5] == 8 { frame(1, &[0x55, 0]) } else { answer }
+        },
+    ),
+    answering(
+        "status-of-others",
+        "has another ID in the answer to a Read of two registers",
+        "sentence.read-parameters/shown",
+        |asked, answer| {
+            if read_of(asked).is_some_and(|(address, length)| address == 0 && length > 2) {
+                each(answer, |id, _, _| *id = 2)
+            } else {
+                answer
+            }
+        },
+    ),
 ];

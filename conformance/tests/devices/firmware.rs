@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use actucheck::bus::{Sender, VirtualBus};
 
 use super::fault::Fault;
-use super::faults::FAULTS;
+use super::{bad, every};
 
 /// How often it is looked whether an answer is there.
 const LOOK: Duration = Duration::from_millis(1);
@@ -24,7 +24,7 @@ pub(crate) struct Firmware {
 impl Firmware {
     /// Devices with a fault, or with `none`.
     pub(crate) fn new(devices: &str, fault: &str) -> Self {
-        let row = FAULTS.iter().find(|row| row.name == fault);
+        let row = every().chain(bad::FAULTS).find(|row| row.name == fault);
         assert!(row.is_some() || fault == "none", "`{fault}` is no fault");
         Self { bus: devices.parse().unwrap(), fault: row, begun: Instant::now() }
     }
@@ -70,7 +70,14 @@ impl Firmware {
 
     /// Sends what the devices answer.
     fn answer(&mut self, asked: &[u8]) {
-        let answer = self.bus.receive(self.begun.elapsed());
+        let mut answer = Vec::new();
+        // An answer may be a datagram of its own.
+        loop {
+            match self.bus.receive(self.begun.elapsed()) {
+                more if more.is_empty() => break,
+                more => answer.extend(more),
+            }
+        }
         let answer = match self.fault {
             Some(Fault { answers: Some(answers), .. }) => answers(asked, answer),
             _ => answer,

@@ -31,14 +31,15 @@ pub(crate) fn run(arguments: &[&str]) -> Run {
 
 /// What is wrong about the run against the firmware with this fault; empty if it is found.
 pub(crate) fn wrong(fault: &Fault) -> String {
-    let found_by = format!("dynamixel2.device.{}", fault.found_by);
+    let wire = fault.wire();
+    let found_by = format!("{wire}.device.{}", fault.found_by);
     let own = std::env::current_exe().unwrap();
     let own = own.to_str().unwrap();
     let (device, _) = fault.devices.split_once('@').unwrap();
-    let select = |id: &str, fault: &str| {
-        let firmware = ["--", own, "firmware"];
-        let arguments = [&["--device", device, "--select", id][..], &firmware].concat();
-        run(&[&arguments[..], &["ja40@1", fault]].concat())
+    let known = if wire == "innfos" { ["--wire", wire] } else { ["--device", device] };
+    let select = |id: &str, name: &str| {
+        let firmware = ["--", own, "firmware", fault.devices, name];
+        run(&[&known[..], &["--select", id], &firmware].concat())
     };
     let verdict = |run: &Run| run.verdicts.first().map(|(_, verdict)| verdict.clone());
     let right = select(&found_by, "none");

@@ -12,18 +12,21 @@
 #![allow(clippy::unwrap_used, clippy::indexing_slicing, clippy::panic)] // tests may stop at a surprise
 #![cfg(unix)]
 
+mod bad;
 mod change;
 mod fault;
 mod faults;
 mod firmware;
+mod innfos;
 mod killing;
 mod right;
 
+use std::collections::BTreeSet;
 use std::process::ExitCode;
 
 use libtest_mimic::{Arguments, Failed, Trial};
 
-use self::faults::FAULTS;
+use self::fault::Fault;
 use self::firmware::Firmware;
 
 /// How often a run is tried until it is as it should be, on a machine that may be busy.
@@ -41,7 +44,14 @@ fn main() -> ExitCode {
     }
 }
 
+/// The faults of all wires.
+fn every() -> impl Iterator<Item = &'static Fault> {
+    faults::FAULTS.iter().chain(innfos::FAULTS)
+}
+
 fn tests() -> ExitCode {
+    let names: BTreeSet<_> = every().chain(bad::FAULTS).map(|row| row.name).collect();
+    assert_eq!(names.len(), every().chain(bad::FAULTS).count(), "two faults have the same name");
     let mut arguments = Arguments::from_args();
     // Most of the time is waited.
     arguments.test_threads.get_or_insert(4);
@@ -52,13 +62,15 @@ fn tests() -> ExitCode {
             if tries.len() < TRIES { Ok(()) } else { Err(Failed::from(tries.join("\n"))) }
         })
     };
-    let mut trials: Vec<_> = FAULTS
-        .iter()
+    let mut trials: Vec<_> = every()
         .map(|row| test(format!("killed::{}", row.name), Box::new(|| killing::wrong(row))))
         .collect();
     trials.push(test("checks::each_has_a_requirement".to_owned(), Box::new(right::requirements)));
     for (name, wrong) in right::TESTS {
         trials.push(test(format!("right::{name}"), Box::new(wrong)));
+    }
+    for (name, wrong) in bad::TESTS {
+        trials.push(test(format!("bad::{name}"), Box::new(wrong)));
     }
     libtest_mimic::run(&arguments, trials).exit_code()
 }
@@ -66,7 +78,7 @@ fn tests() -> ExitCode {
 fn print_table() -> ExitCode {
     println!("| fault | the device | found by |");
     println!("|---|---|---|");
-    for row in FAULTS {
+    for row in every() {
         println!("| `{}` | {} | `{}` |", row.name, row.does, row.found_by);
     }
     ExitCode::SUCCESS

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::io::{BufRead as _, BufReader};
 use std::process::{Child, Command, Stdio};
 
+use actucheck::adapter::Wire;
 use actucheck::suite;
 use actucheck::suite::device::Target;
 use actucheck_spec::Spec;
@@ -12,10 +13,10 @@ use actucheck_spec::model::Role;
 use super::killing::run;
 
 /// A test by its name.
-type Test = (&'static str, fn() -> String);
+pub(crate) type Test = (&'static str, fn() -> String);
 
 /// The tests. Each returns what is wrong.
-pub(crate) const TESTS: [Test; 11] = [
+pub(crate) const TESTS: [Test; 16] = [
     ("scan_of_a_socket", || scan(&["--tcp", "0"], "tcp://", "ID 2: JA40, model 5210, firmware 0")),
     ("scan_of_a_terminal", || {
         scan(&["--pty"], "", "ID 1 at 57600 bit/s: JA40, model 5210, firmware 0")
@@ -24,6 +25,30 @@ pub(crate) const TESTS: [Test; 11] = [
     ("ja_variant", || program("ja-variant")),
     ("xm430", || program("xm430-w210")),
     ("xl330", || program("xl330-m288")),
+    ("scan_of_a_board", || {
+        scan_of(
+            &ACTUATORS,
+            &["--udp", "0"],
+            "udp://",
+            "ID 6: a device that does not tell its model",
+        )
+    }),
+    ("innfos_program", || {
+        let own = std::env::current_exe().unwrap();
+        judged(
+            &[
+                &INNFOS[..],
+                &["--", own.to_str().unwrap(), "firmware", "dd-6010@6 dd-6010@7", "none"],
+            ]
+            .concat(),
+            80,
+        )
+    }),
+    ("innfos_udp", || board(&["--udp", "0"], "udp://")),
+    ("innfos_tcp", || board(&["--tcp", "0"], "tcp://")),
+    ("innfos_silent_for_all", || {
+        board(&["--udp", "0", "--readings", "broadcast=silent"], "udp://")
+    }),
     ("pseudo_terminal", || port(&["--pty"], "")),
     ("tcp", || port(&["--tcp", "0"], "tcp://")),
     ("udp", || port(&["--udp", "0"], "udp://")),
@@ -31,10 +56,24 @@ pub(crate) const TESTS: [Test; 11] = [
     ("crc_error", || port(&["--tcp", "0", "--readings", "crc-error=answer"], "tcp://")),
 ];
 
+pub(crate) const SERVOS: [&str; 2] = ["ja40@1", "ja40@2"];
+pub(crate) const ACTUATORS: [&str; 2] = ["dd-6010@7", "dd-6010@6"];
+const INNFOS: [&str; 6] = ["--wire", "innfos", "--id", "6", "--neighbour", "7"];
+
 /// The checks that name no requirement of a device, or have an id that another has.
 pub(crate) fn requirements() -> String {
     let spec = Spec::embedded().unwrap();
     let mut wrong = Vec::new();
+    let wires = Wire::ALL.map(|wire| wire.id().to_owned());
+    let mut checked = BTreeSet::new();
+    for check in suite::every_device_plan(&spec, &Wire::ALL).checks() {
+        let row = spec.requirement(&check.requirement);
+        if !row.is_some_and(|row| row.binds.contains(&Role::Device)) {
+            wrong.push(format!("{} {}", check.id, check.requirement));
+        }
+        checked.insert(check.id.split('.').next().unwrap().to_owned());
+    }
+    assert!(wires.iter().all(|wire| checked.contains(wire)), "{checked:?}");
     for file in &spec.devices {
         let device = &file.content;
         let target = Target::alone(Some(device)).with_neighbour(2);
@@ -58,19 +97,30 @@ fn program(device: &str) -> String {
     let devices = format!("{device}@1 {device}@2");
     let neighbour = ["--neighbour", "2", "--"];
     let options = ["--device", device, neighbour[0], neighbour[1], neighbour[2]];
-    judged(&[&options[..], &[own.to_str().unwrap(), "firmware", &devices, "none"]].concat())
+    judged(&[&options[..], &[own.to_str().unwrap(), "firmware", &devices, "none"]].concat(), 100)
 }
 
 /// A virtual bus behind a port.
 fn port(options: &[&str], before: &str) -> String {
-    let bus = Bus::start(options);
+    let bus = Bus::start(&SERVOS, options);
     let port = format!("{before}{}", bus.address);
-    judged(&[&port, "--device", "ja40", "--neighbour", "2"])
+    judged(&[&port, "--device", "ja40", "--neighbour", "2"], 100)
+}
+
+/// A virtual board behind a port.
+fn board(options: &[&str], before: &str) -> String {
+    let bus = Bus::start(&ACTUATORS, options);
+    let port = format!("{before}{}", bus.address);
+    judged(&[&[port.as_str()][..], &INNFOS].concat(), 80)
 }
 
 /// The devices of a port are found.
 fn scan(options: &[&str], before: &str, line: &str) -> String {
-    let bus = Bus::start(options);
+    scan_of(&SERVOS, options, before, line)
+}
+
+fn scan_of(devices: &[&str], options: &[&str], before: &str, line: &str) -> String {
+    let bus = Bus::start(devices, options);
     let mut command = Command::new(env!("CARGO_BIN_EXE_actucheck"));
     let output = command.args(["scan", &format!("{before}{}", bus.address)]).output().unwrap();
     let text = String::from_utf8_lossy(&output.stdout);
@@ -78,26 +128,26 @@ fn scan(options: &[&str], before: &str, line: &str) -> String {
     if output.status.success() && is_found { String::new() } else { format!("{line}: {output:?}") }
 }
 
-fn judged(arguments: &[&str]) -> String {
+fn judged(arguments: &[&str], least: usize) -> String {
     let run = run(arguments);
     let is_wrong = |verdict: &str| !["pass", "recorded", "skip"].contains(&verdict);
     let wrong: Vec<_> = run.verdicts.iter().filter(|(_, verdict)| is_wrong(verdict)).collect();
-    if run.status == Some(0) && wrong.is_empty() && run.verdicts.len() > 100 {
+    if run.status == Some(0) && wrong.is_empty() && run.verdicts.len() > least {
         return String::new();
     }
     format!("{:?}, {} checks, {wrong:?}\n{}", run.status, run.verdicts.len(), run.text)
 }
 
 /// A running virtual bus.
-struct Bus {
+pub(crate) struct Bus {
     child: Child,
-    address: String,
+    pub(crate) address: String,
 }
 
 impl Bus {
-    fn start(options: &[&str]) -> Self {
+    pub(crate) fn start(devices: &[&str], options: &[&str]) -> Self {
         let mut command = Command::new(env!("CARGO_BIN_EXE_actucheck"));
-        command.args(["bus", "ja40@1", "ja40@2"]).args(options);
+        command.arg("bus").args(devices).args(options);
         let mut child = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
         let mut line = String::new();
         BufReader::new(child.stdout.take().unwrap()).read_line(&mut line).unwrap();

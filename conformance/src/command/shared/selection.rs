@@ -49,6 +49,11 @@ pub(crate) struct Growth {
 }
 
 impl Selection {
+    /// The wire that the user wrote, the first of several.
+    pub(crate) fn wire_word(&self) -> Option<String> {
+        self.wire.first().map(|wire| wire.id().to_owned())
+    }
+
     /// The selected wires; all of them if none was selected.
     pub(crate) fn wires(&self) -> Vec<Wire> {
         let selected = |wire: &Wire| self.wire.is_empty() || self.wire.contains(wire);

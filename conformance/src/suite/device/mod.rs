@@ -5,8 +5,11 @@
 //! must, and only its answer may be there. All bytes come from the reference model.
 
 mod dynamixel2;
+mod innfos;
 
 use std::borrow::Cow;
+use std::ops::RangeInclusive;
+use std::time::Duration;
 
 use actucheck_spec::model;
 use actucheck_spec::wire::{self, Packet};
@@ -14,6 +17,7 @@ use actucheck_spec::wire::{self, Packet};
 use super::Author;
 use super::plan::Family;
 use crate::adapter::{Asked, Reported, Wire};
+use crate::bus;
 
 /// A device that is checked, and what else is on its line.
 #[derive(Clone, Debug)]
@@ -52,10 +56,14 @@ struct Own {
     families: for<'a> fn(Author<'a>, &Target<'a>) -> Vec<Family<'a>>,
     /// What an answer says of each device that it is from.
     reported: fn(&Packet) -> Vec<Reported>,
+    /// What comes before everything else, if anything does. All devices are looked for after it.
+    greeting: Option<fn() -> Packet>,
     /// The packet that asks whether a device is there.
     hello: fn(u8) -> Packet,
     /// The packet that asks all devices whether they are there.
     hello_all: fn() -> Packet,
+    /// How much longer the answer to these bytes may take than to others.
+    takes: fn(&[u8]) -> Duration,
     /// What a device says of itself in the answer to that.
     identity: fn(&Reported) -> Identity,
 }
@@ -70,14 +78,28 @@ pub struct Identity {
 }
 
 /// The wires whose devices are checked.
-static WIRES: [Own; 1] = [Own {
-    wire: wire::dynamixel2::WIRE,
-    families: dynamixel2::families,
-    reported: dynamixel2::reported,
-    hello: dynamixel2::hello,
-    hello_all: dynamixel2::hello_all,
-    identity: dynamixel2::identity,
-}];
+static WIRES: [Own; 2] = [
+    Own {
+        wire: wire::dynamixel2::WIRE,
+        families: dynamixel2::families,
+        reported: dynamixel2::reported,
+        greeting: None,
+        hello: dynamixel2::hello,
+        hello_all: dynamixel2::hello_all,
+        takes: |_| Duration::ZERO,
+        identity: dynamixel2::identity,
+    },
+    Own {
+        wire: wire::innfos::WIRE,
+        families: innfos::families,
+        reported: innfos::reported,
+        greeting: Some(innfos::greeting),
+        hello: innfos::hello,
+        hello_all: innfos::hello_all,
+        takes: innfos::takes,
+        identity: innfos::identity,
+    },
+];
 
 fn own(wire: Wire) -> Option<&'static Own> {
     WIRES.iter().find(|own| own.wire == wire)
@@ -89,6 +111,24 @@ pub fn is_checked(wire: Wire) -> bool {
     own(wire).is_some()
 }
 
+/// The IDs or addresses that a device on this wire may have.
+#[must_use]
+pub fn ids(wire: Wire) -> RangeInclusive<u8> {
+    bus::ids(wire)
+}
+
+/// Whether devices on this wire have control tables.
+#[must_use]
+pub fn has_tables(wire: Wire) -> bool {
+    bus::has_tables(wire)
+}
+
+/// Whether packets on this wire are datagrams, so that no serial port has them.
+#[must_use]
+pub fn has_datagrams(wire: Wire) -> bool {
+    bus::has_datagrams(wire)
+}
+
 /// Every check of a device, in a fixed order: the basic ones first.
 pub(super) fn families<'a>(author: Author<'a>, target: &Target<'a>) -> Vec<Family<'a>> {
     own(author.wire).map_or_else(Vec::new, |own| (own.families)(author, target))
@@ -98,6 +138,18 @@ pub(super) fn families<'a>(author: Author<'a>, target: &Target<'a>) -> Vec<Famil
 #[must_use]
 pub fn reported(wire: Wire, packet: &Packet) -> Vec<Reported> {
     own(wire).map_or_else(Vec::new, |own| (own.reported)(packet))
+}
+
+/// The packet that comes before everything else, if one does. After it all devices are looked for.
+#[must_use]
+pub fn greeting(wire: Wire) -> Option<Packet> {
+    Some((own(wire)?.greeting?)())
+}
+
+/// How much longer the answer to these bytes may take than to others.
+#[must_use]
+pub fn takes(wire: Wire, bytes: &[u8]) -> Duration {
+    own(wire).map_or(Duration::ZERO, |own| (own.takes)(bytes))
 }
 
 /// The packet that asks whether a device is there.

@@ -51,11 +51,22 @@ pub(super) fn checks(talk: &Talk<'_>) -> Vec<Check> {
     checks.push(resumed(talk, "damaged.byte-9", changed(&whole, 9, |byte| byte ^ 1)));
     checks.push(resumed(talk, "damaged.length", changed(&whole, 5, |low| low ^ 4)));
     checks.push(unstuffed(talk));
+    checks.extend(printed(talk));
     checks
 }
 
 const fn is_in_length(place: usize) -> bool {
     matches!(place, 5..PREFIX)
+}
+
+/// The Clear that the JA40 document prints, which is a byte shorter than its length says (§1.6.6).
+fn printed(talk: &Talk<'_>) -> Option<Check> {
+    const CLEAR: [u8; 14] =
+        [0xFF, 0xFF, 0xFD, 0, 1, 8, 0, 0x10, 0x01, 0x44, 0x58, 0x4C, 0xE0, 0xCE];
+    let requirement = "defects";
+    talk.row(&[requirement])?;
+    let is_meant = talk.id() == 1;
+    is_meant.then(|| ignored(talk, "damaged.printed-clear", requirement, CLEAR.to_vec(), true))
 }
 
 /// What answers a damaged packet, if anything does.

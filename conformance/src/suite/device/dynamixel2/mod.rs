@@ -5,12 +5,14 @@
 //! - refused: addresses and instructions that there are not;
 //! - addressee: other IDs, and the broadcast ID;
 //! - damaged: packets with a wrong byte, and packets in noise or in parts;
+//! - sentence: what sentences say of packets in general;
 //! - several: instructions that read from several devices.
 
 mod addressee;
 mod damaged;
 mod identity;
 mod refused;
+mod sentences;
 mod several;
 mod table;
 
@@ -60,6 +62,7 @@ pub(super) fn families<'a>(author: Author<'a>, target: &Target<'a>) -> Vec<Famil
         family("damaged", damaged::checks),
         family("stream", damaged::in_streams),
         family("several", several::checks),
+        family("sentence", sentences::checks),
     ]
 }
 

@@ -11,7 +11,7 @@ use crate::suite::wanted::{Like, Part};
 
 /// An instruction that reads from several devices.
 #[derive(Clone, Copy, PartialEq)]
-enum Kind {
+pub(super) enum Kind {
     Sync,
     FastSync,
     Bulk,
@@ -28,7 +28,7 @@ impl Kind {
         }
     }
 
-    fn word(self) -> String {
+    pub(super) fn word(self) -> String {
         super::word(self.name())
     }
 
@@ -57,7 +57,7 @@ impl Kind {
     }
 
     /// It, and the answers of those that are there.
-    fn asked(self, ids: &[u8], range: (u16, u16), present: usize) -> Asked {
+    pub(super) fn asked(self, ids: &[u8], range: (u16, u16), present: usize) -> Asked {
         let packet = self.packet(BROADCAST, ids, range);
         match self {
             Self::Sync | Self::Bulk => asked(packet, present),
@@ -83,7 +83,7 @@ pub(super) fn basics(talk: &Talk<'_>, address: u16, size: u16) -> Vec<Check> {
 }
 
 /// The instructions that the device has, if a document says what they do.
-fn own<'t>(talk: &'t Talk<'_>) -> impl Iterator<Item = Kind> + use<'t> {
+pub(super) fn own<'t>(talk: &'t Talk<'_>) -> impl Iterator<Item = Kind> + use<'t> {
     let has = |kind: &Kind| talk.knows(kind.name()) && talk.row(&kind.rows("status")).is_some();
     Kind::ALL.into_iter().filter(move |kind| has(kind))
 }

@@ -1,0 +1,108 @@
+//! Ports that are none, or do not stay what they are: one sentence, exit status 4, and the report of what was
+//! found until then.
+
+use std::net::TcpListener;
+use std::process::{Command, Output};
+
+use actucheck_spec::wire::dynamixel2::Packet;
+use actucheck_spec::wire::dynamixel2::WIRE;
+use actucheck_spec::wire::dynamixel2::reference::packets;
+
+use super::change::instruction;
+use super::fault::{Fault, answering, hearing};
+use super::killing::{Run, run};
+use super::right::{ACTUATORS, Bus, SERVOS, Test};
+
+/// The tests. Each returns what is wrong.
+pub(crate) const TESTS: [Test; 8] = [
+    ("no_such_port", || ended(&run(&["/dev/no-such-port"]), "there is no such port", 0)),
+    ("no_serial_port", || ended(&run(&["/etc/hostname"]), "it is no serial device", 0)),
+    ("nobody_listens", || {
+        ended(&run(&[&format!("tcp://127.0.0.1:{}", free())]), "nothing listens there", 0)
+    }),
+    ("no_permission", no_permission),
+    ("port_vanishes", || firmware("port-vanishes", "it was closed at the other end", 20)),
+    ("another_host", || firmware("another-host", "another host sends on this line", 20)),
+    ("nothing_answers", || {
+        let bus = Bus::start(&ACTUATORS, &["--pty"]);
+        let arguments = [&bus.address, "--answer-within", "20"];
+        ended(&run(&arguments), "nothing answers; is the device on", 0)
+    }),
+    ("nothing_at_any_rate", || {
+        let bus = Bus::start(&ACTUATORS, &["--pty"]);
+        let mut scan = Command::new(env!("CARGO_BIN_EXE_actucheck"));
+        scan.args(["scan", &bus.address, "--answer-within", "10"]);
+        sentence(&scan.output().unwrap(), "nothing answers; is a device on")
+    }),
+];
+
+/// Firmware that does not let a run come to its end.
+pub(crate) const FAULTS: &[Fault] = &[
+    hearing("port-vanishes", "ends in the middle", "", |heard| {
+        if instruction(&heard) == Some(0x40) {
+            std::process::exit(0);
+        }
+        heard
+    }),
+    answering("another-host", "is not alone with the program on the line", "", |asked, answer| {
+        if instruction(asked) != Some(0x40) {
+            return answer;
+        }
+        let ping = Packet::Instruction { id: 7, instruction: 1, params: Vec::new().into() };
+        let ping = WIRE.encode(&ping.into()).unwrap();
+        assert_eq!(packets(&ping).len(), 1);
+        [answer, ping].concat()
+    }),
+];
+
+/// A port of this machine that nobody listens at.
+fn free() -> u16 {
+    TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port()
+}
+
+fn firmware(fault: &str, hint: &str, least: usize) -> String {
+    let own = std::env::current_exe().unwrap();
+    let firmware = ["--", own.to_str().unwrap(), "firmware", "ja40@1", fault];
+    ended(&run(&[&["--device", "ja40"][..], &firmware].concat()), hint, least)
+}
+
+/// A port that only root may open, as another user. Whoever is no root can't try that.
+fn no_permission() -> String {
+    let bus = Bus::start(&SERVOS, &["--pty"]);
+    let user = ["--reuid", "65534", "--regid", "65534", "--clear-groups"];
+    let is_possible = Command::new("setpriv").args(user).arg("true").output();
+    if !is_possible.is_ok_and(|output| output.status.success()) {
+        eprintln!("skipped: only root can run a program as another user");
+        return String::new();
+    }
+    // The other user may not read the build folder.
+    let copy = std::env::temp_dir().join(format!("actucheck-device-{}", std::process::id()));
+    std::fs::copy(env!("CARGO_BIN_EXE_actucheck"), &copy).unwrap();
+    let mut command = Command::new("setpriv");
+    command.args(user).arg(&copy).args(["device", &bus.address]);
+    let output = command.output().unwrap();
+    std::fs::remove_file(&copy).unwrap();
+    sentence(&output, "no permission")
+}
+
+/// Exit status 4 and one sentence.
+fn sentence(output: &Output, hint: &str) -> String {
+    let text = String::from_utf8_lossy(&output.stderr);
+    let is_right = output.status.code() == Some(4) && is_sentence(&text, hint);
+    if is_right { String::new() } else { format!("{hint}: {output:?}") }
+}
+
+/// The same of a run, which has so many results at least.
+fn ended(run: &Run, hint: &str, least: usize) -> String {
+    let passed = run.verdicts.iter().filter(|(_, verdict)| verdict == "pass").count();
+    if run.status == Some(4) && is_sentence(&run.text, hint) && passed >= least {
+        return String::new();
+    }
+    format!("{hint}: {:?}, {passed} passed\n{}", run.status, run.text)
+}
+
+/// Whether one line has the hint, and it is the last.
+fn is_sentence(text: &str, hint: &str) -> bool {
+    let lines = text.lines().filter(|line| line.contains(hint));
+    lines.count() == 1 && text.lines().last().is_some_and(|line| line.contains(hint))
+}
