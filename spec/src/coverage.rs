@@ -67,13 +67,14 @@ impl Row<'_> {
     /// codec shows nothing about a device.
     #[must_use]
     pub fn cover(&self, role: Role) -> Cover {
+        // A reason is about any device, a test about the virtual one.
         let is_unseen = self.requirement.unseen.by(role).is_some();
         match self.checks.get(&role) {
             _ if !self.requirement.binds.contains(&role) => Cover::Nothing,
             Some(checks) if !checks.only_record() => Cover::Check,
+            _ if is_unseen => Cover::Unseen,
             _ if self.requirement.is_tested(role) => Cover::Test,
             Some(_) => Cover::Record,
-            None if is_unseen => Cover::Unseen,
             None => Cover::Nothing,
         }
     }

@@ -47,7 +47,8 @@ pub struct Requirement {
 }
 
 /// Why packets can't show whether a requirement is obeyed, for each role. A reason is absent if they
-/// can, or if the role is not bound.
+/// can, or if the role is not bound. A conversation of the virtual device may show it all the same: a
+/// virtual device takes faults, and does not wear.
 #[derive(Clone, Debug, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Unseen {

@@ -20,16 +20,11 @@ pub(super) fn check(spec: &Spec) -> Vec<Diagnostic> {
                 let node = format!("requirements[{index}].checked_with");
                 defects.push(file.diagnostic(&node, format!("{} {message}", row.id)));
             }
-            let needless = |role: &Role| {
-                row.unseen.by(*role).is_some()
-                    && (row.is_tested(*role) || !row.binds.contains(role))
-            };
+            let needless =
+                |role: &Role| row.unseen.by(*role).is_some() && !row.binds.contains(role);
             for role in Role::ALL.into_iter().filter(needless) {
                 let node = format!("requirements[{index}].unseen.{role}");
-                let message = format!(
-                    "{} binds no {role}, or a conversation shows it; leave `unseen` out",
-                    row.id
-                );
+                let message = format!("{} binds no {role}; leave `unseen` out", row.id);
                 defects.push(file.diagnostic(&node, message));
             }
             let used = named.contains(row.id.as_str())

@@ -154,7 +154,10 @@ fn checked_by(row: &Row<'_>) -> String {
         count => Some(format!("{count} tests")),
     });
     let unseen = Role::ALL.into_iter().filter(|role| row.cover(*role) == Cover::Unseen);
-    parts.extend(unseen.map(|role| format!("{UNSEEN} of a {role}")));
+    let unseen: Vec<_> = unseen.map(|role| format!("a {role}")).collect();
+    if !unseen.is_empty() {
+        parts.push(format!("{UNSEEN} of {}", unseen.join(" or ")));
+    }
     if parts.is_empty() { NOTHING.to_owned() } else { parts.join("; ") }
 }
 
