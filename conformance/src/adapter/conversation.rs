@@ -149,7 +149,16 @@ impl Conversation {
         &mut self,
         limit: Duration,
     ) -> Result<(u64, Result<Reply, Malformed>), Lost> {
-        match self.hear(limit) {
+        self.receive_in(limit, &Duration::default)
+    }
+
+    /// The same, with so much `more` time as the adapter may take by then.
+    pub(crate) fn receive_in(
+        &mut self,
+        limit: Duration,
+        more: &dyn Fn() -> Duration,
+    ) -> Result<(u64, Result<Reply, Malformed>), Lost> {
+        match self.hear_in(&|| limit.saturating_add(more())) {
             Some(Line::Text(line)) => self.read(&line),
             Some(Line::TooLong) => Err(Lost::TooLong),
             Some(Line::End) => Err(Lost::Ended(self.running.exit_status())),
@@ -160,6 +169,11 @@ impl Conversation {
 
     /// Waits for a line; `None` if there is none in time.
     pub(crate) fn hear(&mut self, limit: Duration) -> Option<Line> {
+        self.hear_in(&|| limit)
+    }
+
+    /// The same with a limit that may grow meanwhile.
+    fn hear_in(&mut self, limit: &dyn Fn() -> Duration) -> Option<Line> {
         let heard = self.running.receive(limit);
         if let (Some(Line::Text(line)), Some(said)) = (&heard, &mut self.said) {
             let line = legible(&String::from_utf8_lossy(line), LONGEST_TEXT);

@@ -128,8 +128,9 @@ impl Running {
         self.pipes.outgoing.push(b'\n');
     }
 
-    /// Waits for the next line; `None` if the time limit is reached and the process is still there.
-    pub(crate) fn receive(&mut self, limit: Duration) -> Option<Line> {
+    /// Waits for the next line; `None` if the time limit is reached and the process is still there. The
+    /// limit may grow meanwhile.
+    pub(crate) fn receive(&mut self, limit: &dyn Fn() -> Duration) -> Option<Line> {
         let line = self.wait(limit);
         match &line {
             Some(Line::Text(text)) => self.note('<', text),
@@ -142,11 +143,11 @@ impl Running {
     }
 
     /// Waits for a line, so long at most.
-    fn wait(&mut self, limit: Duration) -> Option<Line> {
+    fn wait(&mut self, limit: &dyn Fn() -> Duration) -> Option<Line> {
         let started = Instant::now();
         let mut seen_dead = false;
         loop {
-            let left = limit.saturating_sub(started.elapsed());
+            let left = limit().saturating_sub(started.elapsed());
             let pipes = &mut self.pipes;
             let next = async { timeout(left.min(INTERRUPT), pipes.exchange()).await };
             if let Ok(line) = self.runtime.block_on(next) {
@@ -156,7 +157,7 @@ impl Running {
                 return Some(Line::Interrupt);
             }
             // Its children may hold the pipe open. What it wrote last had time to arrive.
-            let is_over = left <= INTERRUPT;
+            let is_over = started.elapsed() >= limit();
             let is_dead = matches!(self.child.try_wait(), Ok(Some(_)));
             if seen_dead || is_dead && is_over {
                 return Some(Line::End);

@@ -112,6 +112,10 @@ impl Questions for Asking<'_> {
         self.dealt.get(place).map(|drawn| &drawn.check.question)
     }
 
+    fn is_right(&self, place: usize, answer: &Answer) -> bool {
+        self.dealt.get(place).is_some_and(|drawn| drawn.check.is_met(answer))
+    }
+
     fn answered(&mut self, place: usize, answer: Answer) {
         let one = u64::from(!matches!(answer, Answer::NotAsked(_)));
         let asked = self.shared.asked.fetch_add(one, Ordering::Relaxed) + one;

@@ -8,10 +8,6 @@ use super::answers::{Answers, Bursts};
 use super::fault::Alarm;
 use super::{Chunk, DeviceState, Devices};
 
-/// The line is looked at each millisecond; a time-out that a machine may be too busy for is not much more
-/// than so long.
-const LATE: Duration = Duration::from_millis(5);
-
 /// A script for a line. Its clones are one script: who writes it need not be where the line is.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Script(Arc<Mutex<Scene>>);
@@ -24,11 +20,6 @@ struct Scene {
     is_heard: bool,
     /// What else is answered.
     greetings: Greetings,
-    /// How often the line was looked at, and when last.
-    looks: u32,
-    looked: Option<Duration>,
-    /// Whether it was looked at too late.
-    was_late: bool,
     /// What comes without being asked.
     unasked: Vec<u8>,
     /// How many bytes are on their way.
@@ -39,9 +30,9 @@ impl Script {
     /// Answers this packet from now on, and no other.
     pub(crate) fn begin(&self, packet: Vec<u8>, answers: impl IntoIterator<Item = Bursts>) {
         let (answers, mut scene) = (Answers::to(packet, answers), self.scene());
-        let Scene { looked, coming, .. } = *scene;
+        let coming = scene.coming;
         let greetings = mem::take(&mut scene.greetings);
-        *scene = Scene { answers, greetings, looked, coming, ..Scene::default() };
+        *scene = Scene { answers, greetings, coming, ..Scene::default() };
     }
 
     /// Answers these packets too, unless one of them is the script's.
@@ -58,31 +49,6 @@ impl Script {
     pub(crate) fn recorded(&self) {
         let mut scene = self.scene();
         scene.is_heard = scene.has_come;
-    }
-
-    /// The line is looked at.
-    pub(crate) fn look(&self, now: Duration) {
-        let mut scene = self.scene();
-        scene.was_late |= scene.looked.is_some_and(|last| now.saturating_sub(last) > LATE);
-        scene.looked = Some(now);
-        scene.looks = scene.looks.saturating_add(1);
-    }
-
-    /// Whether the line is served.
-    pub(crate) fn is_served(&self) -> bool {
-        self.scene().looked.is_some()
-    }
-
-    /// Whether the machine was too busy to look at the line all the time since the script began, so that
-    /// a host that does not wait long may have missed an answer.
-    pub(crate) fn was_late(&self) -> bool {
-        self.scene().was_late
-    }
-
-    /// How often the line was looked at since the script began. A busy machine may look late, so that
-    /// time tells less.
-    pub(crate) fn looks(&self) -> u32 {
-        self.scene().looks
     }
 
     /// Plays these bytes as soon as the line is served.

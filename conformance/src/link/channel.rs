@@ -44,6 +44,9 @@ pub(super) trait Channel: Send {
     /// Writes to a peer what there is room for, and returns how many bytes that is.
     fn write(&mut self, bytes: &[u8], peer: Option<SocketAddr>) -> usize;
 
+    /// Waits until what was written has come to the other end, where the system takes its time for that.
+    fn carry(&self) {}
+
     /// Whether a packet may go on with the next read.
     fn may_split(&self) -> bool {
         true

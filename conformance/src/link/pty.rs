@@ -8,6 +8,7 @@ use std::os::unix::ffi::OsStringExt as _;
 use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::{Mode, OFlags, fcntl_setfl, open};
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 use rustix::termios::{OptionalActions, tcgetattr, tcsetattr};
@@ -20,7 +21,7 @@ pub(super) struct Pty {
     controller: File,
     /// The hosts' end: while it is open, a host may close its own and come back, and the terminal
     /// stays raw.
-    _user: OwnedFd,
+    user: OwnedFd,
     /// The path that hosts open.
     pub(super) path: PathBuf,
     link: Option<PathBuf>,
@@ -30,7 +31,7 @@ impl Pty {
     /// Opens one, with a symbolic link to it if there is a path for that.
     pub(super) fn open(link: Option<&Path>) -> Result<Self, LinkError> {
         let (controller, user, path) = pair().map_err(LinkError::Pty)?;
-        let mut pty = Self { controller, _user: user, path, link: None };
+        let mut pty = Self { controller, user, path, link: None };
         if let Some(link) = link {
             pty.link(link)?;
         }
@@ -81,6 +82,14 @@ impl Channel for Pty {
 
     fn write(&mut self, bytes: &[u8], _: Option<SocketAddr>) -> usize {
         written(bytes, |rest| self.controller.write(rest))
+    }
+
+    /// On Linux a thread of the kernel carries the bytes, for which a busy machine may have no processor
+    /// for a second. Whoever asks whether there is something to read waits for that thread, whatever the
+    /// time limit says: so a host does, and so this does.
+    fn carry(&self) {
+        // If the terminal is broken, the next read or write tells it.
+        let _ = poll(&mut [PollFd::new(&self.user, PollFlags::IN)], Some(&Timespec::default()));
     }
 }
 

@@ -36,7 +36,7 @@ impl Links {
         let (start, turn, buffer) = (Instant::now(), Turn::default(), vec![0; LONGEST]);
         let (full, lost) = (Duration::ZERO, 0);
         let mut line = Line { links: self, bus, watch, start, turn, full, buffer, lost };
-        while let ControlFlow::Continue(look) = line.watch.settled(line.bus, start.elapsed()) {
+        while let ControlFlow::Continue(look) = line.settle() {
             let ready = line.wait(stop, look)?;
             if ready.stop {
                 break;
@@ -76,6 +76,12 @@ struct Ready {
 }
 
 impl Line<'_> {
+    /// Lets who watches look, after all that was written has come through.
+    fn settle(&mut self) -> ControlFlow<(), Option<Duration>> {
+        self.links.hosts.iter().for_each(|host| host.channel.carry());
+        self.watch.settled(self.bus, self.start.elapsed())
+    }
+
     /// Waits until a host that may be heard sends something, or it is time for something.
     fn wait(&mut self, stop: BorrowedFd<'_>, look: Option<Duration>) -> Result<Ready, LinkError> {
         let now = self.start.elapsed();

@@ -155,7 +155,9 @@ impl Again {
             self.asked = 0;
         }
         self.asked += 1;
-        let outcome = check.clone().judge(self.subject.ask(&check.question));
+        let outcome = check
+            .clone()
+            .judge(self.subject.ask_until(&check.question, &|answer| check.is_met(answer)));
         let broke = [Verdict::Crash, Verdict::Timeout, Verdict::AdapterFault];
         self.is_spoilt = broke.contains(&outcome.verdict);
         outcome

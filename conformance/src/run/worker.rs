@@ -226,6 +226,11 @@ impl Questions for Worker<'_, '_, '_> {
         None
     }
 
+    fn is_right(&self, number: usize, answer: &Answer) -> bool {
+        let state = self.slot(self.place(number)).map(|slot| &slot.state);
+        matches!(state, Some(State::Open(check, _)) if check.is_met(answer))
+    }
+
     fn question(&self, number: usize) -> Option<&Question> {
         match &self.slot(self.place(number))?.state {
             State::Open(check, _) => Some(&check.question),

@@ -227,7 +227,7 @@ impl Process {
     fn ask_one(&mut self, questions: &mut dyn Questions, number: usize) {
         questions.asked(number);
         let Some(question) = questions.question(number) else { return };
-        let answer = self.ask(question);
+        let answer = self.ask_until(question, &|answer| questions.is_right(number, answer));
         if self.conversation.is_none() {
             questions.lost(self.last_log.clone());
         }
@@ -247,10 +247,15 @@ impl Subject for Process {
     }
 
     fn ask(&mut self, question: &Question) -> Answer {
+        self.ask_until(question, &|_| false)
+    }
+
+    fn ask_until(&mut self, question: &Question, is_right: &dyn Fn(&Answer) -> bool) -> Answer {
         if let Question::Converse { wire, steps } = question {
             let line = Line::of(&self.hello, self.settings.port);
-            return self
-                .talk(|conversation, limit| line.converse(conversation, limit, *wire, steps));
+            return self.talk(|conversation, limit| {
+                line.converse(conversation, limit, *wire, steps, is_right)
+            });
         }
         self.say(&Request::Ask(question), |ok| Output::read(question, ok))
     }

@@ -28,15 +28,19 @@ pub(crate) fn ask(
     request: &Request<'_>,
 ) -> Result<Heard, Lost> {
     conversation.send(request);
-    hear(conversation, limit)
+    hear(conversation, limit, &Duration::default)
 }
 
-/// Waits for the reply to what was asked.
+/// Waits for the reply to what was asked, with so much `more` time as the adapter may take by then.
 ///
 /// # Errors
 /// If no later reply of the adapter can be trusted.
-pub(crate) fn hear(conversation: &mut Conversation, limit: Duration) -> Result<Heard, Lost> {
-    let (_, reply) = conversation.receive(limit)?;
+pub(crate) fn hear(
+    conversation: &mut Conversation,
+    limit: Duration,
+    more: &dyn Fn() -> Duration,
+) -> Result<Heard, Lost> {
+    let (_, reply) = conversation.receive_in(limit, more)?;
     Ok(match reply {
         Ok(Reply::Ok(ok)) => Heard::Ok(ok.get().to_owned()),
         Ok(Reply::Err(raw)) => match error::<CallError>(&raw) {

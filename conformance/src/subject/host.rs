@@ -9,8 +9,9 @@ use std::time::{Duration, Instant};
 
 use actucheck_spec::wire::{Direction, Wire};
 
-use super::heard::{Heard, ask, own};
+use super::heard::{Heard, hear, own};
 use super::passing::{Passing, milliseconds};
+use super::served::Served;
 use super::{Answer, BAUD, Interrupted, bursts, port};
 use crate::adapter::conversation::{Conversation, Lost};
 use crate::adapter::{
@@ -27,8 +28,6 @@ const TRIES: usize = 5;
 const UNHEARD_TRIES: usize = 2;
 /// How often it is looked whether something is to be played, or has passed.
 const LOOK: Duration = Duration::from_millis(1);
-/// How long what was written last takes through the terminal, on a busy machine.
-const THROUGH: Duration = Duration::from_millis(50);
 
 /// What passes in a step.
 #[derive(Clone, Default)]
@@ -68,6 +67,7 @@ impl Record {
 struct Watcher {
     script: Script,
     record: Record,
+    served: Served,
 }
 
 impl Watch for Watcher {
@@ -86,7 +86,7 @@ impl Watch for Watcher {
         bus: &mut VirtualBus,
         now: Duration,
     ) -> ControlFlow<(), Option<Duration>> {
-        self.script.look(now);
+        self.served.look();
         if self.script.is_waiting() {
             bus.send(&[], now);
         }
@@ -95,7 +95,7 @@ impl Watch for Watcher {
 }
 
 /// Lets a host make calls, on a line of its own. Returns what became of them, or what else the adapter
-/// answers.
+/// answers. A machine that is too busy tries it again unless the answer `is_right`.
 ///
 /// # Errors
 /// If no later reply of the adapter can be trusted.
@@ -105,6 +105,7 @@ pub(crate) fn converse(
     wire: Wire,
     kind: HostPort,
     steps: &[Step],
+    is_right: &dyn Fn(&Answer) -> bool,
 ) -> Result<Answer, Interrupted> {
     let mut count = 0;
     loop {
@@ -115,7 +116,7 @@ pub(crate) fn converse(
             Seen::Late | Seen::HeardLate => TRIES,
             Seen::Unheard => UNHEARD_TRIES,
         };
-        if count >= most {
+        if count >= most || is_right(&answer) {
             return Ok(answer);
         }
     }
@@ -140,7 +141,7 @@ fn once(
     kind: HostPort,
     steps: &[Step],
 ) -> Result<(Answer, Seen), Interrupted> {
-    let (script, record) = (Script::default(), Record::default());
+    let (script, record, served) = (Script::default(), Record::default(), Served::default());
     let Some(mut bus) = VirtualBus::scripted(wire, script.clone()) else {
         return Ok((Answer::NotAsked(format!("there is no line for {wire}")), Seen::Right));
     };
@@ -151,7 +152,8 @@ fn once(
         (Ok(port), Ok(ends)) => (port.name(), ends),
         (Err(error), _) | (_, Err(error)) => return Ok((Answer::NotAsked(error), Seen::Right)),
     };
-    let mut watcher = Watcher { script: script.clone(), record: record.clone() };
+    let mut watcher =
+        Watcher { script: script.clone(), record: record.clone(), served: served.clone() };
     thread::scope(|scope| {
         let line = scope.spawn(move || links.serve(&mut bus, stopped.as_fd(), &mut watcher));
         let mut host = Host {
@@ -160,6 +162,7 @@ fn once(
             wire,
             script: script.clone(),
             record: record.clone(),
+            served,
             gave_up: false,
             was_late: false,
         };
@@ -188,6 +191,7 @@ struct Host<'a> {
     wire: Wire,
     script: Script,
     record: Record,
+    served: Served,
     /// Whether a call returned before its packet was heard: it does not send it, or does not wait, or the
     /// machine was too busy.
     gave_up: bool,
@@ -197,7 +201,7 @@ struct Host<'a> {
 
 impl Host<'_> {
     fn converse(&mut self, port: &str, steps: &[Step]) -> Result<Answer, Lost> {
-        wait(self.limit, || self.script.is_served());
+        wait(self.limit, || self.served.has_begun());
         let open = Request::Open { wire: self.wire, port, baud: BAUD };
         if let Some(problem) = self.ask(&open)?.problem("open the port") {
             return Ok(problem);
@@ -227,7 +231,7 @@ impl Host<'_> {
         self.script.begin(frame, bursts(&step.answers));
         self.record.turn();
         let call = CallTo { call: call.clone(), device: self.wire.device(packet) };
-        let asked = Instant::now();
+        let (asked, lost) = (Instant::now(), self.served.lost());
         let reply = self.ask(&Request::Call { wire: self.wire, call: &call })?;
         let ms = milliseconds(asked.elapsed());
         let is_refused = matches!(
@@ -236,9 +240,9 @@ impl Host<'_> {
         );
         let gave_up = !self.script.is_heard() && !step.answers.is_empty();
         // The host may have written without waiting for what becomes of it.
-        let looks = self.script.looks();
+        let looks = self.served.looks();
         wait(self.limit, || {
-            is_refused || self.script.is_heard() || self.script.looks() > looks + WRITTEN
+            is_refused || self.script.is_heard() || self.served.looks() > looks + WRITTEN
         });
         if !is_refused && (gave_up || !self.script.is_heard()) {
             self.gave_up = true;
@@ -246,7 +250,7 @@ impl Host<'_> {
         if !step.hurries {
             wait(self.limit, || self.script.is_over());
         }
-        let late = self.script.was_late();
+        let late = self.served.lost() > lost;
         self.was_late |= late;
         let Passing { line, more } = self.record.turn();
         let returned = match reply {
@@ -263,13 +267,16 @@ impl Host<'_> {
         if !step.late.is_empty() {
             self.script.play(&step.late);
             wait(self.limit, || self.script.is_over());
-            thread::sleep(THROUGH);
+            let looks = self.served.looks();
+            wait(self.limit, || self.served.looks() > looks);
         }
         Ok(Ok(Course { line, more, ms, late, returned }))
     }
 
     fn ask(&mut self, request: &Request<'_>) -> Result<Heard, Lost> {
-        ask(self.conversation, self.limit, request)
+        let (limit, lost) = (self.limit, self.served.lost());
+        self.conversation.send(request);
+        hear(self.conversation, limit, &|| self.served.more(limit, lost))
     }
 }
 

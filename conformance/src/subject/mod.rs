@@ -9,6 +9,8 @@ pub(crate) mod heard;
 #[cfg(unix)]
 mod host;
 mod passing;
+#[cfg(unix)]
+mod served;
 
 #[cfg(unix)]
 use std::net::{Ipv4Addr, SocketAddr};
@@ -37,6 +39,12 @@ pub trait Subject {
 
     /// Asks one question. Blocks no longer than the time limits.
     fn ask(&mut self, op: &Question) -> Answer;
+
+    /// The same, of which a busy machine makes several tries if it must: the first one that is right is
+    /// the answer.
+    fn ask_until(&mut self, question: &Question, _is_right: &dyn Fn(&Answer) -> bool) -> Answer {
+        self.ask(question)
+    }
 
     /// Asks for an op that no version of the adapter protocol has.
     fn ask_invented(&mut self) -> Answer {
@@ -76,6 +84,9 @@ pub trait Questions {
 
     /// The question with this number; `None` if there is no such question without an answer.
     fn question(&self, number: usize) -> Option<&Question>;
+
+    /// Whether an answer to the question with this number is right.
+    fn is_right(&self, number: usize, answer: &Answer) -> bool;
 
     /// Takes the answer to the question with this number.
     fn answered(&mut self, number: usize, answer: Answer);
@@ -127,7 +138,7 @@ impl Line {
     }
 
     /// Lets a host make calls on a line of its own. Returns what became of them, or what else the adapter
-    /// answers.
+    /// answers. A machine that is too busy tries it again unless the answer `is_right`.
     ///
     /// # Errors
     /// If no later reply of the adapter can be trusted.
@@ -137,12 +148,13 @@ impl Line {
         limit: Duration,
         wire: Wire,
         steps: &[Step],
+        is_right: &dyn Fn(&Answer) -> bool,
     ) -> Result<Answer, Interrupted> {
         match self {
             Self::Memory => exchange::converse(conversation, limit, wire, steps)
                 .map_err(|lost| Interrupted { lost, passed: None }),
             #[cfg(unix)]
-            Self::System(kind) => host::converse(conversation, limit, wire, kind, steps),
+            Self::System(kind) => host::converse(conversation, limit, wire, kind, steps, is_right),
             #[cfg(not(unix))]
             Self::System(_) => {
                 Ok(Answer::Skipped("this system has no pseudo-terminals".to_owned()))

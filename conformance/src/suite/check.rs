@@ -136,6 +136,12 @@ impl Unspecified {
 }
 
 impl Check {
+    /// Whether an answer is what the check demands.
+    #[must_use]
+    pub fn is_met(&self, answer: &Answer) -> bool {
+        self.clone().judge(answer.clone()).verdict == Verdict::Pass
+    }
+
     /// The outcome of an answer.
     #[must_use]
     pub fn judge(self, answer: Answer) -> Outcome {

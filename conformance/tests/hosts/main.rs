@@ -22,6 +22,7 @@
 mod adapter;
 mod answer;
 mod bus;
+mod busy;
 mod cases;
 mod faults;
 mod fuzzed;
@@ -105,6 +106,7 @@ fn tests() -> ExitCode {
     }
     trials.extend(killed("innfos", "udp", innfos::FAULTS).map(|(name, killed)| test(name, killed)));
     trials.push(test("bus::every_call".to_owned(), Box::new(bus::every_call)));
+    trials.push(test("busy::a_late_host_is_found".to_owned(), Box::new(busy::wrong)));
     trials.push(test("faults::each_is_shown".to_owned(), Box::new(shown)));
     trials.push(test("faults::each_has_one_place".to_owned(), Box::new(one_place)));
     libtest_mimic::run(&arguments, trials).exit_code()

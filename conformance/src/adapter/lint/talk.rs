@@ -49,14 +49,15 @@ impl Talk {
         wire: Wire,
         steps: &[Step],
     ) -> Result<subject::Answer, Problem> {
-        let answer = line.converse(&mut self.conversation, self.limit, wire, steps);
+        let answer = line.converse(&mut self.conversation, self.limit, wire, steps, &|_| false);
         answer.map_err(|interrupted| without_reply(&interrupted.lost))
     }
 
     /// Sends a request for an op of a host and waits for its reply.
     pub(super) fn hear_host(&mut self, request: &Value) -> Result<Heard, Problem> {
         self.conversation.send_text(&request.to_string());
-        hear(&mut self.conversation, self.limit).map_err(|lost| without_reply(&lost))
+        hear(&mut self.conversation, self.limit, &Duration::default)
+            .map_err(|lost| without_reply(&lost))
     }
 
     /// Sends a request and waits for its reply.
