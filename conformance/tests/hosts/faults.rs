@@ -11,8 +11,8 @@ pub(crate) enum Judged {
     Recorded,
     /// It is right.
     Passes,
-    /// It is wrong, and no check shows it yet.
-    Unseen,
+    /// The check of adapters finds it, at this point.
+    Unfit(&'static str),
 }
 
 pub(crate) struct Row<F = Fault> {
@@ -39,7 +39,7 @@ impl<F: Copy + PartialEq> Switch<F> {
     }
 }
 
-use Judged::{Fails, Passes, Recorded, Unseen, Warns};
+use Judged::{Fails, Passes, Recorded, Unfit, Warns};
 
 macro_rules! faults {
     ($($fault:ident: $name:literal, $judged:expr, $does:literal;)*) => {
@@ -79,7 +79,7 @@ faults! {
     ReadFromAll: "read-from-all", Recorded, "sends a Read to the broadcast ID and waits for the answer";
     // The port.
     WrongPort: "wrong-port", Fails("read.error-1/result"), "reads from its port and writes to another";
-    KeepsFirstPort: "keeps-first-port", Unseen, "goes on with the port that it has when it should open another";
+    KeepsFirstPort: "keeps-first-port", Unfit("makes its calls through the port that it opened last"), "goes on with the port that it has when it should open another";
     NoDrain: "no-drain", Fails("read.doubled/next"), "does not take away old input before a request";
     KeepsHalf: "keeps-half", Fails("read.doubled/next"), "keeps half a packet for the next call";
     LateAnswerForNext: "late-answer-for-next", Fails("read.late/next"), "takes what came after the limit for the next call's answer";

@@ -42,7 +42,8 @@ pub(crate) fn wrong<F>(wire: &str, port: &str, row: &Row<F>) -> String {
     let (check, expected, failures) = match row.judged {
         Judged::Fails(check) => (check, 1, &["fail", "timeout", "crash"][..]),
         Judged::Warns(check) => (check, 0, &["warn"][..]),
-        Judged::Recorded | Judged::Passes | Judged::Unseen => ("basic.*", 0, &[][..]),
+        Judged::Unfit(point) => return unfit(port, row.name, point),
+        Judged::Recorded | Judged::Passes => ("basic.*", 0, &[][..]),
     };
     let id = format!("{wire}.host.{check}");
     let run = run(port, row.name, HASTY, &["--select", &id]);
@@ -51,17 +52,30 @@ pub(crate) fn wrong<F>(wire: &str, port: &str, row: &Row<F>) -> String {
     if is_right { String::new() } else { format!("{:?}: {}", run.status, run.text) }
 }
 
-/// What the check of adapters says of the right host's; empty if it is well.
-pub(crate) fn well(port: &str) -> String {
+/// What the check of adapters says of the host with a fault: whether it is well, and what it says.
+fn check(port: &str, fault: &str) -> (bool, String) {
     let own = std::env::current_exe().unwrap();
     let output = Command::new(env!("CARGO_BIN_EXE_actucheck"))
         .args(["adapter", "check", "--"])
         .arg(own)
-        .args(["adapter", "none", HASTY, port])
+        .args(["adapter", fault, HASTY, port])
         .output()
         .unwrap();
-    let text = String::from_utf8_lossy(&output.stdout).into_owned();
-    if output.status.success() { String::new() } else { text }
+    (output.status.success(), String::from_utf8_lossy(&output.stdout).into_owned())
+}
+
+/// What it says of the right host's; empty if it is well.
+pub(crate) fn well(port: &str) -> String {
+    let (is_well, text) = check(port, "none");
+    if is_well { String::new() } else { text }
+}
+
+/// What it says if this point is not the only one that is wrong.
+fn unfit(port: &str, fault: &str, point: &str) -> String {
+    let (is_well, text) = check(port, fault);
+    let mut wrong = text.lines().filter_map(|line| line.strip_prefix("  WRONG  "));
+    let is_found = wrong.next().is_some_and(|line| line.starts_with(point));
+    if !is_well && is_found && wrong.next().is_none() { String::new() } else { text }
 }
 
 /// What is said of the right host on such a port; empty if nothing is.

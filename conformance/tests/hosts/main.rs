@@ -127,7 +127,8 @@ fn killed<F: Sync>(
     };
     let right: Named = (name("none_is_right"), Box::new(move || killing::right(port)));
     let well: Named = (format!("adapter::is_well::{port}"), Box::new(move || killing::well(port)));
-    let is_seen = |row: &&Row<F>| !matches!(row.judged, Judged::Unseen);
+    // A port in memory has no other.
+    let is_seen = move |row: &&Row<F>| port != "memory" || !matches!(row.judged, Judged::Unfit(_));
     table.iter().filter(is_seen).map(of_row).chain([right, well])
 }
 
@@ -178,7 +179,7 @@ fn print_table<F>(wire: &str, table: &[Row<F>]) {
             Judged::Warns(check) => format!("`{check}`, a warning"),
             Judged::Recorded => "nothing: it is unspecified".to_owned(),
             Judged::Passes => "nothing: it is right".to_owned(),
-            Judged::Unseen => "nothing yet".to_owned(),
+            Judged::Unfit(point) => format!("`adapter check`: {point}"),
         };
         println!("| `{}` | {} | {found} |", row.name, row.does);
     }

@@ -8,10 +8,13 @@ use serde_json::{Value, json};
 use super::Problem;
 use super::points::{Found, Points};
 use super::talk::Talk;
-use crate::adapter::{CallError, CallTo, Hello, HostPort, Question, Trouble};
+use crate::adapter::{CallError, CallTo, Course, Hello, HostPort, Output, Question, Trouble};
 use crate::subject::heard::Heard;
 use crate::subject::{Answer, Line, QuietPort};
 use crate::suite::check::Check;
+
+/// How often a call is made for which the machine is too busy.
+const TRIES: usize = 5;
 
 /// A way to make calls.
 #[derive(Clone, Copy)]
@@ -51,6 +54,12 @@ pub(super) fn look(points: &mut Points, hello: &Hello, check: &Check) -> Control
         points.point(format!("opens and closes {port} as it is told"), |talk| {
             way.opens_and_closes(talk, wire, &call)
         })?;
+        // A port in memory has no other.
+        if matches!(way.line, Line::System(_)) {
+            points.point("makes its calls through the port that it opened last", |talk| {
+                way.replaces_a_port(talk, check)
+            })?;
+        }
     }
     ControlFlow::Continue(())
 }
@@ -67,7 +76,7 @@ impl Way {
     /// What the library makes of the call is its own matter.
     fn makes(&self, talk: &mut Talk, check: &Check) -> Found {
         let Question::Converse { wire, steps } = &check.question else { return Ok(String::new()) };
-        match talk.converse(self.line(talk), *wire, steps)? {
+        match talk.converse(self.line(talk), *wire, steps, &|_| false)? {
             Answer::Faulty(what) => {
                 let Self { op, ok, .. } = self;
                 let mend = format!(
@@ -119,6 +128,28 @@ impl Way {
         }
     }
 
+    /// Opens a port while another is open, and makes a call.
+    fn replaces_a_port(&self, talk: &mut Talk, check: &Check) -> Found {
+        let Question::Converse { wire, steps } = &check.question else { return Ok(String::new()) };
+        let (line, mend) =
+            (self.line(talk), "close the port that is open when `open` names another");
+        if !sends(&talk.converse(line, *wire, steps, &sends)?) {
+            return Ok("the call sends nothing".to_owned());
+        }
+        let first = QuietPort::of(line, *wire).map_err(closed)?;
+        for _ in 0..TRIES {
+            done(talk, &open(*wire, &first.address), "open")?;
+            // Each try closes the port.
+            match talk.converse(line, *wire, steps, &|_| true)? {
+                Answer::Faulty(what) => return Err(Problem::new(what, mend)),
+                answer if sends(&answer) => return Ok(String::new()),
+                answer if !is_late(&answer) => break,
+                _ => {}
+            }
+        }
+        Err(Problem::new("after a second `open` a call does not go to its port", mend))
+    }
+
     /// The request for a call that nothing answers.
     fn request(&self, wire: Wire, call: &Value) -> Value {
         match self.line {
@@ -129,6 +160,20 @@ impl Way {
             }),
         }
     }
+}
+
+/// Whether something was sent on the line.
+fn sends(answer: &Answer) -> bool {
+    is_any(answer, |course| !course.sent().is_empty())
+}
+
+/// Whether the machine was too busy for the line.
+fn is_late(answer: &Answer) -> bool {
+    is_any(answer, |course| course.late)
+}
+
+fn is_any(answer: &Answer, is_so: impl Fn(&Course) -> bool) -> bool {
+    matches!(answer, Answer::Ok(Output::Conversation(courses)) if courses.iter().any(is_so))
 }
 
 /// The call of a check.

@@ -42,14 +42,15 @@ impl Talk {
         Ok(Self { conversation, limit, port })
     }
 
-    /// Lets the adapter make calls on a line.
+    /// Lets the adapter make calls on a line. It is tried again on a busy machine unless it `is_right`.
     pub(super) fn converse(
         &mut self,
         line: Line,
         wire: Wire,
         steps: &[Step],
+        is_right: &dyn Fn(&subject::Answer) -> bool,
     ) -> Result<subject::Answer, Problem> {
-        let answer = line.converse(&mut self.conversation, self.limit, wire, steps, &|_| false);
+        let answer = line.converse(&mut self.conversation, self.limit, wire, steps, is_right);
         answer.map_err(|interrupted| without_reply(&interrupted.lost))
     }
 
