@@ -11,7 +11,7 @@ use actucheck_spec::wire::{Direction, Packet, Wire};
 use super::{Answer, Subject};
 use crate::adapter::{
     Asked, Heard, Hello, Implementation, Limits, Output, Passed, Pause, Permission, Piece,
-    Question, VERSION,
+    Question, Reported, VERSION,
 };
 use crate::port::{Place, Port, PortError};
 use crate::suite::device;
@@ -282,11 +282,17 @@ impl Line {
             (Some(Piece { after: Pause::Answer, bytes }), Some((hello, answer)))
                 if bytes.0 == *hello =>
             {
-                packets.last() == Some(answer)
+                packets.last().is_some_and(|last| self.says(last) == self.says(answer))
             }
             _ => true,
         };
         is_last && packets.len() >= record.before + asked.awaits
+    }
+
+    /// What a packet says, but for the alert, which a device may get at any time.
+    fn says(&self, packet: &Packet) -> Vec<Reported> {
+        let reported = device::reported(self.wire, packet).into_iter();
+        reported.map(|answer| Reported { alert: None, ..answer }).collect()
     }
 
     /// How long a pause must be so that an answer would be there.

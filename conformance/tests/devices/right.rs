@@ -16,7 +16,7 @@ use super::killing::run;
 pub(crate) type Test = (&'static str, fn() -> String);
 
 /// The tests. Each returns what is wrong.
-pub(crate) const TESTS: [Test; 16] = [
+pub(crate) const TESTS: [Test; 22] = [
     ("scan_of_a_socket", || scan(&["--tcp", "0"], "tcp://", "ID 2: JA40, model 5210, firmware 0")),
     ("scan_of_a_terminal", || {
         scan(&["--pty"], "", "ID 1 at 57600 bit/s: JA40, model 5210, firmware 0")
@@ -49,6 +49,12 @@ pub(crate) const TESTS: [Test; 16] = [
     ("innfos_silent_for_all", || {
         board(&["--udp", "0", "--readings", "broadcast=silent"], "udp://")
     }),
+    ("late", || port(&["--tcp", "0", "--fault", "late=3ms"], "tcp://")),
+    ("split", || port(&["--pty", "--fault", "split"], "")),
+    ("with_an_alarm", || port(&["--tcp", "0", "--fault", "overheating#1"], "tcp://")),
+    ("innfos_late", || board(&["--udp", "0", "--fault", "late=3ms"], "udp://")),
+    ("innfos_split", || board(&["--tcp", "0", "--fault", "split"], "tcp://")),
+    ("innfos_with_an_alarm", || board(&["--udp", "0", "--fault", "overheating#1"], "udp://")),
     ("pseudo_terminal", || port(&["--pty"], "")),
     ("tcp", || port(&["--tcp", "0"], "tcp://")),
     ("udp", || port(&["--udp", "0"], "udp://")),
