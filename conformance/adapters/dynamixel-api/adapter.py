@@ -24,7 +24,7 @@ from dynamixel_sdk import (
 )
 from serial import SerialException
 
-from adapter_kit import Host, Rejected, Skipped, serve, unhex
+from actucheck.adapter import Host, Rejected, Skipped, serve, unhex
 
 CALLS = ("read", "write")
 

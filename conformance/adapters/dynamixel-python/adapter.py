@@ -17,7 +17,7 @@ from dxl2.v2 import (
     calc_crc_16,
 )
 
-from adapter_kit import Rejected, Skipped, serve, unhex
+from actucheck.adapter import Rejected, Skipped, serve, unhex
 from calls import CALLS, sync_read_params
 from host import OPS as HOST
 from memory_serial import MemorySerial

@@ -5,7 +5,7 @@ The library takes data as numbers; these are made of the bytes, low byte first.
 
 from dxl2.v2 import BROADCAST_ID, BulkParams, SyncParams
 
-from adapter_kit import Skipped, unhex
+from actucheck.adapter import Skipped, unhex
 
 FACTORY_RESETS = {
     0xFF: "factory_reset",

@@ -3,7 +3,7 @@
 from dxl2.v2 import BROADCAST_ID, HardwareError, MotorBus
 from serial import SerialException
 
-from adapter_kit import Host, Rejected, function_of
+from actucheck.adapter import Host, Rejected, function_of
 from calls import CALLS
 
 

@@ -28,7 +28,7 @@ from dynamixel_sdk.protocol2_packet_handler import (
     TXPACKET_MAX_LEN,
 )
 
-from adapter_kit import Skipped, serve, unhex
+from actucheck.adapter import Skipped, serve, unhex
 from calls import CALLS, sync_read_group
 from common import SDK, rejected
 from host import OPS as HOST

@@ -5,7 +5,7 @@ A function makes the SDK send and returns the SDK's result code; the bytes are l
 
 from dynamixel_sdk import BROADCAST_ID, GroupBulkRead, GroupBulkWrite, GroupSyncRead, GroupSyncWrite
 
-from adapter_kit import Rejected, Skipped, unhex
+from actucheck.adapter import Rejected, Skipped, unhex
 from common import SDK
 
 # The parameters that clearMultiTurn always sends.

@@ -10,7 +10,7 @@ from dynamixel_sdk import (
     PacketHandler,
 )
 
-from adapter_kit import Rejected
+from actucheck.adapter import Rejected
 
 SDK = PacketHandler(2.0)
 

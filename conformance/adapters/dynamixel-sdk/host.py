@@ -19,7 +19,7 @@ from dynamixel_sdk import (
     PortHandler,
 )
 
-from adapter_kit import Host, Rejected, Skipped, function_of, unhex
+from actucheck.adapter import Host, Rejected, Skipped, function_of, unhex
 from calls import CLEAR_PARAMS
 from common import SDK
 

@@ -2,7 +2,7 @@
 
 import commands
 import innfos
-from adapter_kit import Rejected, serve, unhex
+from actucheck.adapter import Rejected, serve, unhex
 from host import OPS as HOST
 
 

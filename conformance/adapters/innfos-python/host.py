@@ -3,7 +3,7 @@
 from urllib.parse import urlsplit
 
 import commands
-from adapter_kit import Host, Rejected, Skipped, unhex
+from actucheck.adapter import Host, Rejected, Skipped, unhex
 from board import QUERY, Board, NoAnswer, NotUnderstood
 
 
