@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use anstream::adapter::strip_bytes;
 
 use super::model::Report;
-use super::{html, json, junit, markdown, text};
+use super::{badge, github, html, json, junit, markdown, tap, text};
 
 /// Says why a saved report can't be written as `jsonl`.
 pub const NO_JSONL: &str =
@@ -22,6 +22,12 @@ pub enum Format {
     Jsonl,
     /// For tools that collect test results.
     Junit,
+    /// For readers of the Test Anything Protocol.
+    Tap,
+    /// Annotations of a GitHub job.
+    Github,
+    /// A badge for a README.
+    Badge,
     /// A summary for a CI job's page.
     Markdown,
     /// A page that works without a network.
@@ -30,8 +36,17 @@ pub enum Format {
 
 impl Format {
     /// Every format.
-    pub const ALL: [Self; 6] =
-        [Self::Text, Self::Json, Self::Jsonl, Self::Junit, Self::Markdown, Self::Html];
+    pub const ALL: [Self; 9] = [
+        Self::Text,
+        Self::Json,
+        Self::Jsonl,
+        Self::Junit,
+        Self::Tap,
+        Self::Github,
+        Self::Badge,
+        Self::Markdown,
+        Self::Html,
+    ];
 
     /// Its name on the command line.
     #[must_use]
@@ -41,6 +56,9 @@ impl Format {
             Self::Json => "json",
             Self::Jsonl => "jsonl",
             Self::Junit => "junit",
+            Self::Tap => "tap",
+            Self::Github => "github",
+            Self::Badge => "badge",
             Self::Markdown => "markdown",
             Self::Html => "html",
         }
@@ -60,8 +78,25 @@ impl Format {
             Self::Json => json::write(report, out),
             Self::Jsonl => Err(io::Error::new(io::ErrorKind::Unsupported, NO_JSONL)),
             Self::Junit => junit::write(report, out),
+            Self::Tap => tap::write(report, out),
+            Self::Github => github::write(report, out),
+            Self::Badge => badge::write(report, out),
             Self::Markdown => markdown::write(report, out),
             Self::Html => html::write(report, out),
         }
+    }
+
+    /// Writes the error that ended a run before its first check, in the formats that CI servers read: they
+    /// would take an earlier file for this run's. Returns `None` for the others, whose old files stay.
+    #[must_use]
+    pub fn not_started(self, sentence: &str) -> Option<io::Result<Vec<u8>>> {
+        let write = match self {
+            Self::Junit => junit::write_not_started,
+            Self::Tap => tap::write_not_started,
+            Self::Github => github::write_not_started,
+            _ => return None,
+        };
+        let mut text = Vec::new();
+        Some(write(sentence, &mut text).map(|()| text))
     }
 }

@@ -6,13 +6,15 @@
 //!
 //! A module imports only from those before it in this order: [`model`]; `result`; `smallest`;
 //! [`collect`], [`read`]; `fit`, `words`, `course`, [`view`]; [`text`], [`json`], [`jsonl`], [`junit`],
-//! [`markdown`], [`html`]; [`format`](mod@format), [`screen`]; [`compare`]; [`schema`].
+//! [`tap`], [`github`], [`badge`], [`markdown`], [`html`]; [`format`](mod@format), [`screen`]; [`compare`]; [`schema`].
 
+pub mod badge;
 pub mod collect;
 pub mod compare;
 mod course;
 mod fit;
 pub mod format;
+pub mod github;
 pub mod html;
 pub mod json;
 pub mod jsonl;
@@ -24,6 +26,7 @@ mod result;
 pub mod schema;
 pub mod screen;
 mod smallest;
+pub mod tap;
 pub mod text;
 pub mod view;
 mod words;

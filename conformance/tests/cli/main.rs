@@ -4,6 +4,7 @@
 
 mod decode;
 mod outputs;
+mod pipelines;
 mod readme;
 
 use std::collections::BTreeSet;

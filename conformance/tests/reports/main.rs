@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
 mod browser;
+mod ci;
 mod compare;
 mod html;
 mod json;

@@ -194,7 +194,7 @@ fn what_can_not_be_is_refused_in_a_sentence() {
     for (arguments, sentence) in [
         (
             &["codec", "--report", "pdf=x"][..],
-            "a report is written as FORMAT=PATH; formats are text, json, jsonl, junit, markdown, html",
+            "a report is written as FORMAT=PATH; formats are text, json, jsonl, junit, tap, github, badge, markdown, html",
         ),
         (&["codec", "--report", "html="], "a report is written as FORMAT=PATH"),
         (
@@ -208,7 +208,7 @@ fn what_can_not_be_is_refused_in_a_sentence() {
         (&["report", "compare", "report.json", "old.json"], "old.json is a report of version 1"),
         (
             &["report", "compare", "report.json", "report.json", "--report", "junit=x"],
-            "junit and jsonl describe one run",
+            "that format describes one run",
         ),
         (&["report", "render", "report.json", "--report", "jsonl=x"], "jsonl has every check"),
     ] {

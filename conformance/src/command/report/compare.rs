@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use actucheck::report::Format;
 use actucheck::report::compare::{self, Comparison, Regression};
 use clap::Args;
 
@@ -46,7 +45,7 @@ pub(crate) struct Compare {
 
 /// Reads the reports and writes what differs between them.
 pub(crate) fn run(options: &Compare) -> Result<ExitCode, Failure> {
-    if options.reports.any(Format::Junit) || options.reports.any(Format::Jsonl) {
+    if options.reports.formats().any(|format| !format.compares()) {
         return Err(Failure::usage(compare::ONE_RUN));
     }
     let others = options.others.iter().map(|file| read(file)).collect::<Result<_, _>>()?;

@@ -32,7 +32,7 @@ pub(crate) struct Render {
 
 /// Reads the report and writes it.
 pub(crate) fn run(options: &Render) -> Result<ExitCode, Failure> {
-    if options.reports.any(Format::Jsonl) {
+    if options.reports.formats().any(|format| format == Format::Jsonl) {
         return Err(Failure::usage(NO_JSONL));
     }
     let report = read(&options.file)?;

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use actucheck::report::{Format, junit};
+use actucheck::report::Format;
 use clap::Args;
 
 use super::target::{Target, seen};
@@ -12,17 +12,17 @@ use super::{Draft, Failure};
 /// The reports to write.
 #[derive(Debug, Args)]
 pub(crate) struct Reports {
-    /// Write a report: text, json, junit, markdown or html, or jsonl for every outcome as it comes;
-    /// `-` is standard output; may be given more than once. A file keeps its old content until the
+    /// Write a report: text, json, junit, tap, github (annotations of a job), badge, markdown or html,
+    /// or jsonl for every outcome as it comes; `-` is standard output; may be given more than once. A file keeps its old content until the
     /// report is whole; `text+=PATH` and `markdown+=PATH` add to it
     #[arg(long = "report", value_name = "FORMAT=PATH", value_parser = place)]
     places: Vec<Place>,
 }
 
 impl Reports {
-    /// Whether one of them has this format.
-    pub(crate) fn any(&self, format: Format) -> bool {
-        self.places.iter().any(|place| place.format == format)
+    /// The format of each.
+    pub(crate) fn formats(&self) -> impl Iterator<Item = Format> {
+        self.places.iter().map(|place| place.format)
     }
 }
 
@@ -100,19 +100,18 @@ impl Outputs {
     }
 
     /// Hands on what a run needs before its first check. If that failed, the reports of earlier
-    /// runs stay, but JUnit gets an error: a CI server would take an earlier file for this run's.
+    /// runs stay, but those that CI servers read get an error.
     pub(crate) fn unless_failed<T>(self, start: Result<T, Failure>) -> Result<(Self, T), Failure> {
         let failure = match start {
             Ok(started) => return Ok((self, started)),
             Err(failure) => failure,
         };
-        let junit = self.files.into_iter().filter(|file| file.format == Format::Junit);
-        let mut text = Vec::new();
-        let composed = junit::write_not_started(&failure.to_string(), &mut text);
-        let composed = composed.map_err(Failure::incomplete);
-        let written = junit.map(|file| file.target.write(&text));
-        let problems: Vec<_> =
-            [composed].into_iter().chain(written).filter_map(Result::err).collect();
+        let sentence = failure.to_string();
+        let written = self.files.into_iter().filter_map(|Output { format, target }| {
+            let text = format.not_started(&sentence)?.map_err(Failure::incomplete);
+            Some(text.and_then(|text| target.write(&text)))
+        });
+        let problems: Vec<_> = written.filter_map(Result::err).collect();
         Err(problems.iter().fold(failure, Failure::and))
     }
 

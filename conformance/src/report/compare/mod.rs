@@ -21,9 +21,15 @@ use super::json;
 
 /// Says that a comparison has no such format.
 pub const ONE_RUN: &str =
-    "junit and jsonl describe one run; a comparison is written as text, json, markdown or html";
+    "that format describes one run; a comparison is written as text, json, markdown or html";
 
 impl Format {
+    /// Whether a comparison can be written in this format.
+    #[must_use]
+    pub const fn compares(self) -> bool {
+        matches!(self, Self::Text | Self::Json | Self::Markdown | Self::Html)
+    }
+
     /// Writes a comparison in this format, without colours.
     ///
     /// # Errors
@@ -36,9 +42,9 @@ impl Format {
                 out.write_all(&strip_bytes(&text).into_vec())
             }
             Self::Json => json::write(comparison, out),
-            Self::Junit | Self::Jsonl => Err(io::Error::new(io::ErrorKind::Unsupported, ONE_RUN)),
             Self::Markdown => markdown::write(comparison, out),
             Self::Html => html::write(comparison, out),
+            _ => Err(io::Error::new(io::ErrorKind::Unsupported, ONE_RUN)),
         }
     }
 }
