@@ -10,6 +10,7 @@
 //! answers depend neither on earlier questions nor on time. A limit in time ends a run, and the
 //! shrinking of a slow subject, at another place each time.
 
+mod change;
 mod examine;
 mod finding;
 mod lane;

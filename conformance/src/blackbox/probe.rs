@@ -119,11 +119,15 @@ pub(super) fn strategy(
 }
 
 /// Generates conversations for a host with these calls; `None` if it offers no such wire.
-pub(super) fn conversations(wire: Wire, hello: &Hello) -> Option<BoxedStrategy<Vec<Probe>>> {
+pub(super) fn conversations(
+    spec: &Spec,
+    wire: Wire,
+    hello: &Hello,
+) -> Option<BoxedStrategy<Vec<Probe>>> {
     if !hello.wires.iter().any(|offered| offered == wire.id()) {
         return None;
     }
-    let talk = (wire::of(wire)?.host?.talk)(hello)?;
+    let talk = (wire::of(wire)?.host?.talk)(spec, hello)?;
     Some(talk.prop_map(Probe::Converse).prop_map(alone).boxed())
 }
 

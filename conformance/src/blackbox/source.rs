@@ -26,7 +26,7 @@ impl<'a> Source<'a> {
     pub(super) fn new(scope: &'a Scope<'a>, options: &Options) -> Option<Self> {
         let (Author { spec, wire }, seed) = (scope.author, options.seed);
         let strategy = if options.host {
-            probe::conversations(wire, scope.hello)?
+            probe::conversations(spec, wire, scope.hello)?
         } else {
             probe::strategy(spec, wire, scope.hello)?
         };

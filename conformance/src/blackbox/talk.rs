@@ -5,6 +5,7 @@ use actucheck_spec::wire::Packet;
 use super::probe::{Part, cut, joined};
 use super::wire;
 use crate::adapter::{Burst, Called, Step};
+use crate::bus::has_datagrams;
 use crate::shrink::Shrink;
 
 /// The pause between two pieces of an answer, which is much shorter than any time-out.
@@ -51,12 +52,26 @@ impl Exchange {
         if self.is_late { Some(Vec::new()) } else { self.all() }
     }
 
+    /// What comes while the call waits for it, each part a datagram.
+    pub(super) fn datagrams(&self) -> Option<Vec<Vec<u8>>> {
+        let parts = if self.is_late { &[][..] } else { self.played.as_slice() };
+        let all: Vec<_> =
+            parts.iter().map(|part| joined(std::slice::from_ref(part))).collect::<Option<_>>()?;
+        // An empty one is nothing on the line.
+        Some(all.into_iter().filter(|datagram| !datagram.is_empty()).collect())
+    }
+
     /// The step of the conversation. A host that is sure to wait for all of it gets it in pieces: else
     /// the rest could come in the next call. If it asks again, it gets something else.
     pub(super) fn step(&self, is_awaited: bool, again: Vec<u8>) -> Option<Step> {
         let late = if self.is_late { self.all()? } else { Vec::new() };
         let cuts = if is_awaited { self.cuts.as_slice() } else { &[] };
-        let pieces = cut(&self.in_time()?, cuts).into_iter().filter(|piece| !piece.is_empty());
+        let pieces = if has_datagrams(self.packet.wire()) {
+            self.datagrams()?.into_iter().map(Into::into).collect()
+        } else {
+            cut(&self.in_time()?, cuts)
+        };
+        let pieces = pieces.into_iter().filter(|piece| !piece.is_empty());
         let times = (0..).map(|place| place * PAUSE_MS);
         let first: Vec<_> =
             pieces.zip(times).map(|(bytes, after_ms)| Burst { after_ms, bytes }).collect();

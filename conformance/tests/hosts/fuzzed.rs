@@ -13,6 +13,8 @@ const CALLS: usize = 2;
 
 /// So many conversations find each fault.
 const CASES: &str = "96";
+/// The same on INNFOS, which has more commands.
+const CASES_IN_DATAGRAMS: &str = "192";
 /// So many find nothing in the right host on a port in memory, where nobody waits.
 const MANY: &str = "10000";
 
@@ -38,12 +40,31 @@ pub(crate) const FOUND: [&str; 18] = [
     "fast-unstuffs",
 ];
 
+/// The same of the host on INNFOS.
+pub(crate) const FOUND_IN_DATAGRAMS: [&str; 14] = [
+    "sends-length-low-byte-first",
+    "crc-high-byte-first",
+    "no-crc-for-one-byte",
+    "crc-without-data",
+    "any-end",
+    "fixed-size",
+    "needs-no-crc",
+    "any-address",
+    "any-command",
+    "silence-is-success",
+    "cuts-to-size",
+    "hands-on-low-byte-first",
+    "last-good-on-timeout",
+    "first-found",
+];
+
 /// What a run comes to: its exit status, what it says, and how many calls each finding has.
 fn fuzz(fault: &str, limit: &str, port: &str, cases: &str) -> (Option<i32>, String, Vec<usize>) {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("findings.yaml");
     let output = Command::new(env!("CARGO_BIN_EXE_actucheck"))
         .args(["fuzz", "--host", "--timeout", "1", "--seed", "1", "--cases", cases])
+        .args(["--wire", if port == "udp" { "innfos" } else { "dynamixel2" }])
         .arg("--out")
         .arg(&out)
         .arg("--")
@@ -61,8 +82,9 @@ fn fuzz(fault: &str, limit: &str, port: &str, cases: &str) -> (Option<i32>, Stri
 }
 
 /// What is wrong with the findings of a fault; empty if nothing is.
-pub(crate) fn wrong(fault: &str) -> String {
-    let (status, text, calls) = fuzz(fault, HASTY, "memory", CASES);
+pub(crate) fn wrong(fault: &str, port: &str) -> String {
+    let cases = if port == "udp" { CASES_IN_DATAGRAMS } else { CASES };
+    let (status, text, calls) = fuzz(fault, HASTY, port, cases);
     let is_short = calls.iter().any(|calls| *calls <= CALLS);
     if status == Some(1) && is_short {
         String::new()

@@ -95,12 +95,16 @@ fn tests() -> ExitCode {
     let cases =
         CASES.iter().map(|case| test(format!("fault::{}", case.fault), Box::new(|| case.wrong())));
     let mut trials: Vec<_> = cases.collect();
-    let found = fuzzed::FOUND
-        .iter()
-        .map(|fault| test(format!("fuzzed::{fault}"), Box::new(|| fuzzed::wrong(fault))));
-    trials.extend(found);
+    let found = |faults: &'static [&str], port: &'static str| {
+        let named = faults.iter().map(move |fault| (format!("fuzzed::{fault}::{port}"), fault));
+        named.map(move |(name, fault)| test(name, Box::new(move || fuzzed::wrong(fault, port))))
+    };
+    trials.extend(found(&fuzzed::FOUND, "memory"));
+    trials.extend(found(&fuzzed::FOUND_IN_DATAGRAMS, "udp"));
     for port in ["terminal", "memory"] {
         trials.extend(killed("dynamixel2", port, FAULTS).map(|(name, killed)| test(name, killed)));
+    }
+    for port in ["terminal", "memory", "udp"] {
         let name = format!("fuzzed::nothing_in_the_right_host::{port}");
         trials.push(test(name, Box::new(move || fuzzed::right(port))));
     }

@@ -41,7 +41,7 @@ pub(crate) struct Probes {
 #[derive(Clone, Copy)]
 pub(crate) struct HostProbes {
     /// Generates conversations for a host that says `hello`; `None` if it has no call that is asked.
-    pub(crate) talk: fn(&Hello) -> Option<BoxedStrategy<Talk>>,
+    pub(crate) talk: fn(&Spec, &Hello) -> Option<BoxedStrategy<Talk>>,
     /// The same exchange with plainer packets, in the call and in its answers alike.
     pub(crate) smaller: fn(&Exchange) -> Vec<Exchange>,
 }

@@ -4,7 +4,7 @@
 //! right answer. All other checks rest on those of their calls.
 
 pub(crate) mod dynamixel2;
-mod innfos;
+pub(crate) mod innfos;
 
 use std::borrow::Cow;
 

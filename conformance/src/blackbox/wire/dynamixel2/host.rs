@@ -15,6 +15,7 @@ use proptest::strategy::Union;
 use super::exists::{CLEAR, FACTORY_RESET, exists};
 use super::{Asked, own, packets};
 use crate::adapter::{Hello, Question};
+use crate::blackbox::change::Change as Shared;
 use crate::blackbox::probe::{Damage, Part, damages};
 use crate::blackbox::talk::{Exchange, Talk};
 use crate::blackbox::wire::HostProbes;
@@ -22,7 +23,8 @@ use crate::suite::check::Demand;
 use crate::suite::host::dynamixel2::found::{self, Asked as Devices, expected};
 use crate::suite::random::data;
 
-pub(super) const PROBES: HostProbes = HostProbes { talk, smaller: smaller::exchanges };
+pub(super) const PROBES: HostProbes =
+    HostProbes { talk: |_, hello| talk(hello), smaller: smaller::exchanges };
 
 /// The check of a conversation. `None` if the documents have no such call too.
 pub(super) fn question(spec: &Spec, talk: &Talk) -> Option<Asked> {
@@ -63,15 +65,7 @@ pub(super) fn question(spec: &Spec, talk: &Talk) -> Option<Asked> {
 /// How the right answers to a call are changed. Places are in units of 1/65,536 of their number.
 #[derive(Clone, Debug)]
 enum Change {
-    Pieces(Vec<u16>),
-    Noise(u16, Vec<u8>),
-    Damage(u16, Vec<Damage>),
-    Late,
-    Silence,
-    /// One comes twice.
-    Twice(u16),
-    Missing(u16),
-    Swapped(u16),
+    Shared(Shared),
     /// Another device's answer comes before one, or instead of it.
     Other {
         at: u16,
@@ -95,39 +89,19 @@ enum Change {
 
 impl Change {
     fn happen(self, exchange: &mut Exchange) {
-        let Exchange { packet, played, cuts, is_late } = exchange;
+        let change = match self {
+            Self::Shared(change) => return change.happen(exchange),
+            change => change,
+        };
+        let Exchange { packet, played, .. } = exchange;
         let place = |at: u16| usize::from(at) * played.len() / 65_536;
         let part = |packet: actucheck_spec::wire::Packet| Part {
             noise: Vec::new(),
             packet,
             damage: Vec::new(),
         };
-        match self {
-            Self::Pieces(places) => *cuts = places,
-            Self::Late => *is_late = true,
-            Self::Silence => played.clear(),
-            Self::Noise(at, noise) => {
-                let at = place(at);
-                played.iter_mut().skip(at).take(1).for_each(|part| part.noise.clone_from(&noise));
-            }
-            Self::Damage(at, damage) => {
-                let at = place(at);
-                played.iter_mut().skip(at).take(1).for_each(|part| part.damage.clone_from(&damage));
-            }
-            Self::Twice(at) => {
-                let again: Vec<_> = played.iter().skip(place(at)).take(1).cloned().collect();
-                played.extend(again);
-            }
-            Self::Missing(at) => {
-                let at = place(at);
-                played.drain(at..(at + 1).min(played.len()));
-            }
-            Self::Swapped(at) => {
-                let at = place(at);
-                if at + 1 < played.len() {
-                    played.swap(at, at + 1);
-                }
-            }
+        match change {
+            Self::Shared(_) => {}
             Self::Other { at, id, replaces } => {
                 let at = place(at);
                 let other = played.get(at).and_then(|part| match own(&part.packet)? {
@@ -180,15 +154,20 @@ fn change() -> BoxedStrategy<Change> {
     let noise = || prop_oneof![data(1..6), packets::noise()];
     let flip = (any::<u16>(), 0..8_u8).prop_map(|(at, bit)| Damage::Flip(at, bit));
     prop_oneof![
-        3 => vec(at(), 1..3).prop_map(Change::Pieces),
-        2 => (at(), noise()).prop_map(|(at, noise)| Change::Noise(at, noise)),
-        5 => (at(), flip).prop_map(|(at, damage)| Change::Damage(at, vec![damage])),
-        4 => (at(), damages()).prop_map(|(at, damage)| Change::Damage(at, damage)),
-        2 => Just(Change::Late),
-        1 => Just(Change::Silence),
-        2 => at().prop_map(Change::Twice),
-        1 => at().prop_map(Change::Missing),
-        1 => at().prop_map(Change::Swapped),
+        3 => vec(at(), 1..3).prop_map(Shared::Pieces).prop_map(Change::Shared),
+        2 => (at(), noise())
+            .prop_map(|(at, noise)| Change::Shared(Shared::Noise(at, noise))),
+        5 => (at(), flip).prop_map(|(at, damage)| {
+            Change::Shared(Shared::Damage(at, vec![damage]))
+        }),
+        4 => (at(), damages()).prop_map(|(at, damage)| {
+            Change::Shared(Shared::Damage(at, damage))
+        }),
+        2 => Just(Change::Shared(Shared::Late)),
+        1 => Just(Change::Shared(Shared::Silence)),
+        2 => at().prop_map(Shared::Twice).prop_map(Change::Shared),
+        1 => at().prop_map(Shared::Missing).prop_map(Change::Shared),
+        1 => at().prop_map(Shared::Swapped).prop_map(Change::Shared),
         3 => (at(), id(), any::<bool>())
             .prop_map(|(at, id, replaces)| Change::Other { at, id, replaces }),
         2 => (at(), any::<bool>()).prop_map(|(at, replaces)| Change::Echo { at, replaces }),

@@ -8,6 +8,7 @@
 
 mod calls;
 mod faults;
+pub(crate) mod found;
 mod frames;
 mod query;
 mod writes;

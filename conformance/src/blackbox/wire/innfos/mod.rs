@@ -1,5 +1,7 @@
 //! Probes of the INNFOS Ethernet protocol, with the reference model's answers.
 
+mod host;
+
 use actucheck_spec::Spec;
 use actucheck_spec::model::Fault;
 use actucheck_spec::wire::innfos::{self, WIRE, reference};
@@ -26,7 +28,7 @@ pub(super) const PROBES: Probes = Probes {
     smaller,
     limit: "innfos.frame.length",
     question,
-    host: None,
+    host: Some(host::PROBES),
 };
 
 /// Bytes that could be taken for the first or the last one of a frame, flags, modes, and others.
@@ -97,6 +99,7 @@ fn question(author: &Author<'_>, probe: &Probe) -> Option<Asked> {
         }
         Probe::Decode(packet, damage) => return decode(author, packet, damage),
         Probe::Stream(parts, _) => return stream(author, parts),
+        Probe::Converse(talk) => return host::question(author.spec, talk),
         _ => return None,
     };
     Some((requirement.to_owned(), op, demand))
