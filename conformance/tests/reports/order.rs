@@ -12,7 +12,7 @@ const REPORT: &[&[&str]] = &[
     &["collect", "read"],
     &["fit", "words", "course"],
     &["view"],
-    &["json", "jsonl", "junit", "markdown", "html", "text"],
+    &["json", "jsonl", "junit", "tap", "github", "badge", "markdown", "html", "text"],
     &["format", "screen"],
     &["compare"],
     &["schema"],
