@@ -16,6 +16,7 @@ pub mod compose;
 pub mod device;
 pub mod explain;
 pub mod input;
+pub mod journal;
 pub mod legible;
 #[cfg(unix)]
 pub mod link;

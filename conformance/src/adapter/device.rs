@@ -1,5 +1,6 @@
 //! What a device is asked on its port, and what came of it.
 
+use std::collections::BTreeSet;
 use std::fmt;
 
 use actucheck_spec::model::HexBytes;
@@ -9,23 +10,88 @@ use serde::{Deserialize, Serialize};
 
 use super::{Called, Passed};
 
-/// How much a check may do to a device. Each may do all that those before it may.
+/// What a check may do to a device beside reading from it, and sending what must be refused.
 #[derive(
-    Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema,
 )]
 #[serde(rename_all = "kebab-case")]
 pub enum Permission {
-    /// It reads, and sends what must be refused. Nothing changes.
-    #[default]
-    Read,
+    /// It writes registers of the RAM area while torque is off, and sets them back.
+    WriteRam,
+    /// It writes registers of the EEPROM area, which wear, and sets them back. ID and rate are never
+    /// written.
+    Eeprom,
+    /// It restarts the device, which forgets how many turns it has made.
+    Reboot,
+    /// It sets the device back to factory settings, but for ID and rate, and restores what it held.
+    Reset,
+    /// It switches torque on and off: the shaft may turn.
+    Motion,
 }
 
-/// The word that the command line has for it.
-impl fmt::Display for Permission {
+impl Permission {
+    /// All of them, from the least harmful on.
+    pub const ALL: [Self; 5] =
+        [Self::WriteRam, Self::Eeprom, Self::Reboot, Self::Reset, Self::Motion];
+
+    /// The word that the command line has for it.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::WriteRam => "write-ram",
+            Self::Eeprom => "eeprom",
+            Self::Reboot => "reboot",
+            Self::Reset => "reset",
+            Self::Motion => "motion",
+        }
+    }
+}
+
+/// What a check needs, or a run may do. Without any it reads, and nothing changes.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(transparent)]
+pub struct Permissions(BTreeSet<Permission>);
+
+impl Permissions {
+    /// To read, and nothing more.
+    pub const READ: Self = Self(BTreeSet::new());
+
+    /// Those that are not among others.
+    #[must_use]
+    pub fn without(&self, others: &Self) -> Self {
+        Self(self.0.difference(&others.0).copied().collect())
+    }
+
+    /// Whether this one is among them.
+    #[must_use]
+    pub fn has(&self, permission: Permission) -> bool {
+        self.0.contains(&permission)
+    }
+
+    /// Whether nothing may change.
+    #[must_use]
+    pub fn only_read(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+impl<const N: usize> From<[Permission; N]> for Permissions {
+    fn from(permissions: [Permission; N]) -> Self {
+        Self(permissions.into())
+    }
+}
+
+impl FromIterator<Permission> for Permissions {
+    fn from_iter<T: IntoIterator<Item = Permission>>(permissions: T) -> Self {
+        Self(permissions.into_iter().collect())
+    }
+}
+
+/// As the command line takes them, such as `write-ram,eeprom`; `read` if there are none.
+impl fmt::Display for Permissions {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            Self::Read => "read",
-        })
+        let words: Vec<_> = self.0.iter().map(|permission| permission.word()).collect();
+        f.pad(&if words.is_empty() { "read".to_owned() } else { words.join(",") })
     }
 }
 

@@ -10,7 +10,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::called::Called;
-use super::device::{Asked, Permission};
+use super::device::{Asked, Permissions};
 use super::host::{CallTo, Exchange, Step};
 use super::message::Told;
 use super::value::{Given, RegisterOf};
@@ -174,7 +174,7 @@ pub enum Question {
         wire: Wire,
         /// What it may do to the device.
         #[serde(default)]
-        needs: Permission,
+        needs: Permissions,
         /// What is sent, and how much is awaited.
         steps: Vec<Asked>,
     },

@@ -1,22 +1,25 @@
 //! `actucheck device`.
 
+mod restore;
+mod writing;
+
 use std::collections::BTreeMap;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-use actucheck::adapter::{Permission, Question, Wire};
+use actucheck::adapter::{Question, Wire};
 use actucheck::device::{NONE, Tables, of_model};
 use actucheck::port::Place;
-use actucheck::subject::device::{Counts, Device as Subject, Line};
+use actucheck::subject::device::{Counts, Device as Subject, Keeper, Kept, Line};
 use actucheck::suite::device::{
     Target, has_tables, hello, hello_all, identity, ids, is_checked, reported,
 };
 use actucheck::suite::plan::Plan;
 use actucheck::suite::{self, Options};
 use actucheck_spec::{Spec, model};
-use clap::Args;
+use clap::{Args, Subcommand};
 
 use super::ENDED;
 use super::shared::{
@@ -38,10 +41,16 @@ Examples:
   actucheck device --device ja40 -- actucheck bus ja40@1 --stdio
       a virtual device, to see what a run looks like
   actucheck device --device ja40 --dry-run
-      what a run would send; nothing is opened
+      what a run would send, and what each check needs; nothing is opened
+  actucheck device /dev/ttyUSB0 --allow write-ram,eeprom
+      write too, while torque is off; the device holds afterwards what it held before
+  actucheck device restore actucheck-ja40-1-20260102T030405Z.journal.json
+      the same after a crash, a power cut or a cable that was pulled
 
-A run reads, and sends what must be refused: nothing changes on the device, and nothing moves. No other
-program may use the port meanwhile.
+A run reads, and sends what must be refused: nothing changes on the device, and nothing moves. What changes
+something needs --allow. Before the first write a journal file gets all that the device holds; it is
+written back after each check and read again, also after Ctrl-C, and the file is removed. A device with torque
+on is not written to. No other program may use the port meanwhile.
 
 What the documents leave unspecified is recorded: `actucheck report compare` of the reports of two
 devices shows where they differ.
@@ -53,8 +62,14 @@ or written, 4 the port can't be used, or nothing answers";
 
 /// Checks a device: firmware, on its port
 #[derive(Debug, Args)]
-#[command(after_help = format!("{EXAMPLES}, {ENDED}"))]
+#[command(
+    after_help = format!("{EXAMPLES}, {ENDED}"),
+    args_conflicts_with_subcommands = true,
+    subcommand_negates_reqs = true
+)]
 pub(crate) struct Device {
+    #[command(subcommand)]
+    action: Option<Action>,
     /// Where the device is: the path of a serial port, tcp://HOST:PORT or udp://HOST:PORT
     #[arg(value_name = "PORT", required_unless_present_any = ["command", "dry_run"], conflicts_with = "command")]
     port: Option<String>,
@@ -73,6 +88,8 @@ pub(crate) struct Device {
     /// How many milliseconds an answer is awaited
     #[arg(long, value_name = "MS", default_value = "500", value_parser = milliseconds)]
     answer_within: Duration,
+    #[command(flatten)]
+    writing: writing::Writing,
     /// Print what would be sent, and open no port
     #[arg(long)]
     dry_run: bool,
@@ -83,6 +100,12 @@ pub(crate) struct Device {
     /// The command of firmware that speaks raw bytes on its standard input and output
     #[arg(last = true, value_name = "COMMAND")]
     command: Vec<String>,
+}
+
+/// What else is done with a device.
+#[derive(Debug, Subcommand)]
+enum Action {
+    Restore(restore::Restore),
 }
 
 /// The rate of most devices that leave the factory.
@@ -96,6 +119,9 @@ const MORE: Duration = Duration::from_millis(100);
 
 /// Runs the checks, writes the reports, and returns the exit status.
 pub(crate) fn run(options: &Device) -> Result<ExitCode, Failure> {
+    if let Some(Action::Restore(options)) = &options.action {
+        return restore::run(options);
+    }
     let spec = shared::spec()?;
     if options.neighbour == Some(options.id) {
         return Err(Failure::usage("--neighbour is another device; give it an ID other than --id"));
@@ -112,7 +138,24 @@ pub(crate) fn run(options: &Device) -> Result<ExitCode, Failure> {
         let (device, planned) = options.begin(&spec, tables, interrupted)?;
         subject = Some(device.clone());
         Ok((Subjects::of(device), planned))
-    })?;
+    });
+    let kept = subject.as_ref().and_then(Subject::end);
+    let status = match kept {
+        Some(Kept::Left(sentence)) => {
+            let left = Failure::incomplete(sentence);
+            return Err(match status {
+                Err(failure) => failure.and(&left),
+                Ok(_) => left,
+            });
+        }
+        Some(Kept::Restored) => {
+            anstream::eprintln!(
+                "actucheck: the device holds what it held before; that was read back"
+            );
+            status?
+        }
+        None => status?,
+    };
     let Some(subject) = subject else { return Ok(status) };
     anstream::eprintln!("actucheck: {}", subject.look(|line| passed(line.counts())));
     match subject.look(|line| line.gone().map(str::to_owned)) {
@@ -208,7 +251,16 @@ impl Device {
         let name = device.map_or(unknown, |device| &device.title);
         let firmware = said.firmware_version;
         let firmware = firmware.map_or_else(String::new, |version| format!("firmware {version}"));
-        let subject = Subject::new(format!("{name}, ID {id}"), firmware, line, Permission::Read);
+        let allowed = self.writing.allowed();
+        let subject = Subject::new(format!("{name}, ID {id}"), firmware, line, allowed.clone());
+        let subject = match device.filter(|_| !allowed.only_read()) {
+            Some(device) => {
+                let at = writing::At { wire, place: &place, baud, id, model: said.model_number };
+                let (journal, path) = self.writing.journal(device, &at);
+                subject.kept_by(Keeper::new(journal, path))
+            }
+            None => subject,
+        };
         let target = Target { id, device, neighbour: self.neighbour, present };
         Ok((subject, planned(spec, wire, &target)))
     }
@@ -234,6 +286,8 @@ impl Device {
         option("id", (self.id != 1).then(|| self.id.to_string()));
         option("neighbour", self.neighbour.map(|id| id.to_string()));
         option("baud", self.baud.map(|baud| baud.to_string()));
+        let allowed = self.writing.allowed();
+        option("allow", (!allowed.only_read()).then(|| allowed.to_string()));
         words
     }
 

@@ -77,6 +77,21 @@ impl fmt::Display for Place {
     }
 }
 
+/// What bytes are sent to and received from.
+pub trait Bytes: fmt::Debug + Send {
+    /// Sends bytes.
+    ///
+    /// # Errors
+    /// If the port is gone, or takes no bytes for seconds.
+    fn send(&mut self, bytes: &[u8]) -> io::Result<()>;
+
+    /// Receives what is there, or comes within `limit`. Returns how many bytes that is, 0 if none comes.
+    ///
+    /// # Errors
+    /// If the port is gone.
+    fn receive(&mut self, buffer: &mut [u8], limit: Duration) -> io::Result<usize>;
+}
+
 /// An open port. A program that was started for it ends with it.
 #[derive(Debug)]
 pub struct Port {
@@ -118,12 +133,10 @@ impl Port {
         }
         Ok(Self { input, output, _program: program })
     }
+}
 
-    /// Sends bytes.
-    ///
-    /// # Errors
-    /// If the port is gone, or takes no bytes for seconds.
-    pub fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
+impl Bytes for Port {
+    fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
         let begun = Instant::now();
         let mut rest = bytes;
         while !rest.is_empty() {
@@ -144,11 +157,7 @@ impl Port {
         Ok(())
     }
 
-    /// Receives what is there, or comes within `limit`. Returns how many bytes that is, 0 if none comes.
-    ///
-    /// # Errors
-    /// If the port is gone.
-    pub fn receive(&mut self, buffer: &mut [u8], limit: Duration) -> io::Result<usize> {
+    fn receive(&mut self, buffer: &mut [u8], limit: Duration) -> io::Result<usize> {
         let begun = Instant::now();
         loop {
             let left = limit.saturating_sub(begun.elapsed());

@@ -1,5 +1,7 @@
 //! A device on its port.
 
+mod keeper;
+
 use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -10,11 +12,13 @@ use actucheck_spec::wire::{Direction, Packet, Wire};
 
 use super::{Answer, Subject};
 use crate::adapter::{
-    Asked, Heard, Hello, Implementation, Limits, Output, Passed, Pause, Permission, Piece,
+    Asked, Heard, Hello, Implementation, Limits, Output, Passed, Pause, Permissions, Piece,
     Question, Reported, VERSION,
 };
-use crate::port::{Place, Port, PortError};
+use crate::port::{Bytes, Place, Port, PortError};
 use crate::suite::device;
+
+pub use self::keeper::{Keeper, Kept};
 
 /// A pause in which bytes arrive alone.
 const MOMENT: Duration = Duration::from_millis(2);
@@ -33,7 +37,9 @@ const KEPT: (usize, usize) = (1 << 16, 64);
 pub struct Device {
     hello: Hello,
     line: Arc<Mutex<Line>>,
-    allowed: Permission,
+    allowed: Permissions,
+    /// Keeps what it holds, if it may be written to.
+    keeper: Arc<Mutex<Option<Keeper>>>,
 }
 
 /// The line to a device.
@@ -41,11 +47,13 @@ pub struct Device {
 pub struct Line {
     wire: Wire,
     place: Place,
-    port: Port,
+    port: Box<dyn Bytes>,
     /// How long an answer is awaited.
     limit: Duration,
     /// When this is set, no answer is awaited any more.
     interrupted: Arc<AtomicBool>,
+    /// Whether the device is restored, which an interruption does not end.
+    is_restoring: bool,
     /// Whether what is sent comes back, as with most adapters for a line of one wire.
     echoes: bool,
     /// The bytes that ask whether the device is there, and what it answered last.
@@ -87,18 +95,31 @@ impl Line {
         interrupted: Arc<AtomicBool>,
     ) -> Result<Self, PortError> {
         let port = Port::open(place, baud)?;
+        Ok(Self::on(wire, place, Box::new(port), limit, interrupted))
+    }
+
+    /// A line on a port that is open.
+    #[must_use]
+    pub fn on(
+        wire: Wire,
+        place: &Place,
+        port: Box<dyn Bytes>,
+        limit: Duration,
+        interrupted: Arc<AtomicBool>,
+    ) -> Self {
         let (place, counts) = (place.clone(), Counts::default());
-        Ok(Self {
+        Self {
             wire,
             place,
             port,
             limit,
             interrupted,
+            is_restoring: false,
             echoes: false,
             hello: None,
             gone: None,
             counts,
-        })
+        }
     }
 
     /// Sends what comes before everything else, if the wire has that, and looks for all devices then, as
@@ -302,7 +323,7 @@ impl Line {
     }
 
     fn is_interrupted(&self) -> bool {
-        self.interrupted.load(Ordering::Relaxed)
+        !self.is_restoring && self.interrupted.load(Ordering::Relaxed)
     }
 
     /// What passed so far.
@@ -387,7 +408,7 @@ impl Record {
 impl Device {
     /// A device of this name and firmware on a line.
     #[must_use]
-    pub fn new(name: String, firmware: String, line: Line, allowed: Permission) -> Self {
+    pub fn new(name: String, firmware: String, line: Line, allowed: Permissions) -> Self {
         let language = "a device".to_owned();
         let implementation = Implementation { name, version: firmware, language, url: None };
         let hello = Hello {
@@ -400,7 +421,23 @@ impl Device {
             max_in_flight: 1,
             limits: Limits::default(),
         };
-        Self { hello, line: Arc::new(Mutex::new(line)), allowed }
+        let (line, keeper) = (Arc::new(Mutex::new(line)), Arc::default());
+        Self { hello, line, allowed, keeper }
+    }
+
+    /// The same device, of which this keeper keeps what it holds. Without one nothing is written to it.
+    #[must_use]
+    pub fn kept_by(mut self, keeper: Keeper) -> Self {
+        self.keeper = Arc::new(Mutex::new(Some(keeper)));
+        self
+    }
+
+    /// Sets the device back to what it held before, and says what came of it; `None` if nothing was written.
+    #[must_use]
+    pub fn end(&self) -> Option<Kept> {
+        let mut keeper = self.keeper.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut line = self.line.lock().unwrap_or_else(PoisonError::into_inner);
+        keeper.as_mut()?.end(&mut *line)
     }
 
     /// Looks at the line.
@@ -418,14 +455,31 @@ impl Subject for Device {
         let Question::Device { needs, steps, .. } = question else {
             return Answer::Skipped("a device has only its port".to_owned());
         };
-        if *needs > self.allowed {
-            return Answer::Skipped(format!("it needs --allow {needs}"));
+        let missing = needs.without(&self.allowed);
+        if !missing.only_read() {
+            return Answer::Skipped(format!("it needs --allow {missing}"));
         }
+        let mut keeper = self.keeper.lock().unwrap_or_else(PoisonError::into_inner);
         let mut line = self.line.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(gone) = &line.gone {
             return Answer::NotAsked(gone.clone());
         }
-        match line.converse(steps) {
+        let heard = if needs.only_read() {
+            line.converse(steps)
+        } else {
+            let Some(keeper) = keeper.as_mut() else {
+                return Answer::Skipped("nothing keeps what its registers hold".to_owned());
+            };
+            if let Err(reason) = keeper.before(needs, &mut *line) {
+                return Answer::Skipped(reason);
+            }
+            let heard = line.converse(steps);
+            if heard.is_ok() {
+                keeper.after(&mut *line);
+            }
+            heard
+        };
+        match heard {
             _ if line.is_interrupted() => Answer::NotAsked("interrupted".to_owned()),
             Ok(heard) => Answer::Ok(Output::Line(heard)),
             Err(error) => {

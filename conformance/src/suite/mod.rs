@@ -104,7 +104,9 @@ pub fn every_device_plan<'a>(spec: &'a Spec, wires: &[Wire]) -> Plan<'a> {
     let devices = spec.devices.iter().map(|file| &file.content);
     let devices = devices.filter(|device| wires.contains(&device.wire));
     let plan = |device: &'a model::Device| {
-        device_plan(spec, &[device.wire], &Target::alone(Some(device)).with_neighbour(2))
+        // What nobody else may hear is asked of a device that is alone.
+        let target = Target { neighbour: Some(2), ..Target::alone(Some(device)) };
+        device_plan(spec, &[device.wire], &target)
     };
     let others = wires.iter().filter(|wire| !device::has_tables(**wire));
     let others =

@@ -4,7 +4,7 @@ use schemars::{Schema, SchemaGenerator, json_schema};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Deserializer};
 
-use crate::adapter::{Asked, Course, Heard, Output, Permission, Question, Step, Wire};
+use crate::adapter::{Asked, Course, Heard, Output, Permissions, Question, Step, Wire};
 
 /// A question to an adapter, or what no adapter gets as one request: a conversation of a host or with a
 /// device.
@@ -13,7 +13,7 @@ pub(super) fn requested(generator: &mut SchemaGenerator) -> Schema {
         (generator.subschema_for::<Question>(), generator.subschema_for::<Wire>());
     let steps = generator.subschema_for::<Vec<Step>>();
     let (asked, needs) =
-        (generator.subschema_for::<Vec<Asked>>(), generator.subschema_for::<Permission>());
+        (generator.subschema_for::<Vec<Asked>>(), generator.subschema_for::<Permissions>());
     json_schema!({ "anyOf": [question, { "type": "null" }, {
         "type": "object",
         "properties": { "op": { "const": "converse" }, "wire": wire, "steps": steps },

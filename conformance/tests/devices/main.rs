@@ -18,8 +18,10 @@ mod fault;
 mod faults;
 mod firmware;
 mod innfos;
+mod interrupted;
 mod killing;
 mod right;
+mod writing;
 
 use std::collections::BTreeSet;
 use std::process::ExitCode;
@@ -46,7 +48,7 @@ fn main() -> ExitCode {
 
 /// The faults of all wires.
 fn every() -> impl Iterator<Item = &'static Fault> {
-    faults::FAULTS.iter().chain(innfos::FAULTS)
+    faults::FAULTS.iter().chain(writing::FAULTS).chain(innfos::FAULTS)
 }
 
 fn tests() -> ExitCode {
@@ -66,6 +68,12 @@ fn tests() -> ExitCode {
         .map(|row| test(format!("killed::{}", row.name), Box::new(|| killing::wrong(row))))
         .collect();
     trials.push(test("checks::each_has_a_requirement".to_owned(), Box::new(right::requirements)));
+    for (name, wrong) in interrupted::TESTS {
+        trials.push(Trial::test(format!("interrupted::{name}"), move || {
+            let wrong = wrong();
+            if wrong.is_empty() { Ok(()) } else { Err(Failed::from(wrong)) }
+        }));
+    }
     for (name, wrong) in right::TESTS {
         trials.push(test(format!("right::{name}"), Box::new(wrong)));
     }

@@ -3,6 +3,7 @@ use std::path::Path;
 
 use actucheck::adapter::{self, Output, Question, Wire};
 use actucheck::compose;
+use actucheck::journal;
 use actucheck::report::compare::Comparison;
 use actucheck::report::jsonl::Stream;
 use actucheck::report::read::{self, ReadError};
@@ -37,8 +38,10 @@ fn faults(validator: &Validator, value: &Value) -> Vec<String> {
 
 #[test]
 fn the_schemas_in_the_tree_are_fresh() {
-    for (name, text) in
-        schema::all().into_iter().chain(adapter::schema::all()).chain([compose::schema()])
+    for (name, text) in schema::all()
+        .into_iter()
+        .chain(adapter::schema::all())
+        .chain([compose::schema(), journal::schema()])
     {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("schema");
         let file = folder.join(format!("{name}.schema.json"));

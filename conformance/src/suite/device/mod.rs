@@ -66,6 +66,21 @@ struct Own {
     takes: fn(&[u8]) -> Duration,
     /// What a device says of itself in the answer to that.
     identity: fn(&Reported) -> Identity,
+    /// What changes registers, if its devices have some.
+    instructions: Option<Instructions>,
+}
+
+/// The packets by which registers are read and set back.
+#[derive(Clone, Copy, Debug)]
+pub struct Instructions {
+    /// Reads so many bytes of a device from an address on.
+    pub read: fn(u8, u16, u16) -> Packet,
+    /// Writes bytes to a device from an address on.
+    pub write: fn(u8, u16, &[u8]) -> Packet,
+    /// Lets a device carry out the write that waits.
+    pub action: fn(u8) -> Packet,
+    /// Restarts a device.
+    pub reboot: fn(u8) -> Packet,
 }
 
 /// What a device says of itself.
@@ -88,6 +103,7 @@ static WIRES: [Own; 2] = [
         hello_all: dynamixel2::hello_all,
         takes: |_| Duration::ZERO,
         identity: dynamixel2::identity,
+        instructions: Some(dynamixel2::INSTRUCTIONS),
     },
     Own {
         wire: wire::innfos::WIRE,
@@ -98,6 +114,7 @@ static WIRES: [Own; 2] = [
         hello_all: innfos::hello_all,
         takes: innfos::takes,
         identity: innfos::identity,
+        instructions: None,
     },
 ];
 
@@ -168,6 +185,12 @@ pub fn hello_all(wire: Wire) -> Option<Packet> {
 #[must_use]
 pub fn identity(wire: Wire, answer: &Reported) -> Identity {
     own(wire).map(|own| (own.identity)(answer)).unwrap_or_default()
+}
+
+/// The packets by which registers of this wire's devices are read and set back.
+#[must_use]
+pub fn instructions(wire: Wire) -> Option<&'static Instructions> {
+    own(wire)?.instructions.as_ref()
 }
 
 /// The ids of the basic checks that an answer rests on: that the device answers at all, and for each call

@@ -6,23 +6,32 @@
 //! - addressee: other IDs, and the broadcast ID;
 //! - damaged: packets with a wrong byte, and packets in noise or in parts;
 //! - sentence: what sentences say of packets in general;
-//! - several: instructions that read from several devices.
+//! - several: instructions that read from several devices;
+//! - written, registered, stuffed: what is written is held, whoever else is meant, and whatever its bytes are;
+//! - range, limit, access, length: what can't be written;
+//! - restart: what a restart or a reset leaves, and what torque locks.
 
+mod access;
 mod addressee;
 mod damaged;
 mod identity;
+mod limits;
 mod refused;
+mod restart;
 mod sentences;
 mod several;
+mod stuffed;
 mod table;
+mod writable;
+mod written;
 
 use actucheck_spec::model::{Citation, HexBytes, Role};
 use actucheck_spec::wire;
 use actucheck_spec::wire::dynamixel2::reference::{BROADCAST, frame};
 use actucheck_spec::wire::dynamixel2::{Packet, WIRE};
 
-use super::{Identity, Target, basic};
-use crate::adapter::{Asked, Called, Pause, Permission, Piece, Question, Reported};
+use super::{Identity, Instructions, Target, basic};
+use crate::adapter::{Asked, Called, Pause, Permissions, Piece, Question, Reported};
 use crate::suite::Author;
 use crate::suite::check::{Check, Demand};
 use crate::suite::plan::Family;
@@ -32,9 +41,17 @@ use crate::suite::wanted::{Like, Part, Wanted};
 mod code {
     pub(super) const PING: u8 = 0x01;
     pub(super) const READ: u8 = 0x02;
+    pub(super) const WRITE: u8 = 0x03;
+    pub(super) const REG_WRITE: u8 = 0x04;
+    pub(super) const ACTION: u8 = 0x05;
+    pub(super) const FACTORY_RESET: u8 = 0x06;
+    pub(super) const REBOOT: u8 = 0x08;
     pub(super) const SYNC_READ: u8 = 0x82;
+    pub(super) const SYNC_WRITE: u8 = 0x83;
     pub(super) const FAST_SYNC_READ: u8 = 0x8A;
+    pub(super) const FAST_SYNC_WRITE: u8 = 0x8B;
     pub(super) const BULK_READ: u8 = 0x92;
+    pub(super) const BULK_WRITE: u8 = 0x93;
 }
 
 /// Error numbers (DYNAMIXEL Protocol 2.0, Error).
@@ -42,6 +59,9 @@ mod error {
     pub(super) const NONE: u8 = 0;
     pub(super) const INSTRUCTION: u8 = 2;
     pub(super) const CRC: u8 = 3;
+    pub(super) const DATA_RANGE: u8 = 4;
+    pub(super) const DATA_LENGTH: u8 = 5;
+    pub(super) const DATA_LIMIT: u8 = 6;
     pub(super) const ACCESS: u8 = 7;
 }
 
@@ -54,7 +74,7 @@ pub(super) fn families<'a>(author: Author<'a>, target: &Target<'a>) -> Vec<Famil
         Family::of(format!("dynamixel2.device.{prefix}."), move || checks(&talk))
     };
     vec![
-        family("basic", identity::basics),
+        family("basic", |talk| [identity::basics(talk), written::basics(talk)].concat()),
         family("identity", identity::checks),
         family("table", table::checks),
         family("refused", refused::checks),
@@ -63,8 +83,26 @@ pub(super) fn families<'a>(author: Author<'a>, target: &Target<'a>) -> Vec<Famil
         family("stream", damaged::in_streams),
         family("several", several::checks),
         family("sentence", sentences::checks),
+        family("written", |talk| [written::kept(talk), written::several(talk)].concat()),
+        family("registered", written::registered),
+        family("stuffed", stuffed::checks),
+        family("range", limits::ranges),
+        family("limit", limits::limited),
+        family("access", access::checks),
+        family("length", access::lengths),
+        family("restart", restart::reboot),
+        family("reset", restart::reset),
+        family("lock", restart::lock),
     ]
 }
+
+/// What reads registers and sets them back.
+pub(super) const INSTRUCTIONS: Instructions = Instructions {
+    read: |id, address, length| read(id, address, length).into(),
+    write: |id, address, data| write(id, address, data).into(),
+    action: |id| instruction(id, code::ACTION, Vec::new()).into(),
+    reboot: |id| instruction(id, code::REBOOT, Vec::new()).into(),
+};
 
 /// Ping.
 pub(super) fn hello(id: u8) -> wire::Packet {
@@ -145,7 +183,19 @@ impl Talk<'_> {
         steps: Vec<Asked>,
         demand: Demand,
     ) -> Check {
-        let question = Question::Device { wire: WIRE, needs: Permission::Read, steps };
+        self.asks_with(Permissions::READ, id, requirements, steps, demand)
+    }
+
+    /// What needs more than to read.
+    fn asks_with(
+        &self,
+        needs: Permissions,
+        id: String,
+        requirements: &[impl AsRef<str>],
+        steps: Vec<Asked>,
+        demand: Demand,
+    ) -> Check {
+        let question = Question::Device { wire: WIRE, needs, steps };
         // A test checks that there is one for every check.
         let requirement = self.row(requirements).unwrap_or_default();
         self.author.check(id, &requirement, question, demand)
@@ -194,7 +244,7 @@ impl Talk<'_> {
     }
 
     fn read(&self, address: u16, length: u16) -> Packet {
-        instruction(self.id(), code::READ, [address, length].map(u16::to_le_bytes).concat())
+        read(self.id(), address, length)
     }
 
     /// What answers Ping.
@@ -237,6 +287,14 @@ fn asked(packet: Packet, awaits: usize) -> Asked {
 
 fn ping(id: u8) -> Packet {
     instruction(id, code::PING, Vec::new())
+}
+
+fn read(id: u8, address: u16, length: u16) -> Packet {
+    instruction(id, code::READ, [address, length].map(u16::to_le_bytes).concat())
+}
+
+fn write(id: u8, address: u16, data: &[u8]) -> Packet {
+    instruction(id, code::WRITE, [&address.to_le_bytes()[..], data].concat())
 }
 
 fn instruction(id: u8, instruction: u8, params: Vec<u8>) -> Packet {

@@ -16,7 +16,7 @@ use actucheck_spec::wire::innfos::{Packet, WIRE, reference};
 use actucheck_spec::wire::{self, Direction};
 
 use super::{Identity, Target};
-use crate::adapter::{Asked, Called, Pause, Permission, Piece, Question, Reported};
+use crate::adapter::{Asked, Called, Pause, Permissions, Piece, Question, Reported};
 use crate::suite::Author;
 use crate::suite::check::{Check, Demand};
 use crate::suite::plan::Family;
@@ -126,7 +126,7 @@ impl Talk<'_> {
     }
 
     fn asks(&self, name: &str, requirement: &str, steps: Vec<Asked>, demand: Demand) -> Check {
-        let question = Question::Device { wire: WIRE, needs: Permission::Read, steps };
+        let question = Question::Device { wire: WIRE, needs: Permissions::READ, steps };
         self.author.check(format!("innfos.device.{name}"), requirement, question, demand)
     }
 

@@ -1,0 +1,87 @@
+//! What a run may do to a device, and where its journal is.
+
+use std::path::PathBuf;
+use std::time::SystemTime;
+
+use actucheck::adapter::{Permission, Permissions, Wire};
+use actucheck::journal::{Journal, Layout, Snapshot, VERSION};
+use actucheck::names::as_word;
+use actucheck::port::Place;
+use actucheck_spec::model;
+use chrono::{DateTime, SecondsFormat, Utc};
+use clap::Args;
+
+use super::super::shared::one_of;
+
+/// What may be done to the device.
+#[derive(Debug, Args)]
+pub(super) struct Writing {
+    /// What a run may do beside reading; several with commas, or given more than once. None of them contains
+    /// another
+    #[arg(long, value_name = "WHAT", value_delimiter = ',', value_parser = permission())]
+    allow: Vec<Option<Permission>>,
+    /// The file that keeps what the device holds while it is written to [default: one in this folder, with
+    /// the device's name, its ID and the time]
+    #[arg(long, value_name = "FILE")]
+    journal: Option<PathBuf>,
+}
+
+/// Where a device is.
+pub(super) struct At<'a> {
+    pub(super) wire: Wire,
+    pub(super) place: &'a Place,
+    pub(super) baud: u32,
+    pub(super) id: u8,
+    pub(super) model: Option<u16>,
+}
+
+fn permission() -> impl clap::builder::TypedValueParser<Value = Option<Permission>> {
+    let meaning = |permission| match permission {
+        Permission::WriteRam => {
+            "write registers of the RAM area while torque is off, and set them back"
+        }
+        Permission::Eeprom => "write registers of the EEPROM area, which wear, and set them back",
+        Permission::Reboot => {
+            "restart the device, which forgets how many turns it made, and clears its alarms"
+        }
+        Permission::Reset => {
+            "set the device back to factory settings, but for ID and rate, and then to what it held"
+        }
+        Permission::Motion => {
+            "switch torque on and off: the shaft may turn; nothing may be in its way"
+        }
+    };
+    let read = (None, "read", "read, and send what must be refused; it is always allowed");
+    let others = Permission::ALL.map(|one| (Some(one), one.word(), meaning(one)));
+    one_of([read].into_iter().chain(others))
+}
+
+impl Writing {
+    pub(super) fn allowed(&self) -> Permissions {
+        self.allow.iter().flatten().copied().collect()
+    }
+
+    /// The journal of a device, which holds nothing yet, and its file.
+    pub(super) fn journal(&self, device: &model::Device, at: &At<'_>) -> (Journal, PathBuf) {
+        let At { wire, place, baud, id, model } = at;
+        let now: DateTime<Utc> = SystemTime::now().into();
+        let path = self.journal.clone().unwrap_or_else(|| {
+            let (name, time) = (as_word(&device.device), now.format("%Y%m%dT%H%M%SZ"));
+            format!("actucheck-{name}-{id}-{time}.journal.json").into()
+        });
+        let journal = Journal {
+            version: VERSION,
+            date: now.to_rfc3339_opts(SecondsFormat::Secs, true),
+            wire: *wire,
+            device: device.title.clone(),
+            model_number: *model,
+            id: *id,
+            port: (!matches!(place, Place::Program(_))).then(|| place.to_string()),
+            baud: *baud,
+            allowed: self.allowed(),
+            layout: Layout::of(device),
+            held: Snapshot::default(),
+        };
+        (journal, path)
+    }
+}

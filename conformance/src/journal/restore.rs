@@ -1,0 +1,240 @@
+//! The way back to what a device held.
+
+use actucheck_spec::wire::{Packet, Wire};
+use thiserror::Error;
+
+use super::{Journal, Layout, Place, Run, Snapshot};
+use crate::adapter::{Permission, Reported};
+use crate::suite::device::{Instructions, hello, identity, instructions};
+
+/// How often the device is called until it answers: it may take a few packets for the rest of one that was
+/// cut, or restart.
+const CALLS: usize = 10;
+/// How often one packet is sent until it is answered.
+const TRIES: usize = 3;
+/// How often all is written that still differs: a limit may have to be there before what it limits.
+const PASSES: usize = 4;
+
+/// Who sends packets to a device, and hears it.
+pub trait Ask {
+    /// Sends a packet, and returns what the device with this ID answers, if anything.
+    ///
+    /// # Errors
+    /// If the port is gone, as a sentence.
+    fn ask(&mut self, id: u8, packet: &Packet) -> Result<Option<Reported>, String>;
+}
+
+/// Why a device is not as it was.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum RestoreError {
+    /// The port is gone.
+    #[error("{0}")]
+    Port(String),
+    /// Nothing answers.
+    #[error("the device with ID {0} does not answer; is it on, and alone with this ID?")]
+    Silent(u8),
+    /// Registers can't be read.
+    #[error(
+        "{1} bytes from address {0} on can't be read, so it is not known what the device holds; check with --allow read only, and mend that first"
+    )]
+    Unreadable(u16, u16),
+    /// It is another device.
+    #[error(
+        "another device has the ID: its model number is {found}, not {wanted}; connect the right one"
+    )]
+    OtherModel {
+        /// What it tells.
+        found: u16,
+        /// What the journal tells.
+        wanted: u16,
+    },
+    /// Torque is on.
+    #[error(
+        "torque is on, and it was not switched on by this run; support what the device carries, switch torque off, and restore again"
+    )]
+    Torque,
+    /// Registers differ still.
+    #[error("it does not take back what it held: {}; restart the device, and restore again", .0.join(", "))]
+    Left(Vec<String>),
+    /// Its wire has no registers.
+    #[error("devices on {0} have no registers that are kept; there is nothing to restore")]
+    Wire(Wire),
+}
+
+/// Gives a device back what it held, and looks whether it holds it. Only what differs is written. Returns how
+/// many registers that were.
+///
+/// # Errors
+/// If it can't be restored now.
+pub fn restore(journal: &Journal, ask: &mut dyn Ask) -> Result<usize, RestoreError> {
+    let way = Way::new(journal, ask)?;
+    way.go()
+}
+
+/// Whether a device answers to an ID, after noise and restarts too. Returns its model number.
+///
+/// # Errors
+/// If it does not.
+pub fn reached(wire: Wire, id: u8, ask: &mut dyn Ask) -> Result<Option<u16>, RestoreError> {
+    let packet = hello(wire, id).ok_or(RestoreError::Wire(wire))?;
+    for _ in 0..CALLS {
+        if let Some(answer) = ask.ask(id, &packet).map_err(RestoreError::Port)? {
+            return Ok(identity(wire, &answer).model_number);
+        }
+    }
+    Err(RestoreError::Silent(id))
+}
+
+/// What the registers of a layout hold.
+///
+/// # Errors
+/// If they can't be read.
+pub fn snapshot(
+    wire: Wire,
+    id: u8,
+    layout: &Layout,
+    ask: &mut dyn Ask,
+) -> Result<Snapshot, RestoreError> {
+    let instructions = instructions(wire).ok_or(RestoreError::Wire(wire))?;
+    let mut snapshot = Snapshot::default();
+    for (address, length) in &layout.read {
+        let packet = (instructions.read)(id, *address, *length);
+        let answer = tried(id, &packet, ask)?;
+        let data = answer.filter(|answer| answer.error.unwrap_or_default() == 0);
+        let data = data.and_then(|answer| answer.data);
+        let data = data.filter(|data| data.0.len() == usize::from(*length));
+        let data = data.ok_or(RestoreError::Unreadable(*address, *length))?;
+        snapshot.0.push(Run { address: *address, data });
+    }
+    Ok(snapshot)
+}
+
+/// Lets a shaft without torque stay where it is when it gets torque: its goal is where it is.
+///
+/// # Errors
+/// If the port is gone, or the place can't be read.
+pub fn stand_still(journal: &Journal, ask: &mut dyn Ask) -> Result<(), RestoreError> {
+    let Journal { wire, id, layout, .. } = journal;
+    let instructions = instructions(*wire).ok_or(RestoreError::Wire(*wire))?;
+    let Some((goal, present)) = &layout.position else { return Ok(()) };
+    let packet = (instructions.read)(*id, present.address, present.size);
+    let answer = tried(*id, &packet, ask)?.and_then(|answer| answer.data);
+    let data = answer.ok_or(RestoreError::Unreadable(present.address, present.size))?;
+    let packet = (instructions.write)(*id, goal.address, &data.0);
+    tried(*id, &packet, ask).map(drop)
+}
+
+/// Sends a packet until it is answered.
+fn tried(id: u8, packet: &Packet, ask: &mut dyn Ask) -> Result<Option<Reported>, RestoreError> {
+    for _ in 0..TRIES {
+        let answer = ask.ask(id, packet).map_err(RestoreError::Port)?;
+        if answer.is_some() {
+            return Ok(answer);
+        }
+    }
+    Ok(None)
+}
+
+struct Way<'a> {
+    journal: &'a Journal,
+    instructions: &'static Instructions,
+    ask: &'a mut dyn Ask,
+    /// The addresses of the registers that were written.
+    written: Vec<u16>,
+}
+
+impl<'a> Way<'a> {
+    fn new(journal: &'a Journal, ask: &'a mut dyn Ask) -> Result<Self, RestoreError> {
+        let instructions = instructions(journal.wire).ok_or(RestoreError::Wire(journal.wire))?;
+        Ok(Self { journal, instructions, ask, written: Vec::new() })
+    }
+
+    fn go(mut self) -> Result<usize, RestoreError> {
+        let Journal { layout, held, allowed, .. } = self.journal;
+        let mut now = self.arrive()?;
+        if now.is_set(layout.torque.as_ref()) {
+            let is_ours = allowed.has(Permission::Motion) && !held.is_set(layout.torque.as_ref());
+            let torque = layout.torque.as_ref().filter(|_| is_ours).ok_or(RestoreError::Torque)?;
+            self.write(torque, &vec![0; torque.size.into()])?;
+            now = self.look()?;
+            if now.is_set(layout.torque.as_ref()) {
+                return Err(RestoreError::Torque);
+            }
+        }
+        if now.is_set(layout.registered.as_ref()) && !held.is_set(layout.registered.as_ref()) {
+            let packet = (self.instructions.action)(self.journal.id);
+            tried(self.journal.id, &packet, self.ask)?;
+            now = self.look()?;
+        }
+        now = self.set_back(now)?;
+        // Only when the limits are back does an alarm stay away.
+        if self.has_new_alarm(&now) && allowed.has(Permission::Reboot) {
+            let packet = (self.instructions.reboot)(self.journal.id);
+            self.ask.ask(self.journal.id, &packet).map_err(RestoreError::Port)?;
+            now = self.arrive()?;
+            self.set_back(now)?;
+        }
+        self.written.sort_unstable();
+        self.written.dedup();
+        Ok(self.written.len())
+    }
+
+    /// Writes what differs, until nothing does.
+    fn set_back(&mut self, mut now: Snapshot) -> Result<Snapshot, RestoreError> {
+        let Journal { layout, held, .. } = self.journal;
+        for _ in 0..PASSES {
+            let differing = layout.differing(held, &now);
+            if differing.is_empty() {
+                return Ok(now);
+            }
+            for place in differing {
+                self.write(place, held.get(place).unwrap_or_default())?;
+                self.written.push(place.address);
+            }
+            now = self.look()?;
+        }
+        let left = layout.differing(held, &now);
+        if left.is_empty() {
+            return Ok(now);
+        }
+        Err(RestoreError::Left(left.into_iter().map(|place| place.name.clone()).collect()))
+    }
+
+    /// Reads the registers; if they can't be read, calls the device first, and lets it answer.
+    fn arrive(&mut self) -> Result<Snapshot, RestoreError> {
+        let Journal { wire, id, model_number, layout, held, .. } = self.journal;
+        let found = reached(*wire, *id, self.ask)?;
+        if let (Some(found), Some(wanted)) = (found, *model_number)
+            && found != wanted
+        {
+            return Err(RestoreError::OtherModel { found, wanted });
+        }
+        let level = layout.level.as_ref().and_then(|level| Some((level, held.get(level)?)));
+        match (self.look(), level) {
+            (Err(RestoreError::Unreadable(..)), Some((level, data))) => {
+                self.write(level, data)?;
+                self.look()
+            }
+            (looked, _) => looked,
+        }
+    }
+
+    fn look(&mut self) -> Result<Snapshot, RestoreError> {
+        snapshot(self.journal.wire, self.journal.id, &self.journal.layout, self.ask)
+    }
+
+    /// Writes a register. Whether it holds that then is looked at later: not every device answers.
+    fn write(&mut self, place: &Place, data: &[u8]) -> Result<(), RestoreError> {
+        let packet = (self.instructions.write)(self.journal.id, place.address, data);
+        self.ask.ask(self.journal.id, &packet).map_err(RestoreError::Port)?;
+        Ok(())
+    }
+
+    fn has_new_alarm(&self, now: &Snapshot) -> bool {
+        let Journal { layout, held, .. } = self.journal;
+        let number = |snapshot: &Snapshot| {
+            layout.alarms.as_ref().and_then(|alarms| snapshot.number(alarms)).unwrap_or_default()
+        };
+        number(now) & !number(held) != 0
+    }
+}

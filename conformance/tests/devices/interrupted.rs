@@ -1,0 +1,302 @@
+//! Runs that end at any packet, or are killed: the device is restored from the journal, bit for bit.
+
+use std::fs;
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::sync::{Arc, Mutex};
+use std::thread::sleep;
+use std::time::Duration;
+
+use actucheck::adapter::{Permission, Question};
+use actucheck::bus::{QUIET, Sender, VirtualBus};
+use actucheck::journal::{Journal, Layout, Snapshot, VERSION, restore, snapshot};
+use actucheck::port::{Bytes, Place};
+use actucheck::subject::Subject as _;
+use actucheck::subject::device::{Device, Keeper, Kept, Line};
+use actucheck::suite;
+use actucheck::suite::device::Target;
+use actucheck_spec::Spec;
+use actucheck_spec::model;
+
+use super::right::Bus;
+
+/// A test by its name, which returns what is wrong.
+type Test = (&'static str, fn() -> String);
+
+/// The tests.
+pub(crate) const TESTS: [Test; 6] = [
+    ("ja40", || {
+        ended("ja40", "velocity-i-gain=321,velocity-limit=1234,goal-velocity=100,goal-position=77")
+    }),
+    ("ja_variant", || ended("ja-variant", "position-p-gain=5,velocity-limit=99")),
+    ("xm430", || {
+        ended("xm430-w210", "led=1,velocity-limit=99,goal-velocity=50,profile-velocity=5")
+    }),
+    ("xl330", || {
+        ended("xl330-m288", "led=1,velocity-limit=99,goal-velocity=50,profile-velocity=5")
+    }),
+    ("killed", killed),
+    ("torque", torque),
+];
+
+/// How many runs end early, for each device: 1,000 in all.
+const RUNS: usize = 250;
+/// Pieces that a check sends, with what keeps and restores the registers around it, and a few more.
+const PIECES: u64 = 70;
+/// Bytes of a packet that is cut.
+const BYTES: u64 = 16;
+
+/// A virtual device, and how many pieces its port takes until it is gone.
+struct Virtual {
+    bus: VirtualBus,
+    now: Duration,
+    pieces: u64,
+    /// How many bytes of the last piece arrive.
+    cut: usize,
+    coming: Vec<u8>,
+}
+
+#[derive(Clone)]
+struct Memory(Arc<Mutex<Virtual>>);
+
+impl std::fmt::Debug for Memory {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Memory")
+    }
+}
+
+impl Bytes for Memory {
+    fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
+        let mut device = self.0.lock().unwrap();
+        if device.pieces == 0 {
+            return Err(ErrorKind::BrokenPipe.into());
+        }
+        device.pieces -= 1;
+        let whole = if device.pieces > 0 { bytes.len() } else { device.cut.min(bytes.len()) };
+        let now = device.now;
+        device.bus.send(&bytes[..whole], now);
+        Ok(())
+    }
+
+    fn receive(&mut self, buffer: &mut [u8], limit: Duration) -> io::Result<usize> {
+        let mut device = self.0.lock().unwrap();
+        let device = &mut *device;
+        device.now += Duration::from_millis(1);
+        device.coming.extend(device.bus.receive(device.now));
+        if device.coming.is_empty() && !limit.is_zero() {
+            device.now += limit;
+            if limit > QUIET {
+                device.bus.quiet(Sender::default(), device.now);
+            }
+            device.coming.extend(device.bus.receive(device.now));
+        }
+        let count = device.coming.len().min(buffer.len());
+        buffer[..count].copy_from_slice(&device.coming[..count]);
+        device.coming.drain(..count);
+        Ok(count)
+    }
+}
+
+/// A device in memory, and what is asked of it.
+struct Bench {
+    memory: Memory,
+    journal: Journal,
+    path: PathBuf,
+    questions: Vec<Question>,
+    ticks: Option<(u16, u16)>,
+}
+
+impl Bench {
+    fn new(spec: &Spec, device: &model::Device, registers: &str, path: PathBuf) -> Self {
+        let bus = format!("{}@1:{registers}", device.device).parse().unwrap();
+        let device_in_memory =
+            Virtual { bus, now: Duration::ZERO, pieces: u64::MAX, cut: 0, coming: Vec::new() };
+        let plan = suite::device_plan(spec, &[device.wire], &Target::alone(Some(device)));
+        let writes = |question: &Question| matches!(question, Question::Device { needs, .. } if !needs.only_read());
+        let questions = plan.checks().map(|check| check.question).filter(writes);
+        let journal = Journal {
+            version: VERSION,
+            date: String::new(),
+            wire: device.wire,
+            device: device.title.clone(),
+            model_number: device.model_number,
+            id: 1,
+            port: None,
+            baud: 57_600,
+            allowed: Permission::ALL.into(),
+            layout: Layout::of(device),
+            held: Snapshot::default(),
+        };
+        let tick = device.register("Realtime Tick");
+        Self {
+            memory: Memory(Arc::new(Mutex::new(device_in_memory))),
+            journal,
+            path,
+            questions: questions.collect(),
+            ticks: tick.map(|tick| (tick.address, tick.kind.size())),
+        }
+    }
+
+    /// A line to the device, whose port takes so many pieces, and so many bytes of the last.
+    fn line(&self, pieces: u64, cut: usize) -> Line {
+        let mut device = self.memory.0.lock().unwrap();
+        (device.pieces, device.cut) = (pieces, cut);
+        device.coming.clear();
+        let place = Place::Serial("memory".into());
+        let limit = QUIET * 2;
+        Line::on(self.journal.wire, &place, Box::new(self.memory.clone()), limit, Arc::default())
+    }
+
+    fn device(&self, line: Line) -> Device {
+        let device =
+            Device::new("a device".to_owned(), String::new(), line, Permission::ALL.into());
+        device.kept_by(Keeper::new(self.journal.clone(), self.path.clone()))
+    }
+
+    /// All that the device holds, but the time.
+    fn table(&self) -> Vec<u8> {
+        let Journal { wire, id, layout, .. } = &self.journal;
+        let mut line = self.line(u64::MAX, 0);
+        let table = snapshot(*wire, *id, layout, &mut line).unwrap();
+        let mut bytes = Vec::new();
+        for run in table.0 {
+            let at = usize::from(run.address);
+            bytes.resize(bytes.len().max(at), 0);
+            bytes.extend(run.data.0);
+        }
+        if let Some((address, size)) = self.ticks {
+            bytes[address.into()..usize::from(address + size)].fill(0);
+        }
+        bytes
+    }
+}
+
+/// Numbers that are the same each time.
+struct Numbers(u64);
+
+impl Numbers {
+    const fn below(&mut self, end: u64) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        self.0 % end
+    }
+}
+
+/// A folder in memory, if there is one: what is written to a disk for good takes time.
+fn folder() -> tempfile::TempDir {
+    let memory = Path::new("/dev/shm");
+    if memory.is_dir() {
+        tempfile::tempdir_in(memory).unwrap()
+    } else {
+        tempfile::tempdir().unwrap()
+    }
+}
+
+fn ended(device: &str, registers: &str) -> String {
+    let spec = Spec::embedded().unwrap();
+    let device = spec.device(device).unwrap();
+    let folder = folder();
+    let bench = Bench::new(&spec, device, registers, folder.path().join("journal"));
+    assert!(bench.questions.len() > 40, "{} checks write", bench.questions.len());
+    let before = bench.table();
+    let mut numbers = Numbers(0x9E37_79B9_7F4A_7C15);
+    let (mut early, mut whole) = (0, 0);
+    for run in 0..RUNS {
+        let count = u64::try_from(bench.questions.len()).unwrap();
+        let question = &bench.questions[usize::try_from(numbers.below(count)).unwrap()];
+        let (pieces, cut) = (numbers.below(PIECES), numbers.below(BYTES));
+        let mut subject = bench.device(bench.line(pieces, usize::try_from(cut).unwrap()));
+        let answer = subject.ask(question);
+        // It ends here, and nobody restores the device.
+        drop(subject);
+        if bench.path.exists() {
+            early += 1;
+            let journal = Journal::read(&bench.path).unwrap();
+            if let Err(error) = restore(&journal, &mut bench.line(u64::MAX, 0)) {
+                return format!("run {run}, {pieces} pieces, {question:?}, {answer:?}: {error}");
+            }
+            Journal::remove(&bench.path).unwrap();
+        }
+        if bench.table() != before {
+            return format!("run {run}, {pieces} pieces, {question:?}: the table differs");
+        }
+        // The same without an end.
+        if run % 10 == 0 {
+            whole += 1;
+            let mut subject = bench.device(bench.line(u64::MAX, 0));
+            subject.ask(question);
+            let end = subject.end();
+            if end != Some(Kept::Restored) || bench.table() != before || bench.path.exists() {
+                return format!("run {run}, {question:?}: {end:?}, and the table may differ");
+            }
+        }
+    }
+    assert!(early > RUNS / 2 && whole > 0, "only {early} runs left a journal");
+    String::new()
+}
+
+/// A program that is killed while it writes, and the command that restores the device.
+fn killed() -> String {
+    let bus = Bus::start(&["ja40@1"], &["--tcp", "0"]);
+    let folder = folder();
+    let path = folder.path().join("journal");
+    let port = format!("tcp://{}", bus.address);
+    let actucheck = || Command::new(env!("CARGO_BIN_EXE_actucheck"));
+    let mut run = actucheck();
+    run.args(["device", &port, "--device", "ja40", "--allow", "write-ram,eeprom", "--journal"]);
+    run.arg(&path).stdout(Stdio::null()).stderr(Stdio::null());
+    let mut child = run.spawn().unwrap();
+    while !path.exists() && child.try_wait().unwrap().is_none() {
+        sleep(Duration::from_millis(2));
+    }
+    sleep(Duration::from_millis(20));
+    child.kill().unwrap();
+    child.wait().unwrap();
+    if !path.exists() {
+        return "the run left no journal".to_owned();
+    }
+    let text = fs::read_to_string(&path).unwrap();
+    // A journal that is cut is not taken.
+    fs::write(&path, &text[..text.len() / 2]).unwrap();
+    let back = || actucheck().args(["device", "restore"]).arg(&path).output().unwrap();
+    let cut = back();
+    if cut.status.code() != Some(2)
+        || !String::from_utf8_lossy(&cut.stderr).contains("is no journal")
+    {
+        return format!("a journal that is cut: {cut:?}");
+    }
+    fs::write(&path, &text).unwrap();
+    let output = back();
+    if !output.status.success() || path.exists() {
+        return format!("{output:?}");
+    }
+    // Nothing is left to restore.
+    fs::write(&path, &text).unwrap();
+    let again = back();
+    let said = String::from_utf8_lossy(&again.stdout).into_owned();
+    if said.contains("held what it held before already") {
+        String::new()
+    } else {
+        format!("{again:?}")
+    }
+}
+
+/// A device with torque on is not written to.
+fn torque() -> String {
+    let spec = Spec::embedded().unwrap();
+    let device = spec.device("ja40").unwrap();
+    let folder = folder();
+    let bench = Bench::new(&spec, device, "torque-enable=1", folder.path().join("journal"));
+    let before = bench.table();
+    let mut subject = bench.device(bench.line(u64::MAX, 0));
+    for question in &bench.questions {
+        let answer = format!("{:?}", subject.ask(question));
+        if !answer.starts_with("Skipped") || !answer.contains("torque is on") {
+            return format!("{question:?}: {answer}");
+        }
+    }
+    let is_left = bench.path.exists() || subject.end().is_some() || bench.table() != before;
+    if is_left { "a device with torque on was written to".to_owned() } else { String::new() }
+}

@@ -1,0 +1,488 @@
+//! Faults of firmware that only show when it is written to, each with the check that finds it.
+
+use super::change::{each, instruction, with_params};
+use super::fault::{Fault, answering, hearing};
+
+const WRITE: u8 = 0x03;
+
+/// The address and the data of a Write, a Reg Write among them.
+fn written(params: &[u8]) -> Option<(u16, &[u8])> {
+    let (address, data) = params.split_at_checked(2)?;
+    Some((u16::from_le_bytes([address[0], address[1]]), data))
+}
+
+/// Answers as if a Write had been carried out that was refused with this error.
+fn never_refuses(asked: &[u8], answer: Vec<u8>, number: u8) -> Vec<u8> {
+    if instruction(asked) != Some(WRITE) {
+        return answer;
+    }
+    each(answer, |_, error, _| {
+        if *error & 0x7F == number {
+            *error = 0;
+        }
+    })
+}
+
+/// Takes another number for the error of a Write.
+fn other_error(asked: &[u8], answer: Vec<u8>, from: u8, to: u8) -> Vec<u8> {
+    if instruction(asked) != Some(WRITE) {
+        return answer;
+    }
+    each(answer, |_, error, _| {
+        if *error & 0x7F == from {
+            *error = to;
+        }
+    })
+}
+
+/// Lets a Write go to another address.
+fn elsewhere(heard: Vec<u8>, from: u16, to: u16) -> Vec<u8> {
+    with_params(heard, WRITE, |params| {
+        if written(params).is_some_and(|(address, _)| address == from) {
+            params[..2].copy_from_slice(&to.to_le_bytes());
+        }
+    })
+}
+
+/// Changes what is written to an address.
+fn changed(heard: Vec<u8>, at: u16, change: impl Fn(&mut [u8])) -> Vec<u8> {
+    with_params(heard, WRITE, |params| {
+        if written(params).is_some_and(|(address, _)| address == at) {
+            change(&mut params[2..]);
+        }
+    })
+}
+
+const fn on(device: &'static str, fault: Fault) -> Fault {
+    Fault { devices: device, ..fault }
+}
+
+/// The faults. `found_by` is a check's id after `dynamixel2.device.`.
+pub(crate) const FAULTS: &[Fault] = &[
+    answering("write-silent", "does not answer Write", "basic.write/answer", |asked, answer| {
+        if instruction(asked) == Some(WRITE) { Vec::new() } else { answer }
+    }),
+    answering(
+        "write-echoes-data",
+        "answers Write with the data",
+        "basic.write/answer",
+        |asked, answer| {
+            if instruction(asked) != Some(WRITE) {
+                return answer;
+            }
+            each(answer, |_, error, data| {
+                if *error == 0 {
+                    data.push(1);
+                }
+            })
+        },
+    ),
+    hearing(
+        "gain-high-byte-lost",
+        "keeps only the low byte of Velocity I Gain",
+        "written.velocity-i-gain/kept",
+        |heard| {
+            changed(heard, 524, |data| {
+                if let [_, high] = data {
+                    *high = 0;
+                }
+            })
+        },
+    ),
+    hearing(
+        "gains-swapped",
+        "keeps Velocity P Gain in Velocity I Gain",
+        "written.velocity-p-gain/kept",
+        |heard| elsewhere(heard, 526, 524),
+    ),
+    answering(
+        "temperature-limit-narrow",
+        "refuses a Temperature Limit of 100",
+        "written.temperature-limit/kept",
+        |asked, answer| {
+            let is_it = asked.ends_with_write(31, &[100]);
+            if is_it { each(answer, |_, error, _| *error = 4) } else { answer }
+        },
+    ),
+    hearing(
+        "limit-clamped",
+        "takes 5,999 for a Velocity Limit of 6,000",
+        "written.velocity-limit/kept",
+        |heard| {
+            changed(heard, 44, |data| {
+                if *data == 6000_u32.to_le_bytes() {
+                    data.copy_from_slice(&5999_u32.to_le_bytes());
+                }
+            })
+        },
+    ),
+    hearing(
+        "stuffing-not-added",
+        "writes the byte FD that stuffs the data",
+        "stuffed.neighbours/kept",
+        |heard| {
+            changed(heard, 522, |data| {
+                if data.starts_with(&[0xFF, 0xFF, 0xFD]) && data.len() == 4 {
+                    data[3] = 0x7D;
+                }
+            })
+        },
+    ),
+    answering(
+        "range-not-told",
+        "answers a value outside its range without an error",
+        "range.velocity-i-gain/above",
+        |asked, answer| never_refuses(asked, answer, 4),
+    ),
+    answering(
+        "range-is-length-error",
+        "answers a value outside its range with Data Length Error",
+        "range.pwm-limit/above",
+        |asked, answer| other_error(asked, answer, 4, 5),
+    ),
+    hearing(
+        "range-clamped",
+        "takes the largest value for one above it",
+        "range.position-p-gain/above",
+        |heard| {
+            changed(heard, 532, |data| {
+                if *data == 0x8000_u16.to_le_bytes() {
+                    data.copy_from_slice(&0x7FFF_u16.to_le_bytes());
+                }
+            })
+        },
+    ),
+    answering(
+        "limit-is-range-error",
+        "answers a goal beyond a limit with Data Range Error",
+        "limit.goal-velocity/above",
+        |asked, answer| other_error(asked, answer, 6, 4),
+    ),
+    answering(
+        "limit-one-way",
+        "looks at Current Limit in one direction only",
+        "limit.goal-current/below",
+        |asked, answer| {
+            let is_negative = asked.len() == 14 && asked[8] == 0x26 && asked[11] & 0x80 != 0;
+            if is_negative { never_refuses(asked, answer, 6) } else { answer }
+        },
+    ),
+    hearing(
+        "limit-of-positive-goal",
+        "takes 0 for a goal at its negative limit",
+        "limit.goal-current/at",
+        |heard| {
+            changed(heard, 550, |data| {
+                if data[1] & 0x80 != 0 {
+                    data.fill(0);
+                }
+            })
+        },
+    ),
+    answering(
+        "read-only-without-error",
+        "answers a Write to a register for reading without an error",
+        "access.present-position/refused",
+        |asked, answer| never_refuses(asked, answer, 7),
+    ),
+    answering(
+        "read-only-is-instruction-error",
+        "answers a Write of the model number with Instruction Error",
+        "access.model-number/refused",
+        |asked, answer| other_error(asked, answer, 7, 2),
+    ),
+    answering(
+        "no-register-is-range-error",
+        "answers a Write past the table with Data Range Error",
+        "access.no-register/refused",
+        |asked, answer| other_error(asked, answer, 7, 4),
+    ),
+    answering(
+        "short-without-error",
+        "answers a Write of half a register without an error",
+        "length.short/refused",
+        |asked, answer| never_refuses(asked, answer, 5),
+    ),
+    hearing(
+        "short-is-filled",
+        "fills a Write of half a register with 0",
+        "length.short/refused",
+        |heard| {
+            with_params(heard, WRITE, |params| {
+                if params.len() == 3 && params[..2] == 538_u16.to_le_bytes() {
+                    params.push(0);
+                }
+            })
+        },
+    ),
+    hearing(
+        "sync-write-first-only",
+        "carries out only the first block of a Sync Write",
+        "written.sync-write.after-other/data",
+        |heard| with_params(heard, 0x83, |params| params.truncate(7)),
+    ),
+    hearing(
+        "sync-write-last-only",
+        "carries out only the last block of a Sync Write",
+        "written.sync-write.before-other/data",
+        |heard| {
+            with_params(heard, 0x83, |params| {
+                if params.len() == 10 {
+                    params.drain(4..7);
+                }
+            })
+        },
+    ),
+    hearing(
+        "sync-write-ignored",
+        "ignores a Sync Write",
+        "written.sync-write.alone/data",
+        |heard| {
+            if instruction(&heard) == Some(0x83) { after_first(heard) } else { heard }
+        },
+    ),
+    hearing(
+        "sync-write-for-all",
+        "carries out a Sync Write for another device",
+        "written.sync-write.not-named/nothing",
+        |heard| with_params(heard, 0x83, |params| params[4] = 1),
+    ),
+    answering(
+        "sync-write-answered",
+        "answers a Sync Write",
+        "written.sync-write.answer/silence",
+        |asked, answer| {
+            let answers = [0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x04, 0x00, 0x55, 0x00, 0xA1, 0x0C];
+            if instruction(asked) == Some(0x83) { answers.to_vec() } else { answer }
+        },
+    ),
+    answering(
+        "fast-sync-write-crc",
+        "makes the CRC of the answer to Fast Sync Write wrong",
+        "written.fast-sync-write.answer/status",
+        |asked, mut answer| {
+            if instruction(asked) == Some(0x8B)
+                && let Some(last) = answer.last_mut()
+            {
+                *last ^= 1;
+            }
+            answer
+        },
+    ),
+    hearing(
+        "fast-sync-write-low-byte",
+        "writes only the low byte of a Fast Sync Write",
+        "written.fast-sync-write.alone/data",
+        |heard| {
+            with_params(heard, 0x8B, |params| {
+                if let Some(last) = params.last_mut() {
+                    *last = 0;
+                }
+            })
+        },
+    ),
+    hearing(
+        "fast-sync-write-for-all",
+        "carries out a Fast Sync Write for another device",
+        "written.fast-sync-write.not-named/nothing",
+        |heard| with_params(heard, 0x8B, |params| params[4] = 1),
+    ),
+    hearing(
+        "writes-for-others",
+        "carries out a Write for another device",
+        "written.other-id.write/nothing",
+        |heard| super::change::renamed(heard, |id, code| id < 253 && code == WRITE),
+    ),
+    answering(
+        "broadcast-write-answered",
+        "answers a Write to the broadcast ID",
+        "written.broadcast.write/silence",
+        |asked, answer| {
+            let answers = [0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x04, 0x00, 0x55, 0x00, 0xA1, 0x0C];
+            if asked.get(4) == Some(&254) && instruction(asked) == Some(WRITE) {
+                answers.to_vec()
+            } else {
+                answer
+            }
+        },
+    ),
+    hearing(
+        "broadcast-write-ignored",
+        "ignores a Write to the broadcast ID",
+        "written.broadcast.write/data",
+        |heard| {
+            if heard.get(4) == Some(&254) && instruction(&heard) == Some(WRITE) {
+                after_first(heard)
+            } else {
+                heard
+            }
+        },
+    ),
+    on(
+        "xm430-w210@1",
+        hearing(
+            "reg-write-at-once",
+            "carries out a Reg Write at once",
+            "registered.deferred/effect",
+            |heard| {
+                if instruction(&heard) == Some(0x04) { with_code(heard, WRITE) } else { heard }
+            },
+        ),
+    ),
+    on(
+        "xm430-w210@1",
+        answering(
+            "action-silent",
+            "does not answer Action",
+            "basic.action/answer",
+            |asked, answer| {
+                if instruction(asked) == Some(0x05) { Vec::new() } else { answer }
+            },
+        ),
+    ),
+    on(
+        "xm430-w210@1",
+        answering(
+            "reg-write-silent",
+            "does not answer Reg Write",
+            "basic.reg-write/answer",
+            |asked, answer| {
+                if instruction(asked) == Some(0x04) { Vec::new() } else { answer }
+            },
+        ),
+    ),
+    on(
+        "xm430-w210@1",
+        answering(
+            "action-of-nothing",
+            "answers an Action without a Reg Write without an error",
+            "registered.nothing/effect",
+            |asked, answer| {
+                if instruction(asked) == Some(0x05) {
+                    each(answer, |_, error, _| *error = 0)
+                } else {
+                    answer
+                }
+            },
+        ),
+    ),
+    on(
+        "xm430-w210@1",
+        answering(
+            "no-flag",
+            "does not show that a write is registered",
+            "registered.flag/effect",
+            |asked, answer| {
+                if super::change::read_of(asked) == Some((69, 1)) {
+                    each(answer, |_, _, data| data.fill(0))
+                } else {
+                    answer
+                }
+            },
+        ),
+    ),
+    on(
+        "xm430-w210@1",
+        answering(
+            "stuffing-not-sent",
+            "does not stuff what it answers",
+            "stuffed.place-2/kept",
+            |asked, answer| {
+                let is_data = super::change::read_of(asked) == Some((224, 8));
+                if is_data { unstuffed(&answer) } else { answer }
+            },
+        ),
+    ),
+    on(
+        "xm430-w210@1",
+        hearing(
+            "bulk-write-ignored",
+            "ignores a Bulk Write",
+            "written.bulk-write.alone/data",
+            |heard| {
+                if instruction(&heard) == Some(0x93) { after_first(heard) } else { heard }
+            },
+        ),
+    ),
+    answering(
+        "reboot-silent",
+        "does not answer Reboot",
+        "restart.reboot/answer",
+        |asked, answer| {
+            if instruction(asked) == Some(0x08) { Vec::new() } else { answer }
+        },
+    ),
+    hearing(
+        "reboot-ignored",
+        "answers Reboot, and does nothing",
+        "restart.ram/initial-values",
+        |heard| {
+            if instruction(&heard) == Some(0x08) { with_code(heard, 0x01) } else { heard }
+        },
+    ),
+    hearing(
+        "reboot-resets",
+        "sets the EEPROM area back when it restarts",
+        "restart.eeprom/kept",
+        |heard| {
+            if instruction(&heard) == Some(0x08) { packet(0x06, &[0x02]) } else { heard }
+        },
+    ),
+    hearing(
+        "reset-restarts-only",
+        "only restarts at a Factory Reset",
+        "reset.keep-id-and-baud-rate/initial-values",
+        |heard| {
+            if instruction(&heard) == Some(0x06) { packet(0x08, &[]) } else { heard }
+        },
+    ),
+    answering(
+        "lock-without-error",
+        "answers a Write to the locked EEPROM area without an error",
+        "lock.eeprom/refused",
+        |asked, answer| never_refuses(asked, answer, 7),
+    ),
+];
+
+/// Whether a packet is a Write of these bytes to an address.
+trait Written {
+    fn ends_with_write(&self, address: u16, data: &[u8]) -> bool;
+}
+
+impl Written for [u8] {
+    fn ends_with_write(&self, address: u16, data: &[u8]) -> bool {
+        let rest = self.get(8..self.len().saturating_sub(2)).unwrap_or_default();
+        self.get(7) == Some(&WRITE) && written(rest) == Some((address, data))
+    }
+}
+
+/// What comes after the first packet.
+fn after_first(heard: Vec<u8>) -> Vec<u8> {
+    let size = 7 + usize::from(heard[5]);
+    heard[size.min(heard.len())..].to_vec()
+}
+
+/// An instruction to ID 1.
+fn packet(code: u8, params: &[u8]) -> Vec<u8> {
+    actucheck_spec::wire::dynamixel2::reference::frame(1, &[&[code][..], params].concat())
+}
+
+/// The same parameters with another instruction.
+fn with_code(heard: Vec<u8>, code: u8) -> Vec<u8> {
+    let params = heard[8..heard.len() - 2].to_vec();
+    let params = if code == 0x01 { Vec::new() } else { params };
+    packet(code, &params)
+}
+
+/// An answer without its stuffing.
+fn unstuffed(answer: &[u8]) -> Vec<u8> {
+    let body = &answer[7..answer.len() - 2];
+    let mut bare: Vec<u8> = Vec::new();
+    for byte in body {
+        if *byte == 0xFD && bare.ends_with(&[0xFF, 0xFF, 0xFD]) {
+            continue;
+        }
+        bare.push(*byte);
+    }
+    actucheck_spec::wire::dynamixel2::reference::frame(1, &bare)
+}
