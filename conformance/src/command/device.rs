@@ -23,7 +23,8 @@ use clap::{Args, Subcommand};
 
 use super::ENDED;
 use super::shared::{
-    self, Asked, DeviceOption, Failure, Planned, Running, Selection, Subjects, milliseconds, table,
+    self, Asked, DeviceOption, Failure, Planned, Running, Selection, Subjects, both, milliseconds,
+    table,
 };
 
 const EXAMPLES: &str = "\
@@ -139,29 +140,25 @@ pub(crate) fn run(options: &Device) -> Result<ExitCode, Failure> {
         subject = Some(device.clone());
         Ok((Subjects::of(device), planned))
     });
-    let kept = subject.as_ref().and_then(Subject::end);
-    let status = match kept {
-        Some(Kept::Left(sentence)) => {
-            let left = Failure::incomplete(sentence);
-            return Err(match status {
-                Err(failure) => failure.and(&left),
-                Ok(_) => left,
-            });
-        }
+    let Some(subject) = subject else { return status };
+    // Whatever became of the run: a device that was written to is restored.
+    let kept = match subject.end() {
+        Some(Kept::Left(sentence)) => Err(Failure::incomplete(sentence)),
         Some(Kept::Restored) => {
-            anstream::eprintln!(
-                "actucheck: the device holds what it held before; that was read back"
-            );
-            status?
+            let said = "the device holds what it held before; that was read back";
+            anstream::eprintln!("actucheck: {said}");
+            Ok(())
         }
-        None => status?,
+        None => Ok(()),
     };
-    let Some(subject) = subject else { return Ok(status) };
+    let status = match (status, &kept) {
+        (Err(failure), Err(left)) => return Err(failure.and(left)),
+        (status, _) => status?,
+    };
     anstream::eprintln!("actucheck: {}", subject.look(|line| passed(line.counts())));
-    match subject.look(|line| line.gone().map(str::to_owned)) {
-        Some(gone) => Err(Failure::not_started(gone)),
-        None => Ok(status),
-    }
+    let gone = subject.look(|line| line.gone().map(str::to_owned));
+    both(gone.map_or(Ok(()), |gone| Err(Failure::not_started(gone))), kept)?;
+    Ok(status)
 }
 
 impl Device {
