@@ -1,6 +1,7 @@
 //! A device on its port.
 
 mod keeper;
+mod record;
 
 use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -12,13 +13,14 @@ use actucheck_spec::wire::{Direction, Packet, Wire};
 
 use super::{Answer, Subject};
 use crate::adapter::{
-    Asked, Heard, Hello, Implementation, Limits, Output, Passed, Pause, Permissions, Piece,
-    Question, Reported, VERSION,
+    Asked, Heard, Hello, Implementation, Limits, Output, Pause, Permissions, Piece, Question,
+    Reported, VERSION,
 };
 use crate::port::{Bytes, Place, Port, PortError};
 use crate::suite::device;
 
 pub use self::keeper::{Keeper, Kept};
+use self::record::Record;
 
 /// A pause in which bytes arrive alone.
 const MOMENT: Duration = Duration::from_millis(2);
@@ -341,69 +343,6 @@ impl Line {
 
 /// No bytes.
 static NOTHING: Asked = Asked { packet: None, fast: None, send: Vec::new(), awaits: 0, again: 0 };
-
-/// What passes in a step.
-struct Record {
-    begun: Instant,
-    line: Vec<Passed>,
-    more: usize,
-    /// All that came.
-    came: Vec<u8>,
-    /// What was sent and comes back.
-    echo: Vec<u8>,
-    /// How many packets came before the last piece was sent.
-    before: usize,
-}
-
-impl Record {
-    fn new(echoed: &Asked) -> Self {
-        let echo = echoed.send.iter().flat_map(|piece| piece.bytes.0.clone()).collect();
-        let (line, came, begun) = (Vec::new(), Vec::new(), Instant::now());
-        Self { begun, line, more: 0, came, echo, before: 0 }
-    }
-
-    fn sent(&mut self, bytes: &[u8]) {
-        self.add(Direction::Request, bytes);
-    }
-
-    /// Takes bytes that came. Returns whether they are more than an echo.
-    fn received(&mut self, bytes: &[u8]) -> bool {
-        let same = self.echo.iter().zip(bytes).take_while(|(sent, came)| sent == came).count();
-        self.echo.drain(..same);
-        let bytes = bytes.get(same..).unwrap_or_default();
-        if bytes.is_empty() {
-            return false;
-        }
-        let room = KEPT.0.saturating_sub(self.came.len());
-        let kept = bytes.get(..room).unwrap_or(bytes);
-        self.came.extend_from_slice(kept);
-        self.more += bytes.len() - kept.len();
-        self.add(Direction::Reply, kept);
-        true
-    }
-
-    fn add(&mut self, direction: Direction, bytes: &[u8]) {
-        let at_ms = u64::try_from(self.begun.elapsed().as_millis()).unwrap_or(u64::MAX);
-        match self.line.last_mut() {
-            // An answer may come byte by byte.
-            Some(last) if last.direction == direction && direction == Direction::Reply => {
-                last.bytes.0.extend_from_slice(bytes);
-            }
-            _ => {
-                let bytes = bytes.to_vec().into();
-                self.line.push(Passed { at_ms, direction, bytes });
-            }
-        }
-    }
-
-    fn last_is_sent(&mut self, asked: &Asked, wire: Wire) {
-        self.before = asked.packets(wire, &self.came).len();
-    }
-
-    fn heard(self) -> Heard {
-        Heard { line: self.line, more: self.more }
-    }
-}
 
 impl Device {
     /// A device of this name and firmware on a line.

@@ -4,6 +4,7 @@
 pub(crate) type Answers = fn(&[u8], Vec<u8>) -> Vec<u8>;
 
 /// A fault: what it changes of what the device hears, or of what it answers.
+#[derive(Clone, Copy)]
 pub(crate) struct Fault {
     pub(crate) name: &'static str,
     /// What the device does, in words.

@@ -20,6 +20,7 @@ mod firmware;
 mod innfos;
 mod interrupted;
 mod killing;
+mod rewrite;
 mod right;
 mod writing;
 
