@@ -41,7 +41,7 @@ fn outside(talk: &Talk<'_>, one: Writable<'_>) -> Vec<Check> {
     values.map(check).collect()
 }
 
-/// Whether the device's document leaves open which error number refuses a value outside the own range of a
+/// Whether the device's document leaves unspecified which error number refuses a value outside the own range of a
 /// limit.
 fn has_two_numbers(talk: &Talk<'_>) -> bool {
     let own = talk.document().map(|document| format!("{document}.invalid-value.error"));
