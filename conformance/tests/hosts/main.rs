@@ -84,7 +84,7 @@ fn adapter(fault: &str, limit: &str, port: &str) -> ExitCode {
 fn tests() -> ExitCode {
     let mut arguments = Arguments::from_args();
     // Most of the time is waited.
-    arguments.test_threads.get_or_insert(4);
+    arguments.test_threads.get_or_insert(8);
     let test = |name: String, test: Box<dyn Fn() -> String + Send>| {
         Trial::test(name, move || {
             let tries: Vec<_> =

@@ -46,7 +46,7 @@ fn main() -> ExitCode {
 fn tests() -> ExitCode {
     let mut arguments = Arguments::from_args();
     // Most of the time is waited.
-    arguments.test_threads.get_or_insert(4);
+    arguments.test_threads.get_or_insert(8);
     let test = |row: &'static Row| {
         Trial::test(row.name.replace(' ', "_"), move || {
             let wrong = Run::of(row).wrong();
