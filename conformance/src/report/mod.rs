@@ -6,7 +6,8 @@
 //!
 //! A module imports only from those before it in this order: [`model`]; `result`; `smallest`;
 //! [`collect`], [`read`]; `fit`, `words`, `course`, [`view`]; [`text`], [`json`], [`jsonl`], [`junit`],
-//! [`tap`], [`github`], [`badge`], [`markdown`], [`html`]; [`format`](mod@format), [`screen`]; [`compare`]; [`schema`].
+//! [`tap`], [`github`], [`markdown`], [`html`]; [`badge`]; [`format`](mod@format), [`screen`]; [`compare`];
+//! [`schema`].
 
 pub mod badge;
 pub mod collect;
