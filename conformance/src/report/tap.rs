@@ -76,17 +76,16 @@ fn diagnostics(
     ];
     // The lines of a log have a label only once, and a key of YAML must be there once.
     let evidence = smallest.evidence().into_iter().map(|(label, text)| (label, text.to_string()));
-    let mut rows: IndexMap<&str, String> = IndexMap::new();
+    let mut rows: IndexMap<&str, Vec<String>> = IndexMap::new();
     let mut last = "";
     for (label, text) in head.into_iter().chain(evidence) {
         last = if label.is_empty() { last } else { label };
-        rows.entry(last)
-            .and_modify(|all| all.extend(["\n", text.as_str()]))
-            .or_insert_with(|| text.clone());
+        rows.entry(last).or_default().push(text);
     }
     writeln!(out, "  ---")?;
-    for (label, text) in rows {
-        writeln!(out, "  {}: {}", label.replace(' ', "-"), serde_json::to_string(&text)?)?;
+    for (label, lines) in rows {
+        let text = serde_json::to_string(&lines.join("\n"))?;
+        writeln!(out, "  {}: {text}", label.replace(' ', "-"))?;
     }
     writeln!(out, "  ...")
 }

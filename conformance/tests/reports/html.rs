@@ -6,9 +6,7 @@ use actucheck::report::{Format, Report};
 use super::sample;
 
 pub(crate) fn page(report: &Report) -> String {
-    let mut text = Vec::new();
-    Format::Html.write(report, &mut text).unwrap();
-    String::from_utf8(text).unwrap()
+    sample::written(Format::Html, report)
 }
 
 pub(crate) fn comparison() -> String {

@@ -17,9 +17,7 @@ use serde_json::{Value, json};
 use super::sample;
 
 fn written(report: &Report) -> String {
-    let mut text = Vec::new();
-    Format::Json.write(report, &mut text).unwrap();
-    String::from_utf8(text).unwrap()
+    sample::written(Format::Json, report)
 }
 
 fn value(report: &Report) -> Value {

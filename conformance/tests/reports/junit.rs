@@ -7,9 +7,7 @@ use roxmltree::{Document, Node};
 use super::sample;
 
 fn junit(report: &Report) -> String {
-    let mut text = Vec::new();
-    Format::Junit.write(report, &mut text).unwrap();
-    String::from_utf8(text).unwrap()
+    sample::written(Format::Junit, report)
 }
 
 fn elements<'a>(document: &'a Document<'_>, name: &str) -> Vec<Node<'a, 'a>> {

@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 
 use actucheck::adapter::{Hello, Implementation, Output, Question, Rejection};
 use actucheck::report::model::Summary;
-use actucheck::report::{Collector, End, Report, Run, Stopped};
+use actucheck::report::{Collector, End, Format, Report, Run, Stopped};
 use actucheck::run::outcomes;
 use actucheck::subject::{Answer, Builtin, Subject};
 use actucheck::suite::expect::Expectations;
@@ -144,6 +144,13 @@ fn make_flaky(outcomes: &mut [Outcome]) {
         outcome.log = Some("==1==ERROR: <b>Sanitizer</b>\n\n    #0 in crc".to_owned());
         (outcome.verdict, outcome.because) = (Verdict::Flaky, None);
     }
+}
+
+/// A report in a format.
+pub(crate) fn written(format: Format, report: &Report) -> String {
+    let mut text = Vec::new();
+    format.write(report, &mut text).unwrap();
+    String::from_utf8(text).unwrap()
 }
 
 pub(crate) fn run(implementation: &Implementation) -> Run<'_> {

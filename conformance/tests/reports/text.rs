@@ -8,19 +8,13 @@ use textwrap::core::display_width;
 
 use actucheck::report::screen::{self, Detail, Terminal};
 
-use super::sample;
+use super::sample::{self, written};
 
 fn on_terminal(report: &Report, detail: Detail, width: usize) -> String {
     let mut text = Vec::new();
     let terminal = Terminal { detail, width, next: Some("Next: look at the page.") };
     screen::write(report, &terminal, &mut text).unwrap();
     String::from_utf8(strip_bytes(&text).into_vec()).unwrap()
-}
-
-fn written(format: Format, report: &Report) -> String {
-    let mut text = Vec::new();
-    format.write(report, &mut text).unwrap();
-    String::from_utf8(text).unwrap()
 }
 
 #[test]

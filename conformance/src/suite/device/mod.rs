@@ -6,6 +6,7 @@
 
 mod dynamixel2;
 mod innfos;
+mod steps;
 
 use std::borrow::Cow;
 use std::ops::RangeInclusive;
@@ -39,6 +40,12 @@ impl<'a> Target<'a> {
         Self { id: 1, device, neighbour: None, present: vec![1] }
     }
 
+    /// An ID that no device on the line has.
+    fn absent(&self, wire: Wire) -> u8 {
+        let is_absent = |id: &u8| !self.present.contains(id) && *id != self.id;
+        ids(wire).find(is_absent).unwrap_or(*ids(wire).end())
+    }
+
     /// The same device with its neighbour.
     #[must_use]
     pub fn with_neighbour(mut self, id: u8) -> Self {
@@ -62,10 +69,10 @@ struct Own {
     hello: fn(u8) -> Packet,
     /// The packet that asks all devices whether they are there.
     hello_all: fn() -> Packet,
-    /// How much longer the answer to these bytes may take than to others.
-    takes: fn(&[u8]) -> Duration,
     /// What a device says of itself in the answer to that.
     identity: fn(&Reported) -> Identity,
+    /// How much longer the answer to these bytes may take than to others.
+    takes: fn(&[u8]) -> Duration,
     /// What changes registers, if its devices have some.
     instructions: Option<Instructions>,
 }

@@ -30,8 +30,9 @@ use actucheck_spec::wire;
 use actucheck_spec::wire::dynamixel2::reference::{BROADCAST, frame};
 use actucheck_spec::wire::dynamixel2::{Packet, WIRE};
 
+use super::steps::{asked, bytes_of, packet_then, then};
 use super::{Identity, Instructions, Target, basic};
-use crate::adapter::{Asked, Called, Pause, Permissions, Piece, Question, Reported};
+use crate::adapter::{Asked, Permissions, Question, Reported};
 use crate::suite::Author;
 use crate::suite::check::{Check, Demand};
 use crate::suite::plan::Family;
@@ -235,8 +236,7 @@ impl Talk<'_> {
 
     /// An ID that no device on the line has.
     fn absent(&self) -> u8 {
-        let is_absent = |id: &u8| !self.target.present.contains(id) && *id != self.target.id;
-        (0..=252).find(is_absent).unwrap_or(252)
+        self.target.absent(WIRE)
     }
 
     fn ping(&self) -> Packet {
@@ -268,21 +268,13 @@ impl Talk<'_> {
 
     /// Something that must not be answered, and a Ping after it.
     fn then_ping(&self, bytes: Vec<u8>) -> Asked {
-        let ping = Piece { after: Pause::Answer, bytes: bytes_of(self.ping()) };
-        let piece = Piece { after: Pause::None, bytes: bytes.into() };
-        Asked { packet: None, fast: None, send: vec![piece, ping], awaits: 1, again: 0 }
+        then(bytes, self.ping())
     }
 
     /// The same for a packet.
     fn packet_then_ping(&self, packet: Packet) -> Asked {
-        Asked { packet: Some(Called::from(packet.clone())), ..self.then_ping(bytes_of(packet).0) }
+        packet_then(packet, self.ping())
     }
-}
-
-/// A packet, and so many answers to it.
-fn asked(packet: Packet, awaits: usize) -> Asked {
-    let send = vec![Piece { after: Pause::None, bytes: bytes_of(packet.clone()) }];
-    Asked { packet: Some(Called::from(packet)), fast: None, send, awaits, again: 0 }
 }
 
 fn ping(id: u8) -> Packet {
@@ -299,10 +291,6 @@ fn write(id: u8, address: u16, data: &[u8]) -> Packet {
 
 fn instruction(id: u8, instruction: u8, params: Vec<u8>) -> Packet {
     Packet::Instruction { id, instruction, params: params.into() }
-}
-
-fn bytes_of(packet: Packet) -> HexBytes {
-    WIRE.encode(&packet.into()).unwrap_or_default().into()
 }
 
 /// The id of a check.

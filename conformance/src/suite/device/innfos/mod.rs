@@ -15,8 +15,9 @@ use std::time::Duration;
 use actucheck_spec::wire::innfos::{Packet, WIRE, reference};
 use actucheck_spec::wire::{self, Direction};
 
+use super::steps::{asked, packet_then, then};
 use super::{Identity, Target};
-use crate::adapter::{Asked, Called, Pause, Permissions, Piece, Question, Reported};
+use crate::adapter::{Asked, Permissions, Question, Reported};
 use crate::suite::Author;
 use crate::suite::check::{Check, Demand};
 use crate::suite::plan::Family;
@@ -142,8 +143,7 @@ impl Talk<'_> {
 
     /// An address that no actuator has.
     fn absent(&self) -> u8 {
-        let is_absent = |id: &u8| !self.target.present.contains(id) && *id != self.target.id;
-        (1..=u8::MAX).find(is_absent).unwrap_or(u8::MAX)
+        self.target.absent(WIRE)
     }
 
     /// A request of the actuator that has no data.
@@ -163,16 +163,12 @@ impl Talk<'_> {
 
     /// Bytes, and a request for a sign of life in a datagram of its own.
     fn then_hello(&self, bytes: Vec<u8>) -> Asked {
-        let hello = bytes_of(&self.ask(code::SIGN_OF_LIFE));
-        let hello = Piece { after: Pause::Answer, bytes: hello.into() };
-        let piece = Piece { after: Pause::None, bytes: bytes.into() };
-        Asked { packet: None, fast: None, send: vec![piece, hello], awaits: 1, again: 0 }
+        then(bytes, self.ask(code::SIGN_OF_LIFE))
     }
 
     /// The same for a packet.
     fn packet_then_hello(&self, packet: Packet) -> Asked {
-        let step = self.then_hello(bytes_of(&packet));
-        Asked { packet: Some(Called::from(packet)), ..step }
+        packet_then(packet, self.ask(code::SIGN_OF_LIFE))
     }
 }
 
@@ -180,12 +176,6 @@ impl Talk<'_> {
 fn answer(id: u8, command: u8, data: Vec<Part>) -> Like {
     let command = Part::Bytes(vec![command].into());
     Like { id, error: None, data: Some([command].into_iter().chain(data).collect()) }
-}
-
-/// A packet, and so many answers to it.
-fn asked(packet: Packet, awaits: usize) -> Asked {
-    let send = vec![Piece { after: Pause::None, bytes: bytes_of(&packet).into() }];
-    Asked { packet: Some(Called::from(packet)), fast: None, send, awaits, again: 0 }
 }
 
 fn request(address: u8, command: u8) -> Packet {
