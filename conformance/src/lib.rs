@@ -28,4 +28,5 @@ pub mod run;
 mod shrink;
 pub mod subject;
 pub mod suite;
+pub mod traffic;
 pub mod verdict;

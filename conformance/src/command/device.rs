@@ -1,5 +1,6 @@
 //! `actucheck device`.
 
+mod plan;
 mod restore;
 mod writing;
 
@@ -9,10 +10,11 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-use actucheck::adapter::{Question, Wire};
+use actucheck::adapter::Wire;
 use actucheck::device::{NONE, Tables, of_model};
+use actucheck::journal::Layout;
 use actucheck::port::Place;
-use actucheck::subject::device::{Counts, Device as Subject, Keeper, Kept, Line};
+use actucheck::subject::device::{Device as Subject, Keeper, Kept, Line};
 use actucheck::suite::device::{
     Target, has_tables, hello, hello_all, identity, ids, is_checked, reported,
 };
@@ -24,8 +26,8 @@ use clap::{Args, Subcommand};
 use super::ENDED;
 use super::shared::{
     self, Asked, DeviceOption, Failure, Planned, Running, Selection, Subjects, both, milliseconds,
-    table,
 };
+use plan::{BEGINS, Effort};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -42,7 +44,7 @@ Examples:
   actucheck device --device ja40 -- actucheck bus ja40@1 --stdio
       a virtual device, to see what a run looks like
   actucheck device --device ja40 --dry-run
-      what a run would send, and what each check needs; nothing is opened
+      what a run would send, what each check needs, and about how long it takes; nothing is opened
   actucheck device /dev/ttyUSB0 --allow write-ram,eeprom
       write too, while torque is off; the device holds afterwards what it held before
   actucheck device restore actucheck-ja40-1-20260102T030405Z.journal.json
@@ -155,7 +157,6 @@ pub(crate) fn run(options: &Device) -> Result<ExitCode, Failure> {
         (Err(failure), Err(left)) => return Err(failure.and(left)),
         (status, _) => status?,
     };
-    anstream::eprintln!("actucheck: {}", subject.look(|line| passed(line.counts())));
     let gone = subject.look(|line| line.gone().map(str::to_owned));
     both(gone.map_or(Ok(()), |gone| Err(Failure::not_started(gone))), kept)?;
     Ok(status)
@@ -259,7 +260,14 @@ impl Device {
             None => subject,
         };
         let target = Target { id, device, neighbour: self.neighbour, present };
-        Ok((subject, planned(spec, wire, &target)))
+        let planned = planned(spec, wire, &target);
+        if place.has_rate() {
+            let timed = subject.look(Line::traffic).response;
+            let begins = timed.map_or(BEGINS, |times| Duration::from_micros(times.median_us));
+            let effort = self.effort(spec, &target)?.sentence(baud, begins);
+            anstream::eprintln!("actucheck: {effort}");
+        }
+        Ok((subject, planned))
     }
 
     fn nothing_answers(&self, place: &Place, baud: u32) -> Failure {
@@ -295,10 +303,25 @@ impl Device {
             Some(id) => target.with_neighbour(id),
             None => target,
         };
-        let mut plan = suite::device_plan(spec, &[self.wire()?], &target);
-        self.selection.restrict(&mut plan)?;
-        shared::print(text(&plan).as_bytes())?;
+        let table = plan::table(&self.plan(spec, &target)?);
+        let baud = self.baud.or_else(|| factory_rate(target.device?)).unwrap_or(BAUD);
+        let allowed = self.writing.allowed();
+        let effort = self.effort(spec, &target)?.sentence(baud, BEGINS);
+        shared::print(format!("{table}\nwith --allow {allowed}, {effort}\n").as_bytes())?;
         Ok(ExitCode::SUCCESS)
+    }
+
+    /// The checks that are selected.
+    fn plan<'a>(&self, spec: &'a Spec, target: &Target<'a>) -> Result<Plan<'a>, Failure> {
+        let mut plan = suite::device_plan(spec, &[self.wire()?], target);
+        self.selection.restrict(&mut plan)?;
+        Ok(plan)
+    }
+
+    /// What those of them send that are allowed.
+    fn effort(&self, spec: &Spec, target: &Target<'_>) -> Result<Effort, Failure> {
+        let layout = target.device.map(Layout::of);
+        Ok(Effort::of(&self.plan(spec, target)?, &self.writing.allowed(), layout.as_ref()))
     }
 }
 
@@ -321,43 +344,4 @@ fn factory_rate(device: &model::Device) -> Option<u32> {
     let register = device.register("Baud Rate")?;
     let value = register.values.iter().find(|value| Some(value.value) == register.initial)?;
     value.actual.and_then(|rate| rate.try_into().ok())
-}
-
-/// A line for each check, and how much is sent.
-fn text(plan: &Plan<'_>) -> String {
-    let mut rows = vec![["check", "needs", "packets", "bytes"].map(str::to_owned)];
-    let (mut packets, mut bytes) = (0, 0);
-    for check in plan.checks() {
-        let Question::Device { needs, steps, .. } = &check.question else { continue };
-        let pieces = steps.iter().flat_map(|step| &step.send);
-        let size: usize = pieces.clone().map(|piece| piece.bytes.len()).sum();
-        let count = pieces.count();
-        rows.push([check.id, needs.to_string(), count.to_string(), size.to_string()]);
-        packets += count;
-        bytes += size;
-    }
-    let checks = rows.len() - 1;
-    let lines = table::lines("", &rows).join("\n");
-    format!("{lines}\n{checks} checks send {packets} packets and pieces, {bytes} bytes in all\n")
-}
-
-/// What passed on the line, in a sentence.
-fn passed(counts: &Counts) -> String {
-    let mut times = counts.times.clone();
-    times.sort_unstable();
-    let ms = |place: usize| times.get(place).map_or(0.0, |time| time.as_secs_f64() * 1e3);
-    let last = times.len().saturating_sub(1);
-    let unasked = match counts.unasked {
-        0 => String::new(),
-        bytes => format!(", and {bytes} bytes came that nothing had asked for"),
-    };
-    format!(
-        "{} packets and pieces with {} bytes were sent, {} bytes came; answers began after {:.1} to {:.1} ms, half of them within {:.1} ms{unasked}",
-        counts.pieces,
-        counts.sent,
-        counts.received,
-        ms(0),
-        ms(last),
-        ms(last / 2)
-    )
 }

@@ -15,6 +15,7 @@ use super::result::Run;
 use super::smallest::Smallest;
 use crate::legible::{LONGEST_TEXT, legible};
 use crate::suite::expect::Unexpected;
+use crate::traffic::Traffic;
 use crate::verdict::{Because, Outcome, Totals, Verdict};
 
 /// How many different texts are counted separately; the suite itself has far fewer.
@@ -32,6 +33,8 @@ pub struct End {
     pub left: usize,
     /// The last lines that the adapter logged.
     pub log: String,
+    /// What passed on the line to a device.
+    pub traffic: Option<Traffic>,
 }
 
 /// Collects the outcomes of a run for its report.
@@ -137,14 +140,14 @@ impl<'a> Collector<'a> {
     /// The report, with how the run ended.
     #[must_use]
     pub fn finish(mut self, end: End) -> Report {
-        let End { seconds, stopped, left, log } = end;
+        let End { seconds, stopped, left, log, traffic } = end;
         let totals = self.totals();
         let lines: Vec<_> = log.lines().map(|line| legible(line, LONGEST_TEXT)).collect();
         let (requirements, not_passed) = self.requirements();
         Report {
             version: VERSION,
             header: self.run.header(),
-            summary: Summary { seconds, stopped, left, totals },
+            summary: Summary { seconds, stopped, left, totals, traffic },
             causes: std::mem::take(&mut self.causes).into_values().collect(),
             requirements,
             profile: self.profile(),

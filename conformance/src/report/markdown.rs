@@ -4,7 +4,8 @@ use std::io::{self, Write};
 
 use super::model::{Cause, CheckResult, ProfileEntry, Report};
 use super::view::Group;
-use super::words::{count, mark, tallies, thousands, wires};
+use super::words::{count, mark, spread, tallies, thousands, wires};
+use crate::traffic::Response;
 use crate::verdict::Verdict;
 
 /// The most bytes of a report. GitHub shows no page of more than 1 MiB, which may have several.
@@ -18,7 +19,7 @@ const CAUSES: usize = 20;
 /// # Errors
 /// If it can't be written.
 pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
-    let mut page = header(report) + &causes(report) + &totals(report);
+    let mut page = header(report) + &causes(report) + &totals(report) + &passed(report);
     let findings = findings(report);
     add(&mut page, &findings, "findings; a report in html or json has them");
     add(&mut page, &brief(report), "rows");
@@ -81,6 +82,26 @@ fn totals(report: &Report) -> String {
         |(verdict, count)| format!("| {} {verdict} | {} |\n", mark(verdict), thousands(count));
     let rows: String = report.summary.totals.counts().map(row).collect();
     format!("\n| verdict | checks |\n|---|---:|\n{rows}")
+}
+
+/// What passed on the line, and a folded table of the times of answers.
+fn passed(report: &Report) -> String {
+    let lines = report.passed();
+    let line = |line: &String| format!("- {}\n", prose(line));
+    let lines: String = lines.iter().map(line).collect();
+    let Some(traffic) = report.summary.traffic.as_ref().filter(|_| !lines.is_empty()) else {
+        return String::new();
+    };
+    let row = |Response { instruction, spread: times }: &Response| {
+        let (count, times) = (thousands(times.count), spread(times).join(" | "));
+        format!("| {} | {count} | {times} |\n", code(instruction))
+    };
+    let rows: String = traffic.by_instruction.iter().map(row).collect();
+    format!(
+        "\n### On the line\n\n{lines}\n<details><summary>How long answers took</summary>\n\n\
+         | instruction | answers | least, ms | median, ms | 99th percentile, ms | most, ms |\n\
+         |---|---:|---:|---:|---:|---:|\n{rows}\n</details>\n"
+    )
 }
 
 /// Each finding, folded but for the first, and what follows from others in a line.

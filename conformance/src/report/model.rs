@@ -9,6 +9,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::adapter::{Implementation, Wire};
 use crate::explain::diff::Diff;
+use crate::traffic::Traffic;
 use crate::verdict::{Outcome, Totals, Verdict};
 
 /// Version of the report's format. It changes when a field is removed or gets another meaning.
@@ -97,6 +98,9 @@ pub struct Summary {
     pub left: usize,
     /// The count of each verdict.
     pub totals: Totals,
+    /// What passed on the line to a device; absent if none was checked.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub traffic: Option<Traffic>,
 }
 
 /// Why a run ended early.

@@ -15,6 +15,7 @@ use super::model::{
 use super::smallest::Smallest;
 use crate::input::{self, InputError};
 use crate::legible::legible;
+use crate::traffic::Traffic;
 use crate::verdict::{Totals, Verdict};
 
 /// Why a file can't be read as a report.
@@ -209,6 +210,9 @@ fn contradiction(report: &Report) -> Option<String> {
             ));
         }
     }
+    if let Some(what) = report.summary.traffic.as_ref().and_then(wrong_times) {
+        return Some(what);
+    }
     if sum(report.mistakes.iter().map(|tally| tally.count)) > totals.count(Verdict::Fail) {
         return Some("more failures fit its mistakes than there are".to_owned());
     }
@@ -236,6 +240,18 @@ fn contradiction(report: &Report) -> Option<String> {
     };
     let NotPassed { requirement, verdict, .. } = report.not_passed.iter().find(wrong)?;
     Some(format!("its checks of {requirement} with verdict {verdict} are not what its totals say"))
+}
+
+/// Finds times of answers that are in no order, or are more than there are.
+fn wrong_times(traffic: &Traffic) -> Option<String> {
+    let Traffic { response, by_instruction, .. } = traffic;
+    let each = by_instruction.iter().map(|response| &response.spread);
+    if let Some(spread) = response.iter().chain(each.clone()).find(|spread| !spread.is_ordered()) {
+        return Some(format!("the times of {} answers are in no order", spread.count));
+    }
+    let all = response.map_or(0, |spread| spread.count);
+    let counted = sum(each.map(|spread| spread.count));
+    (counted != all).then(|| format!("it tells of times of {all} answers, not {counted}"))
 }
 
 /// Finds a requirement that is at fault for another number of failures than the report says.

@@ -62,6 +62,7 @@ fn screen(report: &Report, terminal: &Terminal<'_>, out: &mut dyn Write) -> io::
     if !findings.is_empty() {
         end.push(terminal.next.map(|line| format!("{DIM}{line}{DIM:#}")).into_iter().collect());
     }
+    end.push(report.passed());
     end.push(vec![text::summary(report)]);
     end.retain(|lines| !lines.is_empty());
     let mut parts = vec![vec![text::header(report)]];

@@ -40,6 +40,10 @@ pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "\n{DIM}{profile}{DIM:#}")?;
     }
     log(report, out)?;
+    for (place, line) in report.passed().iter().enumerate() {
+        let before = if place == 0 { "\n" } else { "" };
+        writeln!(out, "{before}{line}")?;
+    }
     if let Some(sentence) = report.cut_short() {
         writeln!(out, "\n{sentence}")?;
     }

@@ -8,6 +8,7 @@ use super::model::{Cause, CheckResult, NotPassed, Report, RequirementResult, Sto
 use super::{course, words};
 use crate::adapter::Output;
 use crate::explain::diff::Row;
+use crate::traffic::Traffic;
 use crate::verdict::{After, Outcome, Verdict};
 
 impl Report {
@@ -33,6 +34,30 @@ impl Report {
         };
         let left = words::count(self.summary.left, "check");
         Some(format!("{why}: {left} not asked"))
+    }
+
+    /// What passed on the line to a device, and how long its answers took, in a line each.
+    #[must_use]
+    pub fn passed(&self) -> Vec<String> {
+        let Some(traffic) = &self.summary.traffic else { return Vec::new() };
+        let Traffic { pieces, sent, received, unasked, response, .. } = traffic;
+        let bytes = |count| words::count(count, "byte");
+        let unasked = match *unasked {
+            0 => String::new(),
+            count => format!(", {} of them unasked", words::thousands(count)),
+        };
+        let pieces = words::thousands(*pieces);
+        let on_line = format!(
+            "{pieces} packets and parts of packets were sent, {}; {} came{unasked}",
+            bytes(*sent),
+            bytes(*received)
+        );
+        let answers = response.as_ref().map(|spread| {
+            let [least, median, p99, most] = words::spread(spread);
+            let count = words::count(spread.count, "answer");
+            format!("{count} began after {least} to {most} ms, half within {median} ms, 99 of 100 within {p99} ms")
+        });
+        std::iter::once(on_line).chain(answers).collect()
     }
 
     /// The checks with this verdict by requirement: those that are accused, the most basic first,

@@ -1,7 +1,10 @@
 //! Words and marks that several formats share.
 
+use std::time::Duration;
+
 use super::model::Tally;
 use crate::adapter::Wire;
+use crate::traffic::Spread;
 use crate::verdict::Verdict;
 
 /// A number with commas: 61,260.
@@ -21,6 +24,13 @@ pub(super) fn thousands(number: usize) -> String {
 pub(super) fn count(number: usize, what: &str) -> String {
     let ending = if number == 1 { "" } else { "s" };
     format!("{} {what}{ending}", thousands(number))
+}
+
+/// Least, median, 99th percentile and most of times, in milliseconds.
+pub(super) fn spread(spread: &Spread) -> [String; 4] {
+    let Spread { least_us, median_us, p99_us, most_us, .. } = *spread;
+    let ms = |time| format!("{:.2}", Duration::from_micros(time).as_secs_f64() * 1e3);
+    [least_us, median_us, p99_us, most_us].map(ms)
 }
 
 /// The wires: `wire dynamixel2`, `wires dynamixel2, innfos`.

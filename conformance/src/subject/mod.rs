@@ -25,6 +25,7 @@ use crate::bus::Bursts;
 use crate::bus::has_datagrams;
 #[cfg(unix)]
 use crate::link::{LinkError, Links, Port};
+use crate::traffic::Traffic;
 
 pub use adapter::{Process, StartError};
 pub use builtin::Builtin;
@@ -69,6 +70,11 @@ pub trait Subject {
 
     /// Begins anew, so that nothing that was asked before affects later answers.
     fn restart(&mut self) {}
+
+    /// What passed on its line so far, if it has one that is counted.
+    fn traffic(&self) -> Option<Traffic> {
+        None
+    }
 
     /// The last lines that it logged; may be empty.
     fn log(&self) -> String {

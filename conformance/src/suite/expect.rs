@@ -86,31 +86,39 @@ pub struct Unexpected {
     pub first: Vec<Outcome>,
 }
 
-impl Expectations {
-    /// Reads the file at `path`. A row may name checks that the plan lacks but `widest` could have:
-    /// those of other options.
+/// The rows of an expected-failures file, before it is known which checks there are.
+#[derive(Debug)]
+pub struct Rows {
+    name: String,
+    file: File,
+    patterns: Patterns,
+}
+
+impl Rows {
+    /// Reads the file at `path`.
     ///
     /// # Errors
-    /// If it can't be read, is malformed, or has an id that no options yield.
-    pub fn read(path: &Path, plan: &Plan<'_>, widest: &Plan<'_>) -> Result<Self, ExpectError> {
-        Self::parse(&path.display().to_string(), &input::yaml_text(path)?, plan, widest)
+    /// If it can't be read, or is malformed.
+    pub fn read(path: &Path) -> Result<Self, ExpectError> {
+        Self::parse(&path.display().to_string(), &input::yaml_text(path)?)
     }
 
-    /// Reads the text of the file `name`, as [`Expectations::read`] does.
-    ///
-    /// # Errors
-    /// If it is malformed, or has an id that no options yield.
-    pub fn parse(
-        name: &str,
-        text: &str,
-        plan: &Plan<'_>,
-        widest: &Plan<'_>,
-    ) -> Result<Self, ExpectError> {
+    fn parse(name: &str, text: &str) -> Result<Self, ExpectError> {
         let name = name.to_owned();
-        let File { is_blank, comment, rows } = File::parse(&name, text)?;
-        let texts = rows.iter().flat_map(|row| &row.ids).map(String::as_str);
+        let file = File::parse(&name, text)?;
+        let texts = file.rows.iter().flat_map(|row| &row.ids).map(String::as_str);
         let patterns = Patterns::new(texts)
             .map_err(|message| ExpectError::Parse { path: name.clone(), message })?;
+        Ok(Self { name, file, patterns })
+    }
+
+    /// What is expected of the checks of a plan. A row may name checks that the plan lacks but `widest`
+    /// could have: those of other options.
+    ///
+    /// # Errors
+    /// If a row has an id that no options yield.
+    pub fn with(self, plan: &Plan<'_>, widest: &Plan<'_>) -> Result<Expectations, ExpectError> {
+        let Self { name, file: File { is_blank, comment, rows }, patterns } = self;
         let mut counts = plan.count_matches(&patterns).into_iter();
         let mut expected = Vec::new();
         let rows: Vec<_> = rows.into_iter().map(Arc::new).collect();
@@ -127,7 +135,22 @@ impl Expectations {
             return Err(ExpectError::Row { path: name, row, message });
         }
         let (passes, named_twice) = Default::default();
-        Ok(Self { name, is_blank, comment, rows, patterns, expected, passes, named_twice })
+        Ok(Expectations { name, is_blank, comment, rows, patterns, expected, passes, named_twice })
+    }
+}
+
+impl Expectations {
+    /// Reads the text of the file `name`, for the checks of a plan, as [`Rows::with`] does.
+    ///
+    /// # Errors
+    /// If it is malformed, or has an id that no options yield.
+    pub fn parse(
+        name: &str,
+        text: &str,
+        plan: &Plan<'_>,
+        widest: &Plan<'_>,
+    ) -> Result<Self, ExpectError> {
+        Rows::parse(name, text)?.with(plan, widest)
     }
 
     /// Turns an expected failure into [`Verdict::ExpectedFailure`], and notes a pass that is not

@@ -268,6 +268,53 @@ fn an_expected_failure_that_does_not_fail_fails_the_run() {
     assert!(stderr.contains("row 1: `ja40.pong.instruction/crc` is the id of no check"));
 }
 
+/// Whoever mistypes a name waits neither for an adapter to start nor for a device.
+#[cfg(unix)]
+#[test]
+fn expected_failures_are_read_before_anything_is_started_or_opened() {
+    let folder = tempfile::tempdir().unwrap();
+    let [marker, list, missing] =
+        ["started", "list.yaml", "missing.yaml"].map(|name| folder.path().join(name));
+    fs::write(&list, "expected_failures: 7\n").unwrap();
+    let touch = format!("touch '{}'", marker.display());
+    let command = ["--", "sh", "-c", &touch];
+    for expect in [&list, &missing] {
+        let expect = ["--expect", expect.to_str().unwrap()];
+        for role in ["codec", "host", "device"] {
+            let (status, _, stderr) = actucheck(&[&[role][..], &expect, &command].concat());
+            assert_eq!((status, stderr.lines().count()), (2, 1), "{stderr}");
+            assert!(stderr.contains(expect[1]), "{stderr}");
+            assert!(!marker.exists(), "{role} started the command");
+        }
+        let (status, _, stderr) = actucheck(&[&["device", "/no/such/port"][..], &expect].concat());
+        assert_eq!(status, 2, "{stderr}");
+    }
+    let (status, ..) = actucheck(&[&["codec"][..], &command].concat());
+    assert!(status == 4 && marker.exists(), "without the file the command is started");
+}
+
+/// A byte has ten bits on the line. A Ping has 10 bytes, and its answer 11 at least.
+#[cfg(unix)]
+#[test]
+fn a_plan_tells_how_long_it_takes() {
+    let plan = |select: &str, options: &[&str]| {
+        let select = ["--select", select];
+        let all = [&["device", "--device", "ja40", "--dry-run"], &select[..], options].concat();
+        let (status, stdout, stderr) = actucheck(&all);
+        assert_eq!((status, stderr.as_str()), (0, ""));
+        stdout.lines().last().unwrap().to_owned()
+    };
+    let ping = "*.basic.ping/answer";
+    assert_eq!(
+        plan(ping, &["--baud", "100"]),
+        "with --allow read, checks that are asked: 1; packets and parts of packets: 1, with 10 bytes; \
+         about 2.1 s at 100 bit/s, if answers begin after 1.0 ms"
+    );
+    let write = "*.basic.write/answer";
+    let asked = |options: &[&str]| plan(write, options).contains("checks that are asked: 1;");
+    assert_eq!((asked(&[]), asked(&["--allow", "write-ram"])), (false, true));
+}
+
 #[test]
 fn completions_are_there_for_a_shell() {
     let (status, stdout, _) = actucheck(&["completions", "bash"]);

@@ -14,7 +14,7 @@ use super::killing::{Run, run};
 use super::right::{ACTUATORS, Bus, SERVOS, Test};
 
 /// The tests. Each returns what is wrong.
-pub(crate) const TESTS: [Test; 8] = [
+pub(crate) const TESTS: [Test; 10] = [
     ("no_such_port", || ended(&run(&["/dev/no-such-port"]), "there is no such port", 0)),
     ("no_serial_port", || ended(&run(&["/etc/hostname"]), "it is no serial device", 0)),
     ("nobody_listens", || {
@@ -23,6 +23,12 @@ pub(crate) const TESTS: [Test; 8] = [
     ("no_permission", no_permission),
     ("port_vanishes", || firmware("port-vanishes", "it was closed at the other end", 20)),
     ("another_host", || firmware("another-host", "another host sends on this line", 20)),
+    ("another_host_asks_the_same_device", || {
+        firmware("another-host-asks-it", "another host sends on this line", 20)
+    }),
+    ("another_host_between_conversations", || {
+        firmware("another-host-later", "another host sends on this line", 20)
+    }),
     ("nothing_answers", || {
         let bus = Bus::start(&ACTUATORS, &["--pty"]);
         let arguments = [&bus.address, "--answer-within", "20"];
@@ -48,12 +54,33 @@ pub(crate) const FAULTS: &[Fault] = &[
         if instruction(asked) != Some(0x40) {
             return answer;
         }
-        let ping = Packet::Instruction { id: 7, instruction: 1, params: Vec::new().into() };
-        let ping = WIRE.encode(&ping.into()).unwrap();
-        assert_eq!(packets(&ping).len(), 1);
-        [answer, ping].concat()
+        [answer, request(7, 1, &[])].concat()
     }),
+    answering("another-host-asks-it", "hears another program write to it", "", |asked, answer| {
+        if instruction(asked) != Some(0x40) {
+            return answer;
+        }
+        [request(1, 3, &[0x34, 2, 0]), answer].concat()
+    }),
+    answering(
+        "another-host-later",
+        "hears another program after its answers",
+        "",
+        |asked, answer| {
+            if instruction(asked) != Some(0x40) {
+                return answer;
+            }
+            [answer, request(1, 3, &[0x34, 2, 0])].concat()
+        },
+    ),
 ];
+
+fn request(id: u8, instruction: u8, params: &[u8]) -> Vec<u8> {
+    let packet = Packet::Instruction { id, instruction, params: params.to_vec().into() };
+    let bytes = WIRE.encode(&packet.into()).unwrap();
+    assert_eq!(packets(&bytes).len(), 1);
+    bytes
+}
 
 /// A port of this machine that nobody listens at.
 fn free() -> u16 {

@@ -15,3 +15,4 @@ mod outside;
 mod program;
 mod sample;
 mod text;
+mod traffic;

@@ -9,8 +9,9 @@ use actucheck::report::model::Summary;
 use actucheck::report::{Collector, End, Format, Report, Run, Stopped};
 use actucheck::run::outcomes;
 use actucheck::subject::{Answer, Builtin, Subject};
-use actucheck::suite::expect::Expectations;
+use actucheck::suite::expect::Rows;
 use actucheck::suite::{self, Options};
+use actucheck::traffic::{Response, Spread, Traffic};
 use actucheck::verdict::{After, Outcome, Verdict};
 use actucheck_spec::Spec;
 use actucheck_spec::model::{Fault, Level};
@@ -124,7 +125,7 @@ fn report(name: &str, only: &str, bend: fn(&Question, Answer) -> Answer, expect:
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("expected-failures.yaml");
     std::fs::write(&file, format!("expected_failures: {expect}\n")).unwrap();
-    let mut expectations = Expectations::read(&file, &plan, &plan).unwrap();
+    let mut expectations = Rows::read(&file).unwrap().with(&plan, &plan).unwrap();
     let run = run(&implementation);
     let mut collector = Collector::new(&run);
     for mut outcome in outcomes {
@@ -204,6 +205,33 @@ pub(crate) fn right() -> Report {
     static KEPT: LazyLock<Report> =
         LazyLock::new(|| report("right", "*", |_, answer| answer, "[]"));
     KEPT.clone()
+}
+
+/// A report of a device.
+pub(crate) fn of_device() -> Report {
+    let spread = |count, least_us, median_us, p99_us, most_us| Spread {
+        count,
+        least_us,
+        median_us,
+        p99_us,
+        most_us,
+    };
+    let traffic = Traffic {
+        pieces: 1234,
+        sent: 20_000,
+        received: 30_000,
+        unasked: 7,
+        response: Some(spread(300, 510, 700, 1500, 20_000)),
+        by_instruction: vec![
+            Response { instruction: "ping".to_owned(), spread: spread(100, 510, 520, 530, 540) },
+            Response {
+                instruction: "read".to_owned(),
+                spread: spread(200, 600, 800, 1600, 20_000),
+            },
+        ],
+    };
+    let small = small();
+    Report { summary: Summary { traffic: Some(traffic), ..small.summary }, ..small }
 }
 
 /// A report of an interrupted run.

@@ -10,7 +10,7 @@ use actucheck::report::screen::{self, Detail, Terminal};
 
 use super::sample::{self, written};
 
-fn on_terminal(report: &Report, detail: Detail, width: usize) -> String {
+pub(crate) fn on_terminal(report: &Report, detail: Detail, width: usize) -> String {
     let mut text = Vec::new();
     let terminal = Terminal { detail, width, next: Some("Next: look at the page.") };
     screen::write(report, &terminal, &mut text).unwrap();

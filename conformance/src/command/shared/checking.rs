@@ -13,7 +13,7 @@ use actucheck::adapter::{HostPort, Wire};
 use actucheck::report::{Collector, End, Run, Stopped, screen};
 use actucheck::run;
 use actucheck::suite::Options;
-use actucheck::suite::expect::{Expectations, Extended, Failures};
+use actucheck::suite::expect::{Expectations, Extended, Failures, Rows};
 use actucheck::suite::plan::Plan;
 use actucheck::verdict::Outcome;
 use actucheck_spec::Spec;
@@ -161,6 +161,7 @@ impl Running {
         let seconds = started.elapsed().as_secs_f64();
         bar.finish_and_clear();
 
+        let traffic = subjects.traffic();
         let (log, traced) = subjects.end();
         expectations.unexpected().into_iter().for_each(|passes| collector.revise(passes));
         let report = collector.finish(End {
@@ -172,6 +173,7 @@ impl Running {
             },
             left: size.saturating_sub(asked),
             log,
+            traffic,
         });
         let streamed = streams.end(&report.summary);
         let written = outputs.write(
@@ -246,11 +248,11 @@ impl<'a> Start<'a> {
         interrupted: &Arc<AtomicBool>,
         start: impl FnOnce(&Arc<AtomicBool>) -> Result<(Subjects, Planned<'a>), Failure>,
     ) -> Result<Self, Failure> {
+        // A file that can't be used is told before anything is started or opened.
+        let rows = running.expect.as_deref().map(Rows::read).transpose().map_err(Failure::usage)?;
         let (subjects, mut planned) = start(interrupted)?;
-        let expectations = match &running.expect {
-            Some(path) => {
-                Expectations::read(path, &planned.plan, &planned.widest).map_err(Failure::usage)?
-            }
+        let expectations = match rows {
+            Some(rows) => rows.with(&planned.plan, &planned.widest).map_err(Failure::usage)?,
             None => Expectations::default(),
         };
         selection.restrict(&mut planned.plan)?;

@@ -8,6 +8,7 @@ use std::time::Duration;
 use actucheck::adapter::{Hello, HostPort, Settings, Timeouts, Trace, lint};
 use actucheck::subject::{Builtin, Process, Subject};
 use actucheck::suite::plan::Plan;
+use actucheck::traffic::Traffic;
 use clap::Args;
 
 use super::value::{one_of, seconds};
@@ -127,6 +128,11 @@ impl Subjects {
     /// One subject without an adapter.
     pub(crate) fn of(subject: impl Subject + Send + 'static) -> Self {
         Self { hello: subject.hello().clone(), all: vec![Box::new(subject)], trace: None }
+    }
+
+    /// What passed on the line of a device so far.
+    pub(crate) fn traffic(&self) -> Option<Traffic> {
+        self.all.first().and_then(|subject| subject.traffic())
     }
 
     /// Says which question of the other role the adapter answers, if it plays one role only.

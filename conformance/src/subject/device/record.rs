@@ -4,8 +4,10 @@ use std::time::Instant;
 
 use actucheck_spec::wire::{Direction, Wire};
 
-use super::KEPT;
 use crate::adapter::{Asked, Heard, Passed};
+
+/// The most bytes of a step that are looked at.
+const KEPT: usize = 1 << 16;
 
 /// What passes in a step.
 pub(super) struct Record {
@@ -39,7 +41,7 @@ impl Record {
         if bytes.is_empty() {
             return false;
         }
-        let room = KEPT.0.saturating_sub(self.came.len());
+        let room = KEPT.saturating_sub(self.came.len());
         let kept = bytes.get(..room).unwrap_or(bytes);
         self.came.extend_from_slice(kept);
         self.more += bytes.len() - kept.len();
