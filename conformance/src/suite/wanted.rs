@@ -46,6 +46,29 @@ pub enum Part {
         /// How many they are.
         count: usize,
     },
+    /// Four bytes, low byte first: the number that the first answer to an earlier step was, and more.
+    Moved {
+        /// The step, from 0.
+        step: usize,
+        /// How much more.
+        by: i64,
+        /// How far it may be off: what is measured is never quite still.
+        within: i64,
+    },
+    /// Without this the check is not about the device, whatever comes in later steps: a number of so many bytes,
+    /// low byte first, some bits of which have one of these values.
+    Given {
+        /// What the device needs, in words after "it needs".
+        what: String,
+        /// How many bytes it has.
+        size: usize,
+        /// The lowest of the bits.
+        lowest: u8,
+        /// How many bits they are.
+        width: u8,
+        /// The values, shifted down to bit 0.
+        one_of: Vec<u64>,
+    },
     /// A register of so many bytes that is not 0 exactly if the answer has the alert.
     Alarms(usize),
     /// A signed number of so many bytes, high byte first, between two others.
@@ -115,6 +138,9 @@ pub(super) fn judge(question: &Question, wanted: &[Wanted], heard: &[Heard]) -> 
                 if steps.len() > 1 { format!("step {}: ", place + 1) } else { String::new() };
             return (Verdict::Fail, format!("{step}{came} came back, but it must be {wanted}"));
         }
+        if let Some(what) = wanted.lacks(came) {
+            return (Verdict::Skip, format!("it needs {what}"));
+        }
     }
     (Verdict::Pass, String::new())
 }
@@ -152,6 +178,27 @@ impl Wanted {
     }
 }
 
+impl Wanted {
+    /// What the device must be in for the check, and is not.
+    fn lacks(&self, came: &Told) -> Option<&str> {
+        let data = came.answers.first()?.data.as_ref()?;
+        let parts = self.0.iter().flatten().filter_map(|like| like.data.as_ref()).flatten();
+        parts.into_iter().find_map(|part| match part {
+            Part::Given { what, lowest, width, one_of, .. } => {
+                (!has_bits(&data.0, *lowest, *width, one_of)).then_some(what.as_str())
+            }
+            _ => None,
+        })
+    }
+}
+
+/// Whether bits of a number, low byte first, have one of these values.
+fn has_bits(bytes: &[u8], lowest: u8, width: u8, one_of: &[u64]) -> bool {
+    let number = bytes.iter().rev().fold(0_u64, |number, byte| (number << 8) | u64::from(*byte));
+    let ones = 1_u64.checked_shl(width.into()).map_or(u64::MAX, |end| end - 1);
+    one_of.contains(&(number.checked_shr(lowest.into()).unwrap_or_default() & ones))
+}
+
 impl Like {
     fn fits(&self, answer: &Reported, all: &[Told]) -> bool {
         self.id == answer.id
@@ -181,14 +228,16 @@ impl Part {
             | Self::Alarms(size)
             | Self::Same { count: size, .. }
             | Self::Between { size, .. }
+            | Self::Given { size, .. }
             | Self::Bits { size, .. } => *size,
+            Self::Moved { .. } => size_of::<i32>(),
         }
     }
 
     fn is(&self, bytes: &[u8], alert: bool, all: &[Told]) -> bool {
         match self {
             Self::Bytes(expected) => expected.0 == bytes,
-            Self::Any(_) => true,
+            Self::Any(_) | Self::Given { .. } => true,
             Self::Alarms(_) => bytes.iter().any(|byte| *byte != 0) == alert,
             Self::Same { step, from, count } => {
                 let earlier = all.get(*step).and_then(|told| told.answers.first()?.data.as_ref());
@@ -200,15 +249,19 @@ impl Part {
                     bytes.iter().fold(sign, |number: i64, byte| (number << 8) | i64::from(*byte));
                 (*lowest..=*highest).contains(&number)
             }
-            Self::Bits { lowest, width, one_of, .. } => {
-                let number =
-                    bytes.iter().rev().fold(0_u64, |number, byte| (number << 8) | u64::from(*byte));
-                let ones = 1_u64.checked_shl((*width).into()).map_or(u64::MAX, |end| end - 1);
-                let bits = number.checked_shr((*lowest).into()).unwrap_or_default() & ones;
-                one_of.contains(&bits)
+            Self::Bits { lowest, width, one_of, .. } => has_bits(bytes, *lowest, *width, one_of),
+            Self::Moved { step, by, within } => {
+                let data = all.get(*step).and_then(|told| told.answers.first()?.data.as_ref());
+                let (before, now) = (data.and_then(|data| number(&data.0)), number(bytes));
+                before.zip(now).is_some_and(|(before, now)| (now - before - by).abs() <= *within)
             }
         }
     }
+}
+
+/// A signed number of four bytes, low byte first.
+fn number(bytes: &[u8]) -> Option<i64> {
+    Some(i32::from_le_bytes(bytes.try_into().ok()?).into())
 }
 
 /// In words, such as `nothing`, or `device 1: error 0, 3 bytes; or nothing`.
@@ -243,6 +296,10 @@ impl fmt::Display for Part {
             Self::Any(1) => f.write_str("1 byte"),
             Self::Any(size) => write!(f, "{size} bytes"),
             Self::Same { step, .. } => write!(f, "what step {} told", step + 1),
+            Self::Moved { step, by, within } => {
+                write!(f, "what step {} told and {by} more, within {within}", step + 1)
+            }
+            Self::Given { size, what, .. } => write!(f, "{size} bytes, and for this check {what}"),
             Self::Between { size, lowest, highest } => {
                 write!(f, "{size} bytes, a number from {lowest} to {highest}")
             }

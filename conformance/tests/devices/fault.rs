@@ -45,3 +45,8 @@ pub(crate) const fn answering(
 ) -> Fault {
     Fault { name, does, devices: "ja40@1", found_by, hears: None, answers: Some(answers) }
 }
+
+/// The same fault of other devices.
+pub(crate) const fn on(devices: &'static str, fault: Fault) -> Fault {
+    Fault { devices, ..fault }
+}

@@ -42,9 +42,11 @@ pub(crate) fn wrong(fault: &Fault) -> String {
     let own = own.to_str().unwrap();
     let (device, _) = fault.devices.split_once('@').unwrap();
     let known = if wire == "innfos" { ["--wire", wire] } else { ["--device", device] };
+    let has_neighbour = fault.devices.contains(' ');
+    let neighbour = if has_neighbour { &["--neighbour", "2"][..] } else { &[] };
     let select = |id: &str, name: &str| {
         let firmware = ["--", own, "firmware", fault.devices, name];
-        run(&[&known[..], &["--select", id], &firmware].concat())
+        run(&[&known[..], neighbour, &["--select", id], &firmware].concat())
     };
     let verdict = |run: &Run| run.verdicts.first().map(|(_, verdict)| verdict.clone());
     let right = select(&found_by, "none");

@@ -14,6 +14,7 @@
 
 mod bad;
 mod change;
+mod effects;
 mod fault;
 mod faults;
 mod firmware;
@@ -49,7 +50,8 @@ fn main() -> ExitCode {
 
 /// The faults of all wires.
 fn every() -> impl Iterator<Item = &'static Fault> {
-    faults::FAULTS.iter().chain(writing::FAULTS).chain(innfos::FAULTS)
+    let wires = [faults::FAULTS, writing::FAULTS, effects::FAULTS, innfos::FAULTS];
+    wires.into_iter().flatten()
 }
 
 fn tests() -> ExitCode {

@@ -1,15 +1,11 @@
 //! Faults of firmware that only show when it is written to, each with the check that finds it.
 
 use super::change::{each, instruction, with_params};
-use super::fault::{Fault, answering, hearing};
+use super::fault::{Fault, answering, hearing, on};
 use super::rewrite::{
     WRITE, Written as _, after_first, changed, elsewhere, never_refuses, other_error, packet,
     unstuffed, with_code,
 };
-
-const fn on(device: &'static str, fault: Fault) -> Fault {
-    Fault { devices: device, ..fault }
-}
 
 /// The faults. `found_by` is a check's id after `dynamixel2.device.`.
 pub(crate) const FAULTS: &[Fault] = &[

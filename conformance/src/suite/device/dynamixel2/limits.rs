@@ -7,7 +7,7 @@ use super::written::Step;
 use super::{Talk, asked, error, named, word, write};
 use crate::adapter::{Permission, Permissions};
 use crate::suite::check::Check;
-use crate::suite::wanted::Part;
+use crate::suite::wanted::{Like, Part};
 
 /// Values outside the ranges of registers.
 pub(super) fn ranges(talk: &Talk<'_>) -> Vec<Check> {
@@ -18,17 +18,13 @@ pub(super) fn ranges(talk: &Talk<'_>) -> Vec<Check> {
 fn outside(talk: &Talk<'_>, one: Writable<'_>) -> Vec<Check> {
     let Writable { register, min, max } = one;
     let size = register.kind.size();
-    let two_numbers = register.name.ends_with("Limit") && has_two_numbers(talk);
-    let numbers = if two_numbers {
-        vec![error::DATA_RANGE, error::DATA_LIMIT]
-    } else {
-        vec![error::DATA_RANGE]
-    };
+    let is_limit = register.name.ends_with("Limit");
     let values = [("below", min.checked_sub(1)), ("above", max.checked_add(1))];
     let values = values.into_iter().filter_map(|(name, value)| Some((name, value?)));
     let values = values.filter(|(_, value)| register.kind.holds(*value));
     let check = |(name, value): (&str, i64)| {
-        let refused = numbers.iter().map(|number| vec![talk.refusal(*number)]).collect();
+        let refused =
+            if is_limit { refusals(talk) } else { vec![vec![talk.refusal(error::DATA_RANGE)]] };
         let same = talk.done(Part::Same { step: 0, from: 0, count: size.into() });
         let any = talk.done(Part::Any(size.into()));
         let read = || asked(talk.read(register.address, size), 1);
@@ -39,6 +35,13 @@ fn outside(talk: &Talk<'_>, one: Writable<'_>) -> Vec<Check> {
         talk.demands(needs(talk, register), id, &["status-packet.error.data-range"], steps)
     };
     values.map(check).collect()
+}
+
+/// What may answer a value outside the own range of a limit.
+pub(super) fn refusals(talk: &Talk<'_>) -> Vec<Vec<Like>> {
+    let numbers = [error::DATA_RANGE, error::DATA_LIMIT];
+    let count = if has_two_numbers(talk) { 2 } else { 1 };
+    numbers.into_iter().take(count).map(|number| vec![talk.refusal(number)]).collect()
 }
 
 /// Whether the device's document leaves unspecified which error number refuses a value outside the own range of a
@@ -61,7 +64,8 @@ pub(super) fn limited(talk: &Talk<'_>) -> Vec<Check> {
         };
         // With other modes the range is another.
         let depends = register.meanings.iter().any(|meaning| meaning.range.is_some());
-        if register.access == Access::R || register.area != Area::Ram || depends {
+        let is_profile = register.name.starts_with("Profile ");
+        if register.access == Access::R || register.area != Area::Ram || depends && !is_profile {
             continue;
         }
         let Some(Bound::Register(name)) = &range.max else { continue };
@@ -89,8 +93,12 @@ fn both(talk: &Talk<'_>, limit: Writable<'_>) -> Permissions {
         .collect()
 }
 
-fn begin(talk: &Talk<'_>, limit: Writable<'_>) -> Step {
-    talk.sets(limit.register.address, &bytes(limit.register, middle(limit)))
+/// What comes before a value at a limit or beyond it.
+fn begin(talk: &Talk<'_>, register: &Register, limit: Writable<'_>) -> Vec<Step> {
+    let depends = register.meanings.iter().any(|meaning| meaning.range.is_some());
+    let given = talk.profile(0).filter(|_| depends);
+    let set = talk.sets(limit.register.address, &bytes(limit.register, middle(limit)));
+    given.into_iter().chain([set]).collect()
 }
 
 /// A value at the limit is taken.
@@ -101,7 +109,7 @@ fn at_limit(talk: &Talk<'_>, register: &Register, limit: Writable<'_>, both_ways
         [talk.sets(register.address, &data), talk.holds(register.address, data)]
     });
     let id = named(&format!("limit.{}/at", word(&register.name)));
-    let steps = std::iter::once(begin(talk, limit)).chain(steps).collect();
+    let steps = begin(talk, register, limit).into_iter().chain(steps).collect();
     talk.demands(both(talk, limit), id, &["write.effect"], steps)
 }
 
@@ -119,12 +127,12 @@ fn beyond(
     let check = |(name, value)| {
         let inside = bytes(register, 0);
         let write = write(talk.id(), register.address, &bytes(register, value));
-        let steps = vec![
-            begin(talk, limit),
+        let steps = [
             talk.sets(register.address, &inside),
             talk.refused_with(write, error::DATA_LIMIT),
             talk.holds(register.address, inside),
         ];
+        let steps = begin(talk, register, limit).into_iter().chain(steps).collect();
         let id = named(&format!("limit.{}/{name}", word(&register.name)));
         talk.demands(both(talk, limit), id, &requirements, steps)
     };
@@ -134,7 +142,7 @@ fn beyond(
 /// The rows that say so of a limit.
 fn requirements(limit: &str, register: &str) -> Vec<String> {
     let limit = word(limit);
-    let what = if register.starts_with("Goal ") { "goal" } else { "error" };
+    let what = if register.starts_with("Goal ") { "goal" } else { "profile" };
     let rows = [format!("{limit}.{what}"), format!("{limit}.error")];
     rows.into_iter().chain(["status-packet.error.data-limit".to_owned()]).collect()
 }

@@ -5,7 +5,8 @@
 //! - refused: addresses and instructions that there are not;
 //! - addressee: other IDs, and the broadcast ID;
 //! - damaged: packets with a wrong byte, and packets in noise or in parts;
-//! - sentence: what sentences say of packets in general;
+//! - sentence: what sentences say of packets in general, of instructions that change something, and of modes;
+//! - level: which instructions are answered;
 //! - several: instructions that read from several devices;
 //! - written, registered, stuffed: what is written is held, whoever else is meant, and whatever its bytes are;
 //! - range, limit, access, length: what can't be written;
@@ -14,8 +15,11 @@
 mod access;
 mod addressee;
 mod damaged;
+mod effects;
 mod identity;
+mod level;
 mod limits;
+mod modes;
 mod refused;
 mod restart;
 mod sentences;
@@ -47,6 +51,7 @@ mod code {
     pub(super) const ACTION: u8 = 0x05;
     pub(super) const FACTORY_RESET: u8 = 0x06;
     pub(super) const REBOOT: u8 = 0x08;
+    pub(super) const CLEAR: u8 = 0x10;
     pub(super) const SYNC_READ: u8 = 0x82;
     pub(super) const SYNC_WRITE: u8 = 0x83;
     pub(super) const FAST_SYNC_READ: u8 = 0x8A;
@@ -83,12 +88,15 @@ pub(super) fn families<'a>(author: Author<'a>, target: &Target<'a>) -> Vec<Famil
         family("damaged", damaged::checks),
         family("stream", damaged::in_streams),
         family("several", several::checks),
-        family("sentence", sentences::checks),
+        family("sentence", |talk| {
+            [sentences::checks(talk), effects::checks(talk), modes::checks(talk)].concat()
+        }),
+        family("level", level::checks),
         family("written", |talk| [written::kept(talk), written::several(talk)].concat()),
         family("registered", written::registered),
         family("stuffed", stuffed::checks),
         family("range", limits::ranges),
-        family("limit", limits::limited),
+        family("limit", |talk| [limits::limited(talk), modes::limited(talk)].concat()),
         family("access", access::checks),
         family("length", access::lengths),
         family("restart", restart::reboot),

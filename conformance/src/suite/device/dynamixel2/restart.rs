@@ -1,6 +1,7 @@
 //! What stays over a restart, what a reset sets back, and what torque locks.
 
 use actucheck_spec::model::{Access, Area, HexBytes, Register};
+use actucheck_spec::wire::dynamixel2::Packet;
 
 use super::writable::{bytes, lasting, probe};
 use super::written::Step;
@@ -15,7 +16,7 @@ const KEEP_ID_AND_RATE: u8 = 0x02;
 const UNTIL_BACK: u32 = 10;
 
 /// Pings, until the device is back.
-fn back(talk: &Talk<'_>) -> Step {
+pub(super) fn back(talk: &Talk<'_>) -> Step {
     let ping = Piece { after: Pause::None, bytes: bytes_of(talk.ping()) };
     let asked = Asked { packet: None, fast: None, send: vec![ping], awaits: 1, again: UNTIL_BACK };
     (asked, vec![vec![talk.pong()]])
@@ -69,8 +70,13 @@ pub(super) fn reboot(talk: &Talk<'_>) -> Vec<Check> {
     [answer, ram].into_iter().chain(lasting).collect()
 }
 
+/// A Factory Reset that leaves ID and rate.
+pub(super) fn reset_packet(talk: &Talk<'_>) -> Packet {
+    instruction(talk.id(), code::FACTORY_RESET, vec![KEEP_ID_AND_RATE])
+}
+
 pub(super) fn reset(talk: &Talk<'_>) -> Vec<Check> {
-    let packet = instruction(talk.id(), code::FACTORY_RESET, vec![KEEP_ID_AND_RATE]);
+    let packet = reset_packet(talk);
     let Some(one) = lasting(talk).filter(|_| talk.knows("Factory Reset")) else {
         return Vec::new();
     };
@@ -125,12 +131,17 @@ pub(super) fn lock(talk: &Talk<'_>) -> Vec<Check> {
     let kept = (asked(talk.read(register.address, size), 1), vec![vec![talk.done(same)]]);
     let data: HexBytes = bytes(register, one.other()).into();
     let refused = talk.refused_with(write(talk.id(), register.address, &data.0), error::ACCESS);
+    let steps = vec![any, on.clone(), refused, kept, off.clone()];
     let locked = talk.demands(
         [Permission::Eeprom, Permission::Motion].into(),
         named("lock.eeprom/refused"),
         &["status-packet.error.locked", "torque-enable.lock"],
-        vec![any, on.clone(), refused, kept, off.clone()],
+        steps.clone(),
     );
+    let sentence = talk.row(&["table.eeprom-lock"]).map(|_| {
+        let needs = [Permission::Eeprom, Permission::Motion].into();
+        talk.demands(needs, named("lock.table/refused"), &["table.eeprom-lock"], steps)
+    });
     let open = bytes(probe.register, probe.other());
     let open = talk.demands(
         [Permission::WriteRam, Permission::Motion].into(),
@@ -143,5 +154,5 @@ pub(super) fn lock(talk: &Talk<'_>) -> Vec<Check> {
             off,
         ],
     );
-    vec![locked, open]
+    [locked, open].into_iter().chain(sentence).collect()
 }

@@ -2,13 +2,13 @@
 //! obeys it.
 
 use super::several::{self, Kind};
-use super::{BROADCAST, Talk, asked, error, named, ping};
-use crate::adapter::Asked;
-use crate::suite::check::Check;
-use crate::suite::wanted::{Like, Part};
+use super::{BROADCAST, Talk, asked, code, error, frame, named, ping};
+use crate::adapter::{Asked, Permissions};
+use crate::suite::check::{Check, Demand};
+use crate::suite::wanted::{Like, Part, Wanted};
 
 /// What is sent, and what must come back.
-type Conversation = (Vec<Asked>, Vec<Vec<Vec<Like>>>);
+pub(super) type Conversation = (Vec<Asked>, Vec<Vec<Vec<Like>>>);
 
 /// Sentences that the answer to a Ping shows, by the names that documents give them.
 const PING: [&str; 13] = [
@@ -52,6 +52,7 @@ const ALERT: [&str; 2] = ["status-packet.alert", "status-packet.alert.cause"];
 pub(super) fn checks(talk: &Talk<'_>) -> Vec<Check> {
     let mut checks = of(talk, &PING, Some(pinged(talk)));
     checks.extend(of(talk, &READ, read(talk)));
+    checks.extend(of(talk, &["receive.id"], Some(unfit(talk))));
     checks.extend(of(talk, &["packet.instruction.codes|instruction.codes"], codes(talk)));
     checks.extend(of(talk, &STUFFED, Some(stuffed(talk))));
     checks.extend(of(talk, &EVERYBODY, Some(everybody(talk))));
@@ -71,19 +72,37 @@ pub(super) fn checks(talk: &Talk<'_>) -> Vec<Check> {
 
 /// A check for each sentence that the device's documents have.
 fn of(talk: &Talk<'_>, sentences: &[&str], conversation: Option<Conversation>) -> Vec<Check> {
-    let Some((steps, wanted)) = conversation else { return Vec::new() };
+    conversation.map_or_else(Vec::new, |conversation| {
+        shown(talk, &Permissions::READ, sentences, &conversation)
+    })
+}
+
+/// The same for a conversation that needs more than to read.
+pub(super) fn shown(
+    talk: &Talk<'_>,
+    needs: &Permissions,
+    sentences: &[&str],
+    (steps, wanted): &Conversation,
+) -> Vec<Check> {
     let check = |sentence: &&str| {
         let names: Vec<_> = sentence.split('|').collect();
         let row = talk.row(&names)?;
         let (_, name) = row.split_once('.')?;
         let id = named(&format!("sentence.{}/shown", name.replace('.', "-")));
-        Some(talk.check(id, &names, steps.clone(), wanted.clone()))
+        let demand = Demand::Answer(wanted.iter().cloned().map(Wanted).collect());
+        Some(talk.asks_with(needs.clone(), id, &names, steps.clone(), demand))
     };
     sentences.iter().filter_map(check).collect()
 }
 
 fn pinged(talk: &Talk<'_>) -> Conversation {
     (vec![asked(talk.ping(), 1)], vec![vec![vec![talk.pong()]]])
+}
+
+/// Pings to IDs that no packet may have.
+fn unfit(talk: &Talk<'_>) -> Conversation {
+    let step = |id| talk.then_ping(frame(id, &[code::PING]));
+    (vec![step(253), step(255)], vec![vec![vec![talk.pong()]]; 2])
 }
 
 /// Two registers in one Read, and the second of them alone.

@@ -2,16 +2,36 @@
 
 use actucheck_spec::model::Type;
 
+use super::several::{self, Kind};
 use super::writable::{needs, writable};
 use super::{Talk, named};
 use crate::adapter::{Permission, Permissions};
 use crate::suite::check::Check;
+use crate::suite::wanted::Part;
 
 /// What a header begins with.
 const PATTERN: [u8; 3] = [0xFF, 0xFF, 0xFD];
 
 pub(super) fn checks(talk: &Talk<'_>) -> Vec<Check> {
     indirect(talk).into_iter().chain(neighbours(talk)).chain(large(talk)).collect()
+}
+
+/// Data that were written are stuffed when they are read, but not in the answer that several devices share.
+fn sent(talk: &Talk<'_>, needs: Permissions, address: u16, data: Vec<u8>) -> Vec<Check> {
+    let steps = [talk.sets(address, &data), talk.holds(address, data.clone())];
+    let id = named("stuffed.neighbours/sent");
+    let mut checks =
+        vec![talk.demands(needs.clone(), id, &["stuffing.transmit"], steps.clone().into())];
+    let fast = several::own(talk).find(|kind| *kind == Kind::FastSync);
+    let has_row = talk.row(&["fast-sync-read.unstuffed"]).is_some();
+    if let (Some(kind), [set, _]) = (fast.filter(|_| has_row), steps) {
+        let length = u16::try_from(data.len()).unwrap_or(u16::MAX);
+        let asked = kind.asked(&[talk.id()], (address, length), 1);
+        let step = (asked, vec![vec![talk.done(Part::Bytes(data.into()))]]);
+        let id = named("stuffed.fast-sync-read/sent");
+        checks.push(talk.demands(needs, id, &["fast-sync-read.unstuffed"], vec![set, step]));
+    }
+    checks
 }
 
 fn check(talk: &Talk<'_>, needs: Permissions, name: &str, address: u16, data: Vec<u8>) -> Check {
@@ -55,19 +75,22 @@ fn indirect(talk: &Talk<'_>) -> Vec<Check> {
 }
 
 /// A register of two bytes that may be all ones, and the one after it.
-fn neighbours(talk: &Talk<'_>) -> Option<Check> {
+fn neighbours(talk: &Talk<'_>) -> Vec<Check> {
     let all = writable(talk);
-    let (first, second) = all.iter().zip(all.iter().skip(1)).find(|(first, second)| {
+    let found = all.iter().zip(all.iter().skip(1)).find(|(first, second)| {
         first.size() == 2
             && first.max >= i64::from(u16::MAX)
             && first.register.address + 2 == second.register.address
             && second.size() == 2
             && (second.min..=second.max).contains(&0xFD)
-    })?;
+    });
+    let Some((first, second)) = found else { return Vec::new() };
     let needs = [first, second].map(|one| needs(talk, one.register));
     let needs = Permission::ALL.into_iter().filter(|one| needs.iter().any(|all| all.has(*one)));
     let data = [&PATTERN[..], &[0]].concat();
-    Some(check(talk, needs.collect(), "neighbours", first.register.address, data))
+    let (needs, address): (Permissions, _) = (needs.collect(), first.register.address);
+    let kept = check(talk, needs.clone(), "neighbours", address, data.clone());
+    [kept].into_iter().chain(sent(talk, needs, address, data)).collect()
 }
 
 /// A register of four bytes that takes every value.

@@ -37,10 +37,14 @@ const MOVING_STATUS: (&str, &str) = ("Moving Status", "bits");
 const PROFILE: &str = "moving-status.profile";
 const TICK: (&str, &str) = ("Realtime Tick", "bits");
 const TICKS: &str = "realtime-tick.value";
+const BACKUP: (&str, &str) = ("Backup Ready", "value");
+const BACKUP_READY: &str = "backup.ready";
 const ALARMS: &str = "Hardware Error Status";
 const NO_ALARM: &str = "hardware-error.unused-bits";
 
-const HELD: [Held; 10] = [
+const HELD: [Held; 12] = [
+    Held::new("ja40", BACKUP, BACKUP_READY, (0, 8), &[0, 1]),
+    Held::new("ja-variant", BACKUP, BACKUP_READY, (0, 8), &[0, 1]),
     Held::new("ja40", DRIVE_MODE, UNUSED, (3, 5), &[0]),
     Held::new("ja-variant", DRIVE_MODE, UNUSED, (2, 6), &[0]),
     Held::new("ja40", MOVING_STATUS, PROFILE, (4, 2), &[0, 1, 3]),

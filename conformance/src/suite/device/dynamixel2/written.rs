@@ -117,7 +117,7 @@ pub(super) fn kept(talk: &Talk<'_>) -> Vec<Check> {
 /// Instructions that write to several devices, or to all.
 pub(super) fn several(talk: &Talk<'_>) -> Vec<Check> {
     let Some(probe) = probe(talk) else { return Vec::new() };
-    let (address, size) = (probe.register.address, probe.register.kind.size());
+    let address = probe.register.address;
     let (id, absent) = (talk.id(), talk.absent());
     let [first, second] = [probe.min, probe.other()].map(|value| bytes(probe.register, value));
     let ram = || Permissions::from([Permission::WriteRam]);
@@ -127,17 +127,8 @@ pub(super) fn several(talk: &Talk<'_>) -> Vec<Check> {
         let id = named(&format!("written.{word}.{what}"));
         checks.push(talk.demands(ram(), id, requirements, steps));
     };
-    let range = [address, size].map(u16::to_le_bytes).concat();
-    let with = |head: &[u8], blocks: &[(u8, &[u8])], each: &[u8]| {
-        let blocks = blocks.iter().flat_map(|(id, data)| [&[*id][..], each, data].concat());
-        head.iter().copied().chain(blocks).collect::<Vec<u8>>()
-    };
-    let sync = |blocks: &[(u8, &[u8])]| {
-        instruction(BROADCAST, code::SYNC_WRITE, with(&range, blocks, &[]))
-    };
-    let bulk = |blocks: &[(u8, &[u8])]| {
-        instruction(BROADCAST, code::BULK_WRITE, with(&[], blocks, &range))
-    };
+    let sync = |blocks: &[(u8, &[u8])]| to_several(code::SYNC_WRITE, address, blocks);
+    let bulk = |blocks: &[(u8, &[u8])]| to_several(code::BULK_WRITE, address, blocks);
     let kinds: [(&str, &str, &Writes<'_>); 2] =
         [("Sync Write", "sync-write", &sync), ("Bulk Write", "bulk-write", &bulk)];
     for (name, word, packet) in kinds {
@@ -159,9 +150,7 @@ pub(super) fn several(talk: &Talk<'_>) -> Vec<Check> {
         add(word, "not-named/nothing", &[&effect], vec![begin(), talk.silent_at(other), still]);
     }
     if talk.knows("Fast Sync Write") {
-        let fast = |blocks: &[(u8, &[u8])]| {
-            instruction(BROADCAST, code::FAST_SYNC_WRITE, with(&range, blocks, &[]))
-        };
+        let fast = |blocks: &[(u8, &[u8])]| to_several(code::FAST_SYNC_WRITE, address, blocks);
         let answers = Asked {
             fast: Some(Fast { length: 0, ids: vec![id] }),
             ..asked(fast(&[(id, &second)]), 1)
@@ -238,6 +227,21 @@ pub(super) fn registered(talk: &Talk<'_>) -> Vec<Check> {
         Demand::record("Which of two Reg Writes does an Action carry out?", []),
     );
     checks.chain([again]).collect()
+}
+
+/// An instruction that writes as many bytes from an address on to each of several devices.
+pub(super) fn to_several(code: u8, address: u16, blocks: &[(u8, &[u8])]) -> Packet {
+    let size = blocks.first().map_or(0, |(_, data)| data.len());
+    let size = u16::try_from(size).unwrap_or(u16::MAX);
+    let range = [address, size].map(u16::to_le_bytes).concat();
+    // Each block of a Bulk Write has its own range.
+    let (head, each) = if code == code::BULK_WRITE {
+        (&[][..], range.as_slice())
+    } else {
+        (range.as_slice(), &[][..])
+    };
+    let blocks = blocks.iter().flat_map(|(id, data)| [&[*id][..], each, data].concat());
+    instruction(BROADCAST, code, head.iter().copied().chain(blocks).collect())
 }
 
 /// The parameters of a Write.
