@@ -88,18 +88,25 @@ impl Journal {
     /// # Errors
     /// If it can't be read, or is not what it should be.
     pub fn read(path: &Path) -> Result<Self, JournalError> {
-        let name = || path.display().to_string();
-        let text = input::json_text(path)?;
+        Self::parse(&path.display().to_string(), &input::json_text(path)?)
+    }
+
+    /// Reads the text of the journal `name`.
+    ///
+    /// # Errors
+    /// If it is not what it should be.
+    pub fn parse(name: &str, text: &str) -> Result<Self, JournalError> {
+        let name = || name.to_owned();
         let damaged = |error: String| JournalError::Damaged {
             path: name(),
             error: legible(&error, LONGEST_TEXT),
         };
         let parsed = |error: serde_json::Error| damaged(error.to_string());
-        let Versioned { version } = serde_json::from_str(&text).map_err(parsed)?;
+        let Versioned { version } = serde_json::from_str(text).map_err(parsed)?;
         if version != VERSION {
             return Err(JournalError::Version { path: name(), found: version });
         }
-        let mut journal: Self = serde_json::from_str(&text).map_err(parsed)?;
+        let mut journal: Self = serde_json::from_str(text).map_err(parsed)?;
         journal.complaint().map_or(Ok(()), |what| Err(damaged(what)))?;
         journal.device = legible(&journal.device, LONGEST_TEXT);
         Ok(journal)

@@ -18,6 +18,7 @@ use actucheck::suite;
 use actucheck::suite::device::Target;
 use actucheck_spec::Spec;
 use actucheck_spec::model;
+use serde_json::Value;
 
 use super::right::Bus;
 
@@ -25,7 +26,7 @@ use super::right::Bus;
 type Test = (&'static str, fn() -> String);
 
 /// The tests.
-pub(crate) const TESTS: [Test; 6] = [
+pub(crate) const TESTS: [Test; 8] = [
     ("ja40", || {
         ended("ja40", "velocity-i-gain=321,velocity-limit=1234,goal-velocity=100,goal-position=77")
     }),
@@ -38,6 +39,8 @@ pub(crate) const TESTS: [Test; 6] = [
     }),
     ("killed", killed),
     ("torque", torque),
+    ("by_a_signal", by_a_signal),
+    ("restored_as_a_program", restored_as_a_program),
 ];
 
 /// How many runs end early, for each device: 1,000 in all.
@@ -281,6 +284,78 @@ fn killed() -> String {
     } else {
         format!("{again:?}")
     }
+}
+
+/// Ctrl-C in the middle: the report tells of it, the device holds what it held, and nothing is left to do.
+fn by_a_signal() -> String {
+    let spec = Spec::embedded().unwrap();
+    let device = spec.device("ja40").unwrap();
+    // It answers late, so that a run takes long.
+    let bus = Bus::start(
+        &["ja40@1:velocity-limit=1234,goal-velocity=100"],
+        &["--tcp", "0", "--fault", "late=3ms"],
+    );
+    let (folder, port) = (folder(), format!("tcp://{}", bus.address));
+    let (journal, report) = (folder.path().join("journal"), folder.path().join("report"));
+    let held = || {
+        let limit = Duration::from_secs(2);
+        let Ok(place) = port.parse();
+        let mut line = Line::open(device.wire, &place, 57_600, limit, Arc::default()).unwrap();
+        let held = snapshot(device.wire, 1, &Layout::of(device), &mut line).unwrap();
+        let places = Layout::of(device).restored;
+        places.iter().map(|place| held.number(place)).collect::<Vec<_>>()
+    };
+    let before = held();
+    let mut run = Command::new(env!("CARGO_BIN_EXE_actucheck"));
+    run.args(["device", &port, "--device", "ja40", "--allow", "write-ram,eeprom", "--journal"]);
+    run.arg(&journal).arg("--report").arg(format!("json={}", report.display()));
+    let mut child = run.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    while !journal.exists() && child.try_wait().unwrap().is_none() {
+        sleep(Duration::from_millis(2));
+    }
+    sleep(Duration::from_millis(30));
+    let id = child.id().to_string();
+    assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    let report: Value = serde_json::from_str(&fs::read_to_string(&report).unwrap()).unwrap();
+    let is_told = report["stopped"] == "interrupted"
+        && report["left"].as_u64().unwrap() > 10
+        && report["totals"]["pass"].as_u64().unwrap() > 0
+        && said.contains("the device holds what it held before");
+    let is_right = output.status.code() == Some(3) && !journal.exists() && held() == before;
+    if is_told && is_right {
+        return String::new();
+    }
+    let [stopped, left, totals] =
+        ["stopped", "left", "totals"].map(|name| report[name].to_string());
+    format!("{:?}: {said}, {stopped}, {left} left, {totals}", output.status)
+}
+
+/// Firmware of this machine, which is started again to be restored.
+fn restored_as_a_program() -> String {
+    let spec = Spec::embedded().unwrap();
+    let device = spec.device("ja40").unwrap();
+    let folder = folder();
+    let path = folder.path().join("journal");
+    let held = "velocity-limit=1234,goal-velocity=100,position-p-gain=5";
+    let mut bench = Bench::new(&spec, device, held, path.clone());
+    let Journal { wire, id, layout, .. } = bench.journal.clone();
+    bench.journal.held = snapshot(wire, id, &layout, &mut bench.line(u64::MAX, 0)).unwrap();
+    bench.journal.write(&path).unwrap();
+    let restored = |command: &[&str]| {
+        let mut restore = Command::new(env!("CARGO_BIN_EXE_actucheck"));
+        restore.args(["device", "restore"]).arg(&path).args(command).output().unwrap()
+    };
+    let without = restored(&[]);
+    if without.status.code() != Some(2) || !path.exists() {
+        return format!("without a command: {without:?}");
+    }
+    let own = std::env::current_exe().unwrap();
+    let output = restored(&["--", own.to_str().unwrap(), "firmware", "ja40@1", "none"]);
+    let said = String::from_utf8_lossy(&output.stdout);
+    let is_right = output.status.success() && said.contains("3 registers were written");
+    if is_right && !path.exists() { String::new() } else { format!("{output:?}") }
 }
 
 /// A device with torque on is not written to.

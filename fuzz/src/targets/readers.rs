@@ -1,17 +1,18 @@
-//! The readers of texts that others write: replies of adapters, reports, saved checks and
-//! expected-failures files.
+//! The readers of texts that others write: replies of adapters, reports, saved checks,
+//! expected-failures files and journals of devices.
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-use actucheck::adapter::{Greeting, Output, Question};
+use actucheck::adapter::{Greeting, Output, Question, Reported};
+use actucheck::journal::{Ask, Journal, restore};
 use actucheck::report::{Format, json, read};
 use actucheck::suite::check::{Check, Demand};
 use actucheck::suite::expect::{Expectations, Failures};
 use actucheck::suite::plan::Plan;
 use actucheck::suite::{Options, every_device_plan, host_plan, plan, saved};
 use actucheck_spec::Spec;
-use actucheck_spec::wire::Wire;
+use actucheck_spec::wire::{Packet, Wire};
 use serde::Deserialize;
 
 const REPORT: &str = include_str!("readers/report.json");
@@ -28,6 +29,13 @@ expected_failures:
   reason: b
   flaky: true
 "#;
+
+const JOURNAL: &str = r#"{"version":1,"date":"2026-01-02T03:04:05Z","wire":"dynamixel2","device":"d",
+"model_number":5210,"id":1,"baud":57600,"allowed":["write-ram","motion"],
+"layout":{"read":[[64,1],[512,3]],"restored":[{"name":"Led","address":513,"size":2}],
+"torque":{"name":"Torque Enable","address":512,"size":1},
+"goals_switch":[{"name":"Drive Mode","address":64,"size":1},8]},
+"held":[{"address":64,"data":"00"},{"address":512,"data":"000102"}]}"#;
 
 static SPEC: LazyLock<Spec> = LazyLock::new(|| Spec::embedded().unwrap());
 
@@ -72,6 +80,7 @@ pub fn check(input: &[u8]) {
         "# as report" => report(text),
         "# as checks" => checks(text),
         "# as expected" => expected(text),
+        "# as journal" => journal(text),
         _ => {}
     }
 }
@@ -115,6 +124,33 @@ fn expected(text: &str) {
     assert!(written.starts_with(&comment), "{written}");
 }
 
+/// What is taken says the same when it is written, and to restore any device by it comes to an end.
+fn journal(text: &str) {
+    let Ok(journal) = Journal::parse("journal", text) else { return };
+    let written = serde_json::to_string(&journal).unwrap();
+    let again = Journal::parse("journal", &written);
+    assert_eq!(again.unwrap_or_else(|error| panic!("{error}\n{written}")), journal);
+    // Only a journal of which nothing has to be written is restored on such a device.
+    let is_blank = journal.held.0.iter().all(|run| run.data.0.iter().all(|byte| *byte == 0));
+    if is_blank {
+        restore(&journal, &mut Stubborn).unwrap();
+    } else {
+        drop(restore(&journal, &mut Stubborn));
+    }
+}
+
+/// A device whose registers are all 0, whatever is written to them.
+struct Stubborn;
+
+impl Ask for Stubborn {
+    fn ask(&mut self, id: u8, packet: &Packet) -> Result<Option<Reported>, String> {
+        let call = packet.wire().call(packet);
+        let length = call.and_then(|call| call.length).map_or(0, usize::from);
+        let data = Some(vec![0; length].into());
+        Ok(Some(Reported { id, data, error: Some(0), ..Reported::default() }))
+    }
+}
+
 #[derive(Debug, PartialEq, Deserialize)]
 struct Row {
     ids: Vec<String>,
@@ -134,12 +170,13 @@ fn rows(text: &str) -> Vec<Row> {
     file.into_iter().flat_map(BTreeMap::into_values).flatten().flatten().collect()
 }
 
-/// An answer to `hello`, a report, an expected-failures file, and checks with their right answers.
+/// An answer to `hello`, a report, an expected-failures file, a journal, and checks with their right answers.
 pub(crate) fn seeds() -> Vec<(String, Vec<u8>)> {
     let seed = |name: &str, form: &str, text: &str| {
         (format!("{form}.{name}"), format!("# as {form}\n{text}").into_bytes())
     };
-    let small = [("hello", HELLO), ("report", REPORT), ("expected", EXPECTED)];
+    let small =
+        [("hello", HELLO), ("report", REPORT), ("expected", EXPECTED), ("journal", JOURNAL)];
     let mut seeds: Vec<_> = small.map(|(form, text)| seed("small", form, text)).into();
     for (name, check) in &*CHECKS {
         let text = saved::write(std::slice::from_ref(check)).unwrap();
@@ -161,6 +198,9 @@ mod tests {
     fn there_is_something_to_read() {
         read::parse("report", REPORT).unwrap();
         Greeting::read(HELLO).unwrap();
+        let journal = Journal::parse("journal", JOURNAL).unwrap();
+        let left = restore(&journal, &mut Stubborn).unwrap_err().to_string();
+        assert!(left.contains("Led"), "{left}");
         Expectations::parse("expected", EXPECTED, &PLAN, &PLAN).unwrap();
         assert!(CHECKS.len() > Wire::ALL.len() * 4, "{} checks", CHECKS.len());
         for check in CHECKS.values() {

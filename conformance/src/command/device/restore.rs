@@ -17,6 +17,8 @@ Examples:
       at the port that the journal names
   actucheck device restore actucheck-ja40-1-20260102T030405Z.journal.json /dev/ttyUSB1
       at another port
+  actucheck device restore actucheck-ja40-1-20260102T030405Z.journal.json -- ./firmware-on-this-machine
+      firmware that was compiled for this machine, which is started for it
 
 Only what differs is written, then all is read again. The journal is removed when the device holds what it
 held, and stays otherwise.
@@ -35,6 +37,9 @@ pub(super) struct Restore {
     /// udp://HOST:PORT
     #[arg(value_name = "PORT")]
     port: Option<String>,
+    /// The command of firmware that speaks raw bytes on its standard input and output
+    #[arg(last = true, value_name = "COMMAND", conflicts_with = "port")]
+    command: Vec<String>,
     /// The rate of a serial port in bit/s [default: that of the journal]
     #[arg(long, value_name = "RATE", value_parser = clap::value_parser!(u32).range(1..))]
     baud: Option<u32>,
@@ -43,17 +48,29 @@ pub(super) struct Restore {
     answer_within: Duration,
 }
 
+impl Restore {
+    /// Where the device is now.
+    fn place(&self, journal: &Journal) -> Result<Place, Failure> {
+        if !self.command.is_empty() {
+            return Ok(Place::Program(self.command.clone()));
+        }
+        let Some(port) = self.port.as_ref().or(journal.port.as_ref()) else {
+            return Err(Failure::usage(format!(
+                "the device of {} was a program; give its command after `--`, or name the PORT after the \
+                 journal, if it is at one now",
+                self.journal.display()
+            )));
+        };
+        let Ok(place) = port.parse();
+        Ok(place)
+    }
+}
+
 pub(super) fn run(options: &Restore) -> Result<ExitCode, Failure> {
     let path = &options.journal;
     let journal = Journal::read(path).map_err(Failure::usage)?;
     let interrupted = shared::interrupted()?;
-    let Some(port) = options.port.as_ref().or(journal.port.as_ref()) else {
-        return Err(Failure::usage(format!(
-            "the device of {} was a program; name the PORT after the journal, if it is at one now",
-            path.display()
-        )));
-    };
-    let Ok(place) = port.parse::<Place>();
+    let place = options.place(&journal)?;
     let baud = options.baud.unwrap_or(journal.baud);
     let mut line = Line::open(journal.wire, &place, baud, options.answer_within, interrupted)
         .map_err(Failure::not_started)?;

@@ -98,8 +98,9 @@ impl Keeper {
 
     fn finish(&self, line: &mut dyn Ask) -> Result<(), String> {
         let path = self.path.display();
+        let command = if self.journal.port.is_none() { " -- COMMAND" } else { "" };
         restore(&self.journal, line).map_err(|error| {
-            format!("the device does not hold yet what it held: {error}; `actucheck device restore {path}` does it")
+            format!("the device does not hold yet what it held: {error}; `actucheck device restore {path}{command}` does it")
         })?;
         Journal::remove(&self.path).map_err(|error: JournalError| error.to_string())
     }
