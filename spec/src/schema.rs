@@ -24,8 +24,10 @@ pub struct SchemaFile {
 /// Every schema, in a fixed order.
 #[must_use]
 pub fn all() -> Vec<SchemaFile> {
-    let wires = Wire::ALL
-        .map(|wire| SchemaFile { path: file_name(&format!("wires/{wire}")), text: wire.schema() });
+    let wires = Wire::ALL.map(|wire| SchemaFile {
+        path: file_name(&format!("wires/{wire}")),
+        text: wire.exports().schema(),
+    });
     let others = [
         source::<DocumentsFile>("documents"),
         source::<Device>("device"),

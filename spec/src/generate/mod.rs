@@ -16,6 +16,7 @@ use crate::model::{Citation, Device};
 use crate::wire::Wire;
 
 pub use own_device::{build_script, device_from_yaml, report};
+#[cfg(feature = "exports")]
 pub(crate) use token::words;
 
 /// One generated file.

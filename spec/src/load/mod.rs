@@ -3,10 +3,12 @@
 mod bounds;
 mod position;
 
+#[cfg(feature = "exports")]
 use std::borrow::Cow;
 use std::sync::{Arc, OnceLock};
 
 use position::Places;
+#[cfg(feature = "exports")]
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::DeserializeOwned;
 use serde::{Serialize, Serializer};
@@ -91,6 +93,7 @@ impl<T: Serialize> Serialize for File<T> {
     }
 }
 
+#[cfg(feature = "exports")]
 impl<T: JsonSchema> JsonSchema for File<T> {
     fn schema_name() -> Cow<'static, str> {
         T::schema_name()

@@ -1,7 +1,9 @@
+#[cfg(feature = "exports")]
 use std::borrow::Cow;
 use std::fmt;
 use std::ops::Deref;
 
+#[cfg(feature = "exports")]
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 
@@ -60,6 +62,7 @@ impl HexBytes {
     }
 }
 
+#[cfg(feature = "exports")]
 impl JsonSchema for HexBytes {
     fn schema_name() -> Cow<'static, str> {
         "HexBytes".into()

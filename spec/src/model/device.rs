@@ -1,3 +1,4 @@
+#[cfg(feature = "exports")]
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -5,7 +6,8 @@ use super::{Citation, Register};
 use crate::wire::Wire;
 
 /// A file of `devices/`: a control table.
-#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[cfg_attr(feature = "exports", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Device {
     /// Id.
@@ -50,7 +52,8 @@ impl Device {
 }
 
 /// A bit that the device sets when a measurement passes a limit.
-#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[cfg_attr(feature = "exports", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Alarm {
     /// Name of the bit.
@@ -88,7 +91,8 @@ impl Alarm {
 
 /// A condition on the value of another register: `{register: Drive Mode, bits: Profile
 /// Configuration, one_of: [1]}`.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(feature = "exports", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Condition {
     /// The register.

@@ -1,8 +1,10 @@
+#[cfg(feature = "exports")]
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// `documents.yaml`.
-#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[cfg_attr(feature = "exports", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct DocumentsFile {
     /// One row per document.
@@ -10,7 +12,8 @@ pub struct DocumentsFile {
 }
 
 /// A source document of the spec.
-#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[cfg_attr(feature = "exports", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Document {
     /// Its id in citations.

@@ -1,12 +1,14 @@
 //! What the framing of several wires is made of.
 
+#[cfg(feature = "exports")]
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Citation;
 
 /// The IDs that packets may have.
-#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[cfg_attr(feature = "exports", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Id {
     /// Smallest ID of a device.
@@ -18,7 +20,8 @@ pub struct Id {
 }
 
 /// The length field.
-#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[cfg_attr(feature = "exports", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Length {
     /// Bytes of the field.
@@ -32,7 +35,8 @@ pub struct Length {
 }
 
 /// Which byte comes first.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(feature = "exports", derive(JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum ByteOrder {
     /// The low one.
@@ -53,7 +57,8 @@ impl ByteOrder {
 }
 
 /// A 16-bit CRC by its parameters.
-#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[cfg_attr(feature = "exports", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Crc {
     /// Its name in catalogues of CRCs.

@@ -1,3 +1,4 @@
+#[cfg(feature = "exports")]
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -5,7 +6,8 @@ use serde::{Deserialize, Serialize};
 pub const NO_DEMAND: &str = "no demand";
 
 /// A file of `sentences/`: every sentence of a document, and its use.
-#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[cfg_attr(feature = "exports", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SentencesFile {
     /// Id of the document.
@@ -33,7 +35,8 @@ impl SentencesFile {
 }
 
 /// A section of a document.
-#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[cfg_attr(feature = "exports", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Section {
     /// Its name in citations: its number or its heading, with the meaning after a heading that is
@@ -51,7 +54,8 @@ pub struct Section {
 }
 
 /// A sentence, a row of a table or a block of code.
-#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[cfg_attr(feature = "exports", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Sentence {
     /// The line that it begins on, from 1.

@@ -1,3 +1,4 @@
+#[cfg(feature = "exports")]
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -5,7 +6,8 @@ use crate::model::HexBytes;
 
 /// What is sent as a call, for libraries that have functions instead of packets. It has the fields of
 /// the documents, or for what fits none of their calls the fields of the packet.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "exports", derive(JsonSchema))]
 pub struct Call {
     /// Its name, such as `sync_read`; of a general call `instruction`, `status`, `fast_status`,
     /// `request` or `reply`.
@@ -47,7 +49,8 @@ pub struct Call {
 
 /// One device in a call for several devices, or in an answer of several devices. The data of a write
 /// has its own length; a read has no data.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "exports", derive(JsonSchema))]
 pub struct Target {
     /// Its ID.
     pub id: u8,

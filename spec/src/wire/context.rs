@@ -1,10 +1,12 @@
 use std::fmt;
 
+#[cfg(feature = "exports")]
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Facts that a reader of frames needs in addition to their bytes.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "exports", derive(JsonSchema))]
 pub struct Context {
     /// For a fast status packet: the request that it answers.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -27,7 +29,8 @@ impl From<Fast> for Context {
 }
 
 /// The request that a fast status packet answers. The packet can't be read without it.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "exports", derive(JsonSchema))]
 pub struct Fast {
     /// Bytes of data a block; 0 for Fast Sync Write.
     pub length: u16,
@@ -36,7 +39,8 @@ pub struct Fast {
 }
 
 /// The direction of a packet.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
+#[cfg_attr(feature = "exports", derive(JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Direction {
     /// From the host.

@@ -1,9 +1,11 @@
+#[cfg(feature = "exports")]
 use std::borrow::Cow;
 use std::fmt;
 use std::hash::{Hash, Hasher};
 use std::ops::Deref;
 use std::str::FromStr;
 
+#[cfg(feature = "exports")]
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -102,6 +104,7 @@ impl Visitor<'_> for Id {
     }
 }
 
+#[cfg(feature = "exports")]
 impl JsonSchema for Wire {
     fn schema_name() -> Cow<'static, str> {
         "Wire".into()

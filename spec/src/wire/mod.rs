@@ -6,6 +6,8 @@
 mod call;
 mod context;
 pub mod dynamixel2;
+#[cfg(feature = "exports")]
+mod exports;
 mod handle;
 pub mod innfos;
 mod message;
@@ -13,11 +15,14 @@ mod packet;
 mod rules;
 mod value;
 
+#[cfg(feature = "exports")]
 use schemars::JsonSchema;
 use serde::Serialize;
 
 pub use call::{Call, Target};
 pub use context::{Context, Direction, Fast};
+#[cfg(feature = "exports")]
+pub use exports::Exports;
 pub use handle::Wire;
 pub use message::Message;
 pub use packet::Fields;
@@ -32,7 +37,8 @@ impl Wire {
 }
 
 /// The content of the files of `wires/`.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "exports", derive(JsonSchema))]
 pub struct Wires {
     /// DYNAMIXEL Protocol 2.0 and its JA dialect: instructions, error numbers.
     pub dynamixel2: File<dynamixel2::Dynamixel2>,

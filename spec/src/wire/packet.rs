@@ -1,8 +1,10 @@
 //! Packets of all wires as one object, whose `kind` determines the wire.
 
+#[cfg(feature = "exports")]
 use std::borrow::Cow;
 use std::fmt;
 
+#[cfg(feature = "exports")]
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserialize, Deserializer, MapAccess, Visitor};
 use serde_json::Value;
@@ -60,6 +62,7 @@ impl<'de> Visitor<'de> for Reader {
     }
 }
 
+#[cfg(feature = "exports")]
 impl JsonSchema for Packet {
     fn schema_name() -> Cow<'static, str> {
         "Packet".into()
@@ -67,7 +70,7 @@ impl JsonSchema for Packet {
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         let kinds: Vec<Value> =
-            Wire::ALL.iter().flat_map(|wire| wire.packet_schemas(generator)).collect();
+            Wire::ALL.iter().flat_map(|wire| wire.exports().packet_schemas(generator)).collect();
         json_schema!({
             "description": "A packet by its fields, before stuffing and CRC. The same object stands \
                 in the vectors' YAML and in the adapter protocol's JSON; its `kind` tells the wire.",

@@ -3,13 +3,8 @@
 use std::panic::RefUnwindSafe;
 
 use proc_macro2::TokenStream;
-use schemars::SchemaGenerator;
-use serde_json::Value;
 
 use super::{Call, Context, Direction, Fields, Packet};
-use crate::export::c_header::Header;
-use crate::export::markdown::Text;
-use crate::export::wireshark::Script;
 use crate::model::{Citation, Fault, HexBytes, Requirement};
 use crate::{Diagnostic, Spec};
 
@@ -32,9 +27,6 @@ pub trait Rules: Sync + RefUnwindSafe {
     /// # Errors
     /// If fields are missing, unknown or have no value that they may have.
     fn packet(&self, fields: Fields) -> Result<Packet, serde_json::Error>;
-
-    /// A JSON Schema for each kind of packet.
-    fn packet_schemas(&self, generator: &mut SchemaGenerator) -> Vec<Value>;
 
     /// The direction of a packet of this wire.
     fn direction(&self, packet: &Packet) -> Direction;
@@ -133,17 +125,9 @@ pub trait Rules: Sync + RefUnwindSafe {
     /// Its module of the codec's tables.
     fn generate(&self, spec: &Spec) -> TokenStream;
 
-    /// Writes its part of the C header.
-    fn c_header(&self, spec: &Spec, header: &mut Header);
-
-    /// Writes its part of the tables for people.
-    fn markdown(&self, spec: &Spec, text: &mut Text);
-
-    /// Writes its part of the dissector for Wireshark: its tables, and the code that uses them.
-    fn wireshark(&self, spec: &Spec, script: &mut Script);
-
-    /// The JSON Schema of its file, as text.
-    fn schema(&self) -> String;
+    /// What others read of it.
+    #[cfg(feature = "exports")]
+    fn exports(&self) -> &dyn super::Exports;
 }
 
 /// A request of a host.

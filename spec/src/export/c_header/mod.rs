@@ -18,7 +18,7 @@ pub(crate) use writer::{Constant, lower, upper};
 pub fn export(spec: &Spec) -> Result<String, ExportError> {
     let mut header = Header::new();
     for wire in Wire::ALL {
-        wire.c_header(spec, &mut header);
+        wire.exports().c_header(spec, &mut header);
     }
     for file in &spec.devices {
         device::write(&file.content, &mut header);

@@ -23,7 +23,7 @@ pub fn export(spec: &Spec) -> String {
     });
     text.table(&["document", "title", "language"], documents);
     for wire in Wire::ALL {
-        wire.markdown(spec, &mut text);
+        wire.exports().markdown(spec, &mut text);
     }
     for file in &spec.devices {
         device::write(&file.content, &mut text);

@@ -31,7 +31,7 @@ pub fn export(spec: &Spec) -> String {
     script.code(include_str!("common.lua"));
     for wire in Wire::ALL {
         script.begin(wire.title());
-        wire.wireshark(spec, &mut script);
+        wire.exports().wireshark(spec, &mut script);
         script.end();
     }
     script.finish()

@@ -1,17 +1,15 @@
 //! DYNAMIXEL Protocol 2.0 and its JA dialect.
 
 mod asks;
-mod c_header;
+#[cfg(feature = "exports")]
+mod exports;
 mod generate;
-mod markdown;
 mod model;
 mod packet;
 pub mod reference;
 mod validate;
-mod wireshark;
 
 use proc_macro2::TokenStream;
-use schemars::SchemaGenerator;
 use serde_json::Value;
 
 pub use model::{
@@ -20,11 +18,8 @@ pub use model::{
 pub use packet::{Block, Packet};
 
 use super::{Ask, Call, Cited, Context, Direction, Fields, Rules, Wire};
-use crate::export::c_header::Header;
-use crate::export::markdown::Text;
-use crate::export::wireshark::Script;
 use crate::model::{Fault, HexBytes, Requirement};
-use crate::{Diagnostic, Spec, schema};
+use crate::{Diagnostic, Spec};
 
 /// The wire.
 pub const WIRE: Wire = Wire::new(&This);
@@ -46,10 +41,6 @@ impl Rules for This {
 
     fn packet(&self, fields: Fields) -> Result<super::Packet, serde_json::Error> {
         serde_json::from_value(Value::Object(fields)).map(super::Packet::Dynamixel2)
-    }
-
-    fn packet_schemas(&self, generator: &mut SchemaGenerator) -> Vec<Value> {
-        schema::variants::<Packet>(generator)
     }
 
     fn direction(&self, packet: &super::Packet) -> Direction {
@@ -178,20 +169,9 @@ impl Rules for This {
         generate::module(&spec.wires.dynamixel2.content)
     }
 
-    fn c_header(&self, spec: &Spec, header: &mut Header) {
-        c_header::write(&spec.wires.dynamixel2.content, header);
-    }
-
-    fn markdown(&self, spec: &Spec, text: &mut Text) {
-        markdown::write(&spec.wires.dynamixel2.content, text);
-    }
-
-    fn wireshark(&self, spec: &Spec, script: &mut Script) {
-        wireshark::write(spec, script);
-    }
-
-    fn schema(&self) -> String {
-        schema::of_read::<Dynamixel2>()
+    #[cfg(feature = "exports")]
+    fn exports(&self) -> &dyn super::Exports {
+        self
     }
 }
 

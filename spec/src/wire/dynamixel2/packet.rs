@@ -1,5 +1,6 @@
 //! The wire's packets by their fields.
 
+#[cfg(feature = "exports")]
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -7,7 +8,8 @@ use crate::model::HexBytes;
 use crate::wire::Fast;
 
 /// A packet, before stuffing and CRC.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(feature = "exports", derive(JsonSchema))]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Packet {
     /// An instruction packet, which a host sends.
@@ -72,7 +74,8 @@ impl Packet {
 }
 
 /// One device's part of a fast status packet.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(feature = "exports", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Block {
     /// The whole error byte, alert bit included.

@@ -1,17 +1,15 @@
 //! The INNFOS Ethernet protocol.
 
 mod asks;
-mod c_header;
+#[cfg(feature = "exports")]
+mod exports;
 mod generate;
-mod markdown;
 mod model;
 mod packet;
 pub mod reference;
 mod validate;
-mod wireshark;
 
 use proc_macro2::TokenStream;
-use schemars::SchemaGenerator;
 use serde_json::Value;
 
 pub use model::{
@@ -21,11 +19,8 @@ pub use model::{
 pub use packet::Packet;
 
 use super::{Ask, Call, Cited, Context, Direction, Fields, Rules, Wire};
-use crate::export::c_header::Header;
-use crate::export::markdown::Text;
-use crate::export::wireshark::Script;
 use crate::model::{Fault, HexBytes, Requirement};
-use crate::{Diagnostic, Spec, schema};
+use crate::{Diagnostic, Spec};
 
 /// The wire.
 pub const WIRE: Wire = Wire::new(&This);
@@ -47,10 +42,6 @@ impl Rules for This {
 
     fn packet(&self, fields: Fields) -> Result<super::Packet, serde_json::Error> {
         serde_json::from_value(Value::Object(fields)).map(super::Packet::Innfos)
-    }
-
-    fn packet_schemas(&self, generator: &mut SchemaGenerator) -> Vec<Value> {
-        schema::variants::<Packet>(generator)
     }
 
     fn direction(&self, packet: &super::Packet) -> Direction {
@@ -165,20 +156,9 @@ impl Rules for This {
         generate::module(&spec.wires.innfos.content)
     }
 
-    fn c_header(&self, spec: &Spec, header: &mut Header) {
-        c_header::write(&spec.wires.innfos.content, header);
-    }
-
-    fn markdown(&self, spec: &Spec, text: &mut Text) {
-        markdown::write(&spec.wires.innfos.content, text);
-    }
-
-    fn wireshark(&self, spec: &Spec, script: &mut Script) {
-        wireshark::write(&spec.wires.innfos.content, script);
-    }
-
-    fn schema(&self) -> String {
-        schema::of_read::<Innfos>()
+    #[cfg(feature = "exports")]
+    fn exports(&self) -> &dyn super::Exports {
+        self
     }
 }
 

@@ -1,5 +1,6 @@
 //! The wire's packets by their fields.
 
+#[cfg(feature = "exports")]
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -7,7 +8,8 @@ use crate::model::HexBytes;
 use crate::wire::Direction;
 
 /// A packet, before the CRC.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(feature = "exports", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Packet {
     /// A request of a host, or a reply of a device.

@@ -1,4 +1,4 @@
-use super::{FullScale, Innfos};
+use super::super::{FullScale, Innfos};
 use crate::export::markdown::{Text, or_nothing};
 use crate::generate::places;
 

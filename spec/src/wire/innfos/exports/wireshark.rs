@@ -1,4 +1,4 @@
-use super::{Command, FullScale, Innfos};
+use super::super::{Command, FullScale, Innfos};
 use crate::export::wireshark::{Lua, Script, crc, fields, list, text};
 
 const USE: &str = "\
@@ -87,7 +87,7 @@ fn modes(innfos: &Innfos) -> Lua {
 }
 
 fn alarms(innfos: &Innfos) -> Lua {
-    let bit = |row: &super::AlarmBit| {
+    let bit = |row: &super::super::AlarmBit| {
         fields([("mask", Some(Lua::hex(row.mask))), ("name", Some(text(&row.name)))])
     };
     list(innfos.alarms.rows.iter().map(bit))

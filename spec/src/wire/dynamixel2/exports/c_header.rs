@@ -1,4 +1,4 @@
-use super::{Dynamixel2, WIRE};
+use super::super::{Dynamixel2, WIRE};
 use crate::export::c_header::{Constant, Header, lower, upper};
 
 pub(super) fn write(wire: &Dynamixel2, header: &mut Header) {

@@ -1,4 +1,4 @@
-use super::{Dynamixel2, Field, Instruction, Size, WIRE};
+use super::super::{Dynamixel2, Field, Instruction, Size, WIRE};
 use crate::Spec;
 use crate::export::wireshark::{Lua, Script, crc, fields, list, text};
 use crate::model::{BitField, Device, NamedValue, Register, Type};

@@ -1,4 +1,4 @@
-use super::{Command, FullScale, Innfos, WIRE};
+use super::super::{Command, FullScale, Innfos, WIRE};
 use crate::export::c_header::{Constant, Header, lower, upper};
 
 pub(super) fn write(innfos: &Innfos, header: &mut Header) {

@@ -1,4 +1,4 @@
-use super::{Dynamixel2, Field, Size};
+use super::super::{Dynamixel2, Field, Size};
 use crate::export::markdown::Text;
 use crate::generate::places;
 
