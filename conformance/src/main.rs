@@ -54,5 +54,6 @@ fn run() -> Result<ExitCode, Failure> {
         Command::Report(subcommand) => command::report::run(subcommand),
         Command::Spec(subcommand) => command::spec::run(subcommand),
         Command::Completions(options) => command::completions::run(options),
+        Command::Man(options) => command::man::run(options),
     }
 }

@@ -13,6 +13,7 @@ pub(crate) mod fuzz;
 #[cfg(unix)]
 pub(crate) mod host;
 pub(crate) mod list;
+pub(crate) mod man;
 pub(crate) mod replay;
 pub(crate) mod report;
 #[cfg(unix)]
@@ -66,6 +67,7 @@ pub(crate) enum Command {
     #[command(subcommand)]
     Spec(spec::Spec),
     Completions(completions::Completions),
+    Man(man::Manual),
 }
 
 /// The subcommand at the beginning of these arguments, such as `actucheck spec diff`.

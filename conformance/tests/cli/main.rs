@@ -5,7 +5,6 @@
 mod decode;
 mod outputs;
 mod pipelines;
-mod readme;
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -167,6 +166,7 @@ fn help_lists_the_subcommands_and_the_exit_status() {
       report       Compares the reports of several runs, or writes one in another format
       spec         Shows, compares and exports what the documents say
       completions  Prints a shell's completion script
+      man          Prints the manual page, or writes those of all subcommands
       help         Print this message or the help of the given subcommand(s)
 
     Options:
@@ -205,14 +205,14 @@ fn the_help_of_each_subcommand_has_an_example_of_it() {
             seen += 1;
         }
     }
-    assert_eq!(seen, if cfg!(unix) { 24 } else { 20 });
+    assert_eq!(seen, if cfg!(unix) { 25 } else { 21 });
     assert!(ran > 35, "{ran} examples");
 }
 
 /// Runs the examples that need no adapter, no file and no port, each without what a shell does with its
 /// output; returns how many they are.
 fn succeed(examples: &str) -> usize {
-    let needs = [" -- ", "@", "/dev/", "://", ".log", ".yaml", ".model", ".json", ".lua"];
+    let needs = [" -- ", "@", "~/", "/dev/", "://", ".log", ".yaml", ".model", ".json", ".lua"];
     let lines = examples.lines().filter_map(|line| line.strip_prefix("  actucheck "));
     let lines = lines.filter_map(|line| line.split(" | ").next()?.split(" > ").next());
     let lines: Vec<_> = lines.filter(|line| !needs.iter().any(|it| line.contains(it))).collect();
@@ -320,6 +320,23 @@ fn completions_are_there_for_a_shell() {
     let (status, stdout, _) = actucheck(&["completions", "bash"]);
     assert_eq!(status, 0);
     assert!(stdout.contains("_actucheck"));
+}
+
+/// A page for each subcommand, which have `-h`, their examples and their exit status in them.
+#[test]
+fn manual_pages_are_there_for_every_subcommand() {
+    let (status, stdout, _) = actucheck(&["man"]);
+    assert_eq!(status, 0);
+    assert!(stdout.contains(".TH actucheck 1") && stdout.contains("Exit status: 0 all passed"));
+    let folder = tempfile::tempdir().unwrap();
+    assert_eq!(actucheck(&["man", "--out", folder.path().to_str().unwrap()]).0, 0);
+    let page = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
+    assert!(page("actucheck-spec-errata.1").contains("actucheck spec errata"));
+    assert!(page("actucheck-codec.1").contains("Examples:"));
+    let pages = fs::read_dir(&folder).unwrap().count();
+    assert!(pages > 20, "{pages} pages");
+    let (status, _, stderr) = actucheck(&["man", "--out", "/nowhere"]);
+    assert_eq!((status, stderr.lines().count()), (3, 1), "{stderr}");
 }
 
 #[test]

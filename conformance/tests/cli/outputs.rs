@@ -57,6 +57,7 @@ fn a_full_disk_is_told_and_a_reader_that_has_seen_enough_is_not() {
         "adapter schema reply",
         "adapter template c",
         "completions bash",
+        "man",
         "decode fffffd0001030001194e",
         "decode --show lines fffffd0001030001194e",
         "encode ping --id 1",
