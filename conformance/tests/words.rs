@@ -33,7 +33,7 @@ fn root() -> &'static Path {
 
 /// The text files of the repository, relative to its root.
 fn files() -> Vec<PathBuf> {
-    let pages = ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "SECURITY.md"];
+    let pages = ["README.md", "ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md"];
     let mut files: Vec<PathBuf> = pages.map(PathBuf::from).into();
     let mut folders: Vec<PathBuf> = FOLDERS.map(PathBuf::from).into();
     while let Some(folder) = folders.pop() {

@@ -76,9 +76,12 @@ fn a_packet_that_the_end_cuts_hides_none() {
 
 #[test]
 fn what_is_on_its_way_when_the_input_ends_holds_up_no_interrupt() {
-    let mut bus = Bus::start(&[TWO, "--stdio", "--fault", "late=60000ms"]);
+    let mut bus = Bus::start(&[TWO, "--stdio", "--trace", "--fault", "late=60000ms"]);
     bus.child.stdin.take().unwrap().write_all(READ_2).unwrap();
-    std::thread::sleep(Duration::from_millis(200));
+    // It has heard the packet, and listens for Ctrl-C since before.
+    let mut err = BufReader::new(bus.child.stderr.take().unwrap());
+    err.read_line(&mut String::new()).unwrap();
+    bus.child.stderr = Some(err.into_inner());
     assert_eq!(bus.child.try_wait().unwrap(), None);
     assert_eq!(bus.end().status, Some(0));
 }

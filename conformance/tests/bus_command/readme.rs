@@ -28,8 +28,5 @@ fn the_readme_shows_a_bus_as_it_is() {
     let position = u16::from_le_bytes([read[9], read[10]]);
     assert!(readme.contains(&format!("# ({model}, 0, 0): a JA40")), "{model}");
     assert!(readme.contains(&format!("# ({position}, 0, 0): Present Position")), "{position}");
-    let ended = bus.end();
-    let (summary, _) = ended.out.split_once("\ntime to answer: ").unwrap();
-    assert!(readme.contains(&format!("\n{summary}\ntime to answer: ")), "{summary}");
-    assert_eq!(ended.err, "");
+    assert_eq!(bus.end().err, "");
 }
