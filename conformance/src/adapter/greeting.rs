@@ -10,9 +10,9 @@ use super::{Hello, Implementation, Limits, VERSIONS, Wire};
 use crate::legible::{LONGEST_NAME, legible};
 
 /// The ops that `hello` may name. Every adapter has `hello` and `bye`, so they need not be listed.
-const OPS: [&str; 14] = [
+const OPS: [&str; 15] = [
     "hello", "crc", "stuff", "unstuff", "encode", "decode", "stream", "value", "message", "open",
-    "call", "exchange", "close", "bye",
+    "call", "exchange", "close", "device", "bye",
 ];
 
 /// The calls that `hello` may name.

@@ -1,6 +1,6 @@
 //! The adapter protocol: the requests and replies between the suite and an adapter, one JSON object
-//! per line. This is version 3; [`Request::in_version`] writes the requests of version 1. Those of
-//! version 2 are the same, without the ops for ports.
+//! per line. This is version 4; [`Request::in_version`] writes the requests of version 1. Those of
+//! version 3 are the same, without the op `device`, and those of version 2 without the ops for ports too.
 
 use std::fmt;
 
@@ -16,10 +16,10 @@ use super::message::Told;
 use super::value::{Given, RegisterOf};
 
 /// The newest version of the adapter protocol.
-pub const VERSION: u32 = 3;
+pub const VERSION: u32 = 4;
 
 /// The versions of the adapter protocol that this suite speaks.
-pub const VERSIONS: [u32; 3] = [1, 2, VERSION];
+pub const VERSIONS: [u32; 4] = [1, 2, 3, VERSION];
 
 pub use actucheck_spec::wire::Wire;
 
@@ -55,6 +55,15 @@ pub enum Request<'a> {
     Close {
         /// The wire.
         wire: Wire,
+    },
+    /// Take bytes as a device, and say what the device sends.
+    Device {
+        /// The wire that is spoken.
+        wire: Wire,
+        /// How many milliseconds nothing passed on the line before these bytes.
+        after_ms: u64,
+        /// The bytes, which may be a part of a packet, or several.
+        bytes: &'a HexBytes,
     },
     /// An op that no version of the protocol has.
     #[serde(rename = "no-such-op")]

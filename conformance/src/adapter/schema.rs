@@ -1,4 +1,4 @@
-//! JSON Schemas of the lines between the suite and an adapter, in version 3 of the adapter protocol.
+//! JSON Schemas of the lines between the suite and an adapter, in version 4 of the adapter protocol.
 //! `ACCEPT=1 cargo test -p actucheck --test reports` rewrites the files in `conformance/schema`.
 
 use actucheck_spec::schema::{of_read, of_written};

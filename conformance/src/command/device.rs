@@ -1,5 +1,6 @@
 //! `actucheck device`.
 
+mod open;
 mod plan;
 mod restore;
 mod writing;
@@ -27,6 +28,7 @@ use super::ENDED;
 use super::shared::{
     self, Asked, DeviceOption, Failure, Planned, Running, Selection, Subjects, both, milliseconds,
 };
+use open::Opening;
 use plan::{BEGINS, Effort};
 
 const EXAMPLES: &str = "\
@@ -43,6 +45,8 @@ Examples:
       firmware that was compiled for this machine, which speaks raw bytes on its standard input and output
   actucheck device --device ja40 -- actucheck bus ja40@1 --stdio
       a virtual device, to see what a run looks like
+  actucheck device --device ja40 --adapter -- python3 my_adapter.py
+      a library's class that takes bytes and answers them, behind an adapter (`actucheck adapter guide`)
   actucheck device --device ja40 --dry-run
       what a run would send, what each check needs, and about how long it takes; nothing is opened
   actucheck device /dev/ttyUSB0 --allow write-ram,eeprom
@@ -100,6 +104,9 @@ pub(crate) struct Device {
     selection: Selection,
     #[command(flatten)]
     running: Running,
+    /// COMMAND is an adapter with the op `device`, as for a library's class of a device
+    #[arg(long, requires = "command")]
+    adapter: bool,
     /// The command of firmware that speaks raw bytes on its standard input and output
     #[arg(last = true, value_name = "COMMAND")]
     command: Vec<String>,
@@ -209,8 +216,14 @@ impl Device {
         let (wire, place, id) = (self.wire()?, self.place(), self.id);
         let baud = self.baud.or_else(|| factory_rate(table_of(&tables, id, spec)?));
         let baud = baud.unwrap_or(BAUD);
-        let mut line = Line::open(wire, &place, baud, self.answer_within, Arc::clone(interrupted))
-            .map_err(Failure::not_started)?;
+        let opening = Opening {
+            wire,
+            place: &place,
+            is_adapter: self.adapter,
+            baud,
+            limit: self.answer_within,
+        };
+        let (mut line, library) = opening.line(interrupted)?;
         // A program has to start first; what is sent meanwhile waits.
         let limit = match &place {
             Place::Program(_) => START.max(self.answer_within),
@@ -251,6 +264,10 @@ impl Device {
         let firmware = firmware.map_or_else(String::new, |version| format!("firmware {version}"));
         let allowed = self.writing.allowed();
         let subject = Subject::new(format!("{name}, ID {id}"), firmware, line, allowed.clone());
+        let subject = match library {
+            Some(library) => subject.of_library(library),
+            None => subject,
+        };
         let subject = match device.filter(|_| !allowed.only_read()) {
             Some(device) => {
                 let at = writing::At { wire, place: &place, baud, id, model: said.model_number };
@@ -283,6 +300,9 @@ impl Device {
     fn again(&self) -> Vec<String> {
         let mut words = vec!["actucheck".to_owned(), "device".to_owned()];
         words.extend(self.port.clone());
+        if self.adapter {
+            words.push("--adapter".to_owned());
+        }
         let mut option = |name: &str, value: Option<String>| {
             words.extend(value.into_iter().flat_map(|value| [format!("--{name}"), value]));
         };

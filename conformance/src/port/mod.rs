@@ -90,6 +90,11 @@ pub trait Bytes: fmt::Debug + Send {
     /// # Errors
     /// If the port is gone.
     fn receive(&mut self, buffer: &mut [u8], limit: Duration) -> io::Result<usize>;
+
+    /// Whether what comes takes as long as it takes a device.
+    fn takes_time(&self) -> bool {
+        true
+    }
 }
 
 /// An open port. A program that was started for it ends with it.

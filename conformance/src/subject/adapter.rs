@@ -316,7 +316,10 @@ impl Drop for Process {
     }
 }
 
-fn start(command: &[String], settings: &Settings) -> Result<(Conversation, Greeting), StartError> {
+pub(super) fn start(
+    command: &[String],
+    settings: &Settings,
+) -> Result<(Conversation, Greeting), StartError> {
     let name = command.join(" ");
     let mut conversation = Conversation::start(command, settings)
         .map_err(|error| StartError::Spawn { command: name.clone(), error })?;

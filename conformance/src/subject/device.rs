@@ -5,7 +5,9 @@ mod keeper;
 mod line;
 mod other_host;
 mod record;
+mod slave;
 
+use std::io::ErrorKind;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use actucheck_spec::model::Role;
@@ -17,6 +19,8 @@ use crate::traffic::Traffic;
 
 pub use self::keeper::{Keeper, Kept};
 pub use self::line::Line;
+pub(crate) use self::slave::plays;
+pub use self::slave::{Slave, SlaveError};
 
 /// A device on its port. Copies share the port.
 #[derive(Clone, Debug)]
@@ -46,6 +50,13 @@ impl Device {
         };
         let (line, keeper) = (Arc::new(Mutex::new(line)), Arc::default());
         Self { hello, line, allowed, keeper }
+    }
+
+    /// The same device, which is a library's.
+    #[must_use]
+    pub fn of_library(mut self, library: Implementation) -> Self {
+        self.hello.implementation = library.legible();
+        self
     }
 
     /// The same device, of which this keeper keeps what it holds. Without one nothing is written to it.
@@ -105,6 +116,10 @@ impl Subject for Device {
         match heard {
             _ if line.is_interrupted() => Answer::NotAsked("interrupted".to_owned()),
             Ok(heard) => Answer::Ok(Output::Line(heard)),
+            // The library of a device that is behind an adapter.
+            Err(error) if error.kind() == ErrorKind::InvalidData => {
+                Answer::Crashed(error.to_string())
+            }
             Err(error) => {
                 let gone = PortError::new(&line.place, error).to_string();
                 line.gone = Some(gone.clone());

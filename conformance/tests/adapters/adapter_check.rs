@@ -129,9 +129,9 @@ fn a_bad_start_is_found() {
             "starts and says who it is: `ok` is incomplete: missing field `language`",
         ),
         (
-            &[(r#""protocol":1"#, r#""protocol":4"#)],
+            &[(r#""protocol":1"#, r#""protocol":99"#)],
             4,
-            "starts and says who it is: it speaks version 4",
+            "starts and says who it is: it speaks version 99",
         ),
         (
             &[(r#""ok":{"protocol""#, r#""skip":{"protocol""#)],

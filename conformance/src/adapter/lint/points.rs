@@ -4,14 +4,25 @@ use std::io;
 use std::ops::ControlFlow;
 use std::time::Duration;
 
+#[cfg(unix)]
+use actucheck_spec::model::HexBytes;
+#[cfg(unix)]
+use serde_json::Value;
+
 use super::example::Example;
 use super::talk::{Answer, ONLY_REPLIES, TOO_LONG, Talk, interrupted};
 use super::{Point, Problem, Report, hosts, shape};
 use crate::adapter::conversation::ended;
 use crate::adapter::process::Line;
 use crate::adapter::{Contradiction, Greeting, Hello, Request, Settings, VERSIONS};
+#[cfg(unix)]
+use crate::adapter::{VERSION, Wire};
 use crate::run::not_offered;
+#[cfg(unix)]
+use crate::subject::device::plays;
 use crate::suite::check::Check;
+#[cfg(unix)]
+use crate::suite::device::hello_all;
 
 /// Size of a line, in bytes, that overflows any usual fixed buffer.
 const LONG: usize = 70_000;
@@ -98,6 +109,10 @@ impl Points {
         if let Some(check) = calls.iter().find(|check| not_offered(hello, check).is_none()) {
             hosts::look(self, hello, check)?;
         }
+        #[cfg(unix)]
+        for wire in Wire::ALL.into_iter().filter(|wire| plays(hello, *wire)) {
+            self.point(format!("answers bytes as a device on {wire}"), |talk| device(talk, wire))?;
+        }
         self.point("reads a long line", long_line)?;
         self.point("runs beside another of its kind", |_| another())?;
         self.point("writes nothing but replies", silence)?;
@@ -119,6 +134,30 @@ impl Points {
         self.points.push(Point { name: name.into(), result, said: self.talk.take_said() });
     }
 }
+
+/// No bytes, a byte of no packet, and a greeting of any device: whatever it sends, it sends it as bytes.
+#[cfg(unix)]
+fn device(talk: &mut Talk, wire: Wire) -> Found {
+    let hello = hello_all(wire).and_then(|packet| wire.encode(&packet)).unwrap_or_default();
+    let mut count = 0;
+    for (after_ms, bytes) in [(0, Vec::new()), (0, vec![0]), (1000, hello)] {
+        let request = Request::Device { wire, after_ms, bytes: &bytes.into() }.in_version(VERSION);
+        let Answer::Ok(ok) = talk.ask(&request)? else {
+            return Err(Problem::new(DEVICE, DEVICE_MEND));
+        };
+        let bytes = ok.get("bytes").and_then(Value::as_str);
+        let bytes = bytes.and_then(|bytes| HexBytes::parse(bytes).ok());
+        count += bytes.ok_or_else(|| Problem::new(DEVICE, DEVICE_MEND))?.len();
+    }
+    // Who may be asked for by nobody but a host that knows its ID need not answer here.
+    Ok(if count == 0 { "it sends nothing to a packet for all".to_owned() } else { String::new() })
+}
+
+#[cfg(unix)]
+const DEVICE: &str = "the reply to `device` has no `bytes`";
+#[cfg(unix)]
+const DEVICE_MEND: &str =
+    "answer with what the device sends, {\"ok\": {\"bytes\": \"fffffd…\"}}; nothing is \"\"";
 
 /// Whether there is no contradiction.
 fn without(contradictions: Vec<Contradiction>) -> Found {

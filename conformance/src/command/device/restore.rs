@@ -6,10 +6,10 @@ use std::time::Duration;
 
 use actucheck::journal::{Journal, restore};
 use actucheck::port::Place;
-use actucheck::subject::device::Line;
 use clap::Args;
 
 use super::super::shared::{self, Failure, milliseconds};
+use super::open::Opening;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -37,6 +37,9 @@ pub(super) struct Restore {
     /// udp://HOST:PORT
     #[arg(value_name = "PORT")]
     port: Option<String>,
+    /// COMMAND is an adapter with the op `device`
+    #[arg(long, requires = "command")]
+    adapter: bool,
     /// The command of firmware that speaks raw bytes on its standard input and output
     #[arg(last = true, value_name = "COMMAND", conflicts_with = "port")]
     command: Vec<String>,
@@ -72,8 +75,14 @@ pub(super) fn run(options: &Restore) -> Result<ExitCode, Failure> {
     let interrupted = shared::interrupted()?;
     let place = options.place(&journal)?;
     let baud = options.baud.unwrap_or(journal.baud);
-    let mut line = Line::open(journal.wire, &place, baud, options.answer_within, interrupted)
-        .map_err(Failure::not_started)?;
+    let opening = Opening {
+        wire: journal.wire,
+        place: &place,
+        is_adapter: options.adapter,
+        baud,
+        limit: options.answer_within,
+    };
+    let (mut line, _) = opening.line(&interrupted)?;
     let count = restore(&journal, &mut line).map_err(|error| {
         Failure::incomplete(format!("{} is not restored: {error}", journal.device))
     })?;

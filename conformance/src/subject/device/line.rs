@@ -236,8 +236,9 @@ impl Line {
             let bytes = buffer.get(..count).unwrap_or_default();
             let is_answer = record.received(bytes) && std::mem::take(&mut is_first);
             // What is damaged may be answered late, if it is.
+            let is_timed = is_answer && takes.is_zero() && self.port.takes_time();
             let called = awaited.and_then(|asked| asked.packet.as_ref()?.call.as_ref());
-            if let Some(call) = called.filter(|_| is_answer && takes.is_zero()) {
+            if let Some(call) = called.filter(|_| is_timed) {
                 self.counts.answered(call.name, begun.elapsed());
             }
             self.counts.received(count);

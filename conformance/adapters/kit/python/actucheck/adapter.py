@@ -63,6 +63,16 @@ class Host:
         return {"devices": self._call(self._port, request["call"])}
 
 
+def device(hear):
+    """The op of a device: `hear(after_ms, data)` takes bytes, so many milliseconds after the last ones,
+    and returns the bytes that the device sends."""
+
+    def answer(request):
+        return {"bytes": hear(request["after_ms"], unhex(request["bytes"])).hex()}
+
+    return {"device": answer}
+
+
 def function_of(calls, call):
     """The function that makes a call, in a dict of them by name."""
     if call["name"] not in calls:
@@ -92,7 +102,7 @@ def _role(request):
 def serve(implementation, roles, wire, ops, limits=None, calls=None):
     """Answers requests until `bye` or the end of standard input. `calls` are those of the op `call`."""
     hello = {
-        "protocol": 3,
+        "protocol": 4,
         "implementation": {"language": "Python", **implementation},
         "roles": roles,
         "wires": [wire],
@@ -132,7 +142,8 @@ def _answer(request, hello, wire, ops):
             return {"skip": {"reason": f"no op {op!r}"}}
         if request["wire"] != wire:
             return {"skip": {"reason": f"the library does not speak {request['wire']!r}"}}
-        role = "host" if op in ("open", "call", "close") else _role(request)
+        own = {"open": "host", "call": "host", "close": "host", "device": "device"}
+        role = own[op] if op in own else _role(request)
         if role not in (None, *hello["roles"]):
             return {"skip": {"reason": f"only a {role} does this"}}
         return {"ok": ops[op](request)}
