@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
+use actucheck_spec::model::{Level, Role};
 use assert_cmd::Command;
 use serde_json::Value;
 
@@ -148,6 +149,32 @@ fn every_must_of_a_host_has_a_check_or_a_reason() {
         });
         assert!(!is_checked || row.unseen.host.is_none(), "{} has a check and a reason", row.id);
     }
+}
+
+/// A test of the virtual device shows nothing of another, and a check that only records demands nothing.
+#[test]
+fn every_must_of_a_device_has_a_check_or_a_reason() {
+    let (_, stdout, _) = spec(&["coverage", "--role", "device"]);
+    let spec = actucheck_spec::Spec::embedded().unwrap();
+    let rows = spec.requirements.iter().flat_map(|file| &file.content.requirements);
+    let must = rows.filter(|row| row.level == Level::Must && row.binds.contains(&Role::Device));
+    let mut without = Vec::new();
+    let mut count = 0;
+    for row in must {
+        let line = stdout.lines().find(|line| line.split_whitespace().next() == Some(&row.id));
+        let is_checked = line.is_some_and(|line| {
+            line.split("; ").any(|part| {
+                ["check of a device", "checks of a device"].iter().any(|words| part.contains(words))
+                    && !part.contains("only recorded")
+            })
+        });
+        if is_checked == row.unseen.device.is_some() {
+            without.push(&row.id);
+        }
+        count += 1;
+    }
+    assert!(count > 300, "{count} rows");
+    assert!(without.is_empty(), "neither a check nor a reason, or both: {without:#?}");
 }
 
 #[test]

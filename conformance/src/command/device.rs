@@ -17,7 +17,7 @@ use actucheck::journal::Layout;
 use actucheck::port::Place;
 use actucheck::subject::device::{Device as Subject, Keeper, Kept, Line};
 use actucheck::suite::device::{
-    Target, has_tables, hello, hello_all, identity, ids, is_checked, reported,
+    Target, has_tables, hello, hello_all, identity, ids, is_checked, kept, reported,
 };
 use actucheck::suite::plan::Plan;
 use actucheck::suite::{self, Options};
@@ -268,10 +268,12 @@ impl Device {
             Some(library) => subject.of_library(library),
             None => subject,
         };
-        let subject = match device.filter(|_| !allowed.only_read()) {
-            Some(device) => {
+        let layout = device.map(Layout::of).or_else(|| kept(wire, spec).map(Layout::of_values));
+        let subject = match layout.filter(|_| !allowed.only_read()) {
+            Some(layout) => {
                 let at = writing::At { wire, place: &place, baud, id, model: said.model_number };
-                let (journal, path) = self.writing.journal(device, &at);
+                let word = device.map_or(wire.id(), |device| &device.device);
+                let (journal, path) = self.writing.journal((word, name), layout, &at);
                 subject.kept_by(Keeper::new(journal, path))
             }
             None => subject,

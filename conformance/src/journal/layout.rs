@@ -10,7 +10,7 @@ use super::{Place, Run};
 const LONGEST: u16 = 128;
 
 /// Where the registers of a device are that are kept.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Layout {
     /// All that is read, by address and number of bytes.
@@ -100,6 +100,15 @@ impl Layout {
             registered: named("Registered Instruction"),
             alarms: named("Hardware Error Status"),
         }
+    }
+
+    /// The values of a device without a control table: the first tells whether the shaft may turn.
+    #[must_use]
+    pub fn of_values(values: Vec<Place>) -> Self {
+        let read = values.iter().map(|place| (place.address, place.size)).collect();
+        let torque = values.first().cloned();
+        let restored = values.into_iter().skip(1).collect();
+        Self { read, restored, torque, ..Self::default() }
     }
 
     /// The registers that hold something else now than they held, in the order in which they are restored.

@@ -1,5 +1,6 @@
 //! The way back to what a device held.
 
+use actucheck_spec::model::HexBytes;
 use actucheck_spec::wire::{Packet, Wire};
 use thiserror::Error;
 
@@ -102,6 +103,7 @@ pub fn snapshot(
         let answer = tried(id, &packet, ask)?;
         let data = answer.filter(|answer| answer.error.unwrap_or_default() == 0);
         let data = data.and_then(|answer| answer.data);
+        let data = data.map(|data| HexBytes::from((instructions.held)(&data.0).to_vec()));
         let data = data.filter(|data| data.0.len() == usize::from(*length));
         let data = data.ok_or(RestoreError::Unreadable(*address, *length))?;
         snapshot.0.push(Run { address: *address, data });
@@ -161,15 +163,18 @@ impl<'a> Way<'a> {
                 return Err(RestoreError::Torque);
             }
         }
-        if now.is_set(layout.registered.as_ref()) && !held.is_set(layout.registered.as_ref()) {
-            let packet = (self.instructions.action)(self.journal.id);
-            tried(self.journal.id, &packet, self.ask)?;
+        if now.is_set(layout.registered.as_ref())
+            && !held.is_set(layout.registered.as_ref())
+            && let Some(action) = self.instructions.action
+        {
+            tried(self.journal.id, &action(self.journal.id), self.ask)?;
             now = self.look()?;
         }
         now = self.set_back(now)?;
         // Only when the limits are back does an alarm stay away.
-        if self.has_new_alarm(&now) && allowed.has(Permission::Reboot) {
-            let packet = (self.instructions.reboot)(self.journal.id);
+        let reboot = self.instructions.reboot.filter(|_| allowed.has(Permission::Reboot));
+        if let Some(reboot) = reboot.filter(|_| self.has_new_alarm(&now)) {
+            let packet = reboot(self.journal.id);
             self.ask.ask(self.journal.id, &packet).map_err(RestoreError::Port)?;
             now = self.arrive()?;
             self.set_back(now)?;

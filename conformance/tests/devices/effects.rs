@@ -45,6 +45,22 @@ pub(crate) const FAULTS: &[Fault] = &[
         },
     ),
     hearing(
+        "write-high-first",
+        "reads the address of a Write high byte first",
+        "sentence.write-parameters/shown",
+        |heard| with_params(heard, WRITE, |params| params.swap(0, 1)),
+    ),
+    on(
+        XM430,
+        hearing(
+            "write-low-byte-only",
+            "reads one byte of the address of a Write",
+            "sentence.write-parameters/shown",
+            // The register is at 90, and it takes it for 91.
+            |heard| with_params(heard, WRITE, |params| params[0] |= 1),
+        ),
+    ),
+    hearing(
         "fast-write-address-high-first",
         "reads the address of a Fast Sync Write high byte first",
         "sentence.fast-sync-write-parameters/shown",

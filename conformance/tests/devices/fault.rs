@@ -20,6 +20,11 @@ pub(crate) struct Fault {
 }
 
 impl Fault {
+    /// The id of the check that must fail.
+    pub(crate) fn check(&self) -> String {
+        format!("{}.device.{}", self.wire(), self.found_by)
+    }
+
     /// The wire of its devices.
     pub(crate) fn wire(&self) -> &'static str {
         if self.devices.starts_with("dd-") { "innfos" } else { "dynamixel2" }

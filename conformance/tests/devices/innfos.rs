@@ -1,5 +1,7 @@
 //! Faults of INNFOS actuators and boards, each with the check that finds it.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use actucheck_spec::wire::Direction;
 use actucheck_spec::wire::innfos::{Packet, reference};
 
@@ -160,6 +162,89 @@ pub(crate) const FAULTS: &[Fault] = &[
             heard
         },
     ),
+    answering(
+        "printed-short",
+        "answers the printed request with two bytes",
+        "sentence.packets/shown",
+        |_, answer| of(answer, 0x06, |reply| reply.data.0.truncate(2)),
+    ),
+    answering("crc-other", "has another CRC", "sentence.crc-value/shown", |_, mut answer| {
+        if of_command(&answer, 0x06) {
+            answer[9] ^= 0x55;
+        }
+        answer
+    }),
+    answering(
+        "crc-high-first",
+        "sends the high byte of a CRC first",
+        "sentence.crc-byte-order/shown",
+        |_, mut answer| {
+            if of_command(&answer, 0x06) {
+                answer.swap(9, 10);
+            }
+            answer
+        },
+    ),
+    answering("done-is-2", "answers a write with 02", "written.74/kept", |_, answer| {
+        of(answer, 0x74, |reply| reply.data.0[0] = 2)
+    }),
+    hearing("flag-stays-off", "keeps a flag off", "written.70/kept", |heard| {
+        sent(heard, 0x70, |data| data[0] = 0)
+    }),
+    hearing("whole-hertz", "keeps whole numbers of Hz", "written.72/kept", |heard| {
+        sent(heard, 0x72, |data| data[1] = 0)
+    }),
+    hearing("gain-positive", "has no negative gains", "written.0e/kept", |heard| {
+        sent(heard, 0x0E, |data| data[0] &= 0x7F)
+    }),
+    hearing("profile-16-bits", "keeps two bytes of a speed", "written.1f/kept", |heard| {
+        sent(heard, 0x1F, |data| data[1] = 0)
+    }),
+    answering(
+        "output-limit-positive",
+        "refuses a limit below zero",
+        "written.2e/kept",
+        |_, answer| of(answer, 0x2E, |reply| reply.data.0[0] = 0),
+    ),
+    answering("energy-read-only", "takes no stall energy", "written.7e/kept", |_, answer| {
+        of(answer, 0x7E, |reply| reply.data.0[0] = 0)
+    }),
+    // The alarm would stay, and nothing could be asked again then: it is told once.
+    answering(
+        "low-byte-first",
+        "reads a temperature low byte first, and has an alarm then",
+        "written.byte-order/no-alarm",
+        |asked, answer| {
+            static IS_LOW: AtomicBool = AtomicBool::new(false);
+            if of_command(asked, 0x61) {
+                IS_LOW.store(asked[5..7] == [0x50, 0x00], Ordering::Relaxed);
+            }
+            if of_command(asked, 0xFF) && IS_LOW.swap(false, Ordering::Relaxed) {
+                of(answer, 0xFF, |reply| reply.data.0[1] = 8)
+            } else {
+                answer
+            }
+        },
+    ),
+    hearing(
+        "crc-of-a-byte-refused",
+        "takes no request with the CRC of a byte",
+        "written.crc-of-a-byte/kept",
+        |heard| if heard.len() == 9 && heard[2] == 0x70 { Vec::new() } else { heard },
+    ),
+    answering("goal-answered", "answers a speed", "command.09/silence", |asked, answer| {
+        if of_command(asked, 0x09) {
+            [&[HEADER, 1, 0x09, 0, 1, 1, END], &answer[..]].concat()
+        } else {
+            answer
+        }
+    }),
+    answering("clear-silent", "does not answer 0xFE", "command.fe/answer", |_, answer| {
+        without(answer, 0xFE)
+    }),
+    answering("save-fails", "answers 0x0D with 00", "command.0d/answer", |_, answer| {
+        of(answer, 0x0D, |reply| reply.data.0[0] = 0)
+    }),
     hearing(
         "looks-into-data",
         "finds a request in the data of another",
@@ -212,4 +297,17 @@ fn of(answer: Vec<u8>, command: u8, change: impl Fn(&mut Packet)) -> Vec<u8> {
 /// Leaves out the replies to a command.
 fn without(answer: Vec<u8>, command: u8) -> Vec<u8> {
     if of_command(&answer, command) { Vec::new() } else { answer }
+}
+
+/// Changes the data of each request with a command, which has another CRC then.
+fn sent(heard: Vec<u8>, command: u8, change: impl Fn(&mut [u8])) -> Vec<u8> {
+    if !of_command(&heard, command) {
+        return heard;
+    }
+    let changed =
+        reference::packets(Direction::Request, &heard).into_iter().flat_map(|mut request| {
+            change(&mut request.data.0);
+            reference::encode(&request).unwrap()
+        });
+    changed.collect()
 }

@@ -83,6 +83,8 @@ pub(super) fn run(options: &Restore) -> Result<ExitCode, Failure> {
         limit: options.answer_within,
     };
     let (mut line, _) = opening.line(&interrupted)?;
+    // A board answers who has greeted it.
+    line.greet(options.answer_within).map_err(Failure::not_started)?;
     let count = restore(&journal, &mut line).map_err(|error| {
         Failure::incomplete(format!("{} is not restored: {error}", journal.device))
     })?;

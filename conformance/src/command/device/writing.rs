@@ -7,7 +7,6 @@ use actucheck::adapter::{Permission, Permissions, Wire};
 use actucheck::journal::{Journal, Layout, Snapshot, VERSION};
 use actucheck::names::as_word;
 use actucheck::port::Place;
-use actucheck_spec::model;
 use chrono::{DateTime, SecondsFormat, Utc};
 use clap::Args;
 
@@ -61,25 +60,30 @@ impl Writing {
         self.allow.iter().flatten().copied().collect()
     }
 
-    /// The journal of a device, which holds nothing yet, and its file.
-    pub(super) fn journal(&self, device: &model::Device, at: &At<'_>) -> (Journal, PathBuf) {
+    /// The journal of a device with this word in file names and this title, which holds nothing yet, and its file.
+    pub(super) fn journal(
+        &self,
+        (word, title): (&str, &str),
+        layout: Layout,
+        at: &At<'_>,
+    ) -> (Journal, PathBuf) {
         let At { wire, place, baud, id, model } = at;
         let now: DateTime<Utc> = SystemTime::now().into();
         let path = self.journal.clone().unwrap_or_else(|| {
-            let (name, time) = (as_word(&device.device), now.format("%Y%m%dT%H%M%SZ"));
+            let (name, time) = (as_word(word), now.format("%Y%m%dT%H%M%SZ"));
             format!("actucheck-{name}-{id}-{time}.journal.json").into()
         });
         let journal = Journal {
             version: VERSION,
             date: now.to_rfc3339_opts(SecondsFormat::Secs, true),
             wire: *wire,
-            device: device.title.clone(),
+            device: title.to_owned(),
             model_number: *model,
             id: *id,
             port: (!matches!(place, Place::Program(_))).then(|| place.to_string()),
             baud: *baud,
             allowed: self.allowed(),
-            layout: Layout::of(device),
+            layout,
             held: Snapshot::default(),
         };
         (journal, path)

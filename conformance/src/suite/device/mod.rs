@@ -12,6 +12,7 @@ use std::borrow::Cow;
 use std::ops::RangeInclusive;
 use std::time::Duration;
 
+use actucheck_spec::Spec;
 use actucheck_spec::model;
 use actucheck_spec::wire::{self, Packet};
 
@@ -19,6 +20,7 @@ use super::Author;
 use super::plan::Family;
 use crate::adapter::{Asked, Reported, Wire};
 use crate::bus;
+use crate::journal::Place;
 
 /// A device that is checked, and what else is on its line.
 #[derive(Clone, Debug)]
@@ -75,6 +77,9 @@ struct Own {
     takes: fn(&[u8]) -> Duration,
     /// What changes registers, if its devices have some.
     instructions: Option<Instructions>,
+    /// What its devices hold if they have no control tables: first whether the shaft may turn, then all that
+    /// is set back.
+    kept: Option<fn(&Spec) -> Vec<Place>>,
 }
 
 /// The packets by which registers are read and set back.
@@ -84,10 +89,12 @@ pub struct Instructions {
     pub read: fn(u8, u16, u16) -> Packet,
     /// Writes bytes to a device from an address on.
     pub write: fn(u8, u16, &[u8]) -> Packet,
-    /// Lets a device carry out the write that waits.
-    pub action: fn(u8) -> Packet,
-    /// Restarts a device.
-    pub reboot: fn(u8) -> Packet,
+    /// Lets a device carry out the write that waits, if writes may.
+    pub action: Option<fn(u8) -> Packet>,
+    /// Restarts a device, if a packet can.
+    pub reboot: Option<fn(u8) -> Packet>,
+    /// What was read, in the data of an answer.
+    pub held: fn(&[u8]) -> &[u8],
 }
 
 /// What a device says of itself.
@@ -111,6 +118,7 @@ static WIRES: [Own; 2] = [
         takes: |_| Duration::ZERO,
         identity: dynamixel2::identity,
         instructions: Some(dynamixel2::INSTRUCTIONS),
+        kept: None,
     },
     Own {
         wire: wire::innfos::WIRE,
@@ -121,7 +129,8 @@ static WIRES: [Own; 2] = [
         hello_all: innfos::hello_all,
         takes: innfos::takes,
         identity: innfos::identity,
-        instructions: None,
+        instructions: Some(innfos::INSTRUCTIONS),
+        kept: Some(innfos::kept),
     },
 ];
 
@@ -198,6 +207,13 @@ pub fn identity(wire: Wire, answer: &Reported) -> Identity {
 #[must_use]
 pub fn instructions(wire: Wire) -> Option<&'static Instructions> {
     own(wire)?.instructions.as_ref()
+}
+
+/// What devices of this wire hold, if they have no control tables: first whether the shaft may turn, then all
+/// that is set back.
+#[must_use]
+pub fn kept(wire: Wire, spec: &Spec) -> Option<Vec<Place>> {
+    own(wire)?.kept.map(|kept| kept(spec))
 }
 
 /// The ids of the basic checks that an answer rests on: that the device answers at all, and for each call

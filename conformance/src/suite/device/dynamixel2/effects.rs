@@ -20,13 +20,33 @@ const CLEARS_SINCE: u64 = 42;
 pub(super) const STILL: i64 = 64;
 
 pub(super) fn checks(talk: &Talk<'_>) -> Vec<Check> {
-    let all = [several, one_named, registered, restarted, reset, cleared, cleared_position, torque];
+    let all = [
+        written,
+        several,
+        one_named,
+        registered,
+        restarted,
+        reset,
+        cleared,
+        cleared_position,
+        torque,
+    ];
     all.into_iter().flat_map(|checks| checks(talk)).collect()
 }
 
 /// What is sent, and what must come back.
 fn conversation(steps: Vec<Step>) -> Conversation {
     steps.into_iter().unzip()
+}
+
+/// Two values, one after the other.
+fn written(talk: &Talk<'_>) -> Vec<Check> {
+    let Some(probe) = probe(talk) else { return Vec::new() };
+    let address = probe.register.address;
+    let values = [probe.min, probe.other()].map(|value| bytes(probe.register, value));
+    let steps = values.map(|data| [talk.sets(address, &data), talk.holds(address, data)]);
+    let ram = Permissions::from([Permission::WriteRam]);
+    shown(talk, &ram, &["write.parameters"], &conversation(steps.concat()))
 }
 
 /// Instructions that write to several devices.

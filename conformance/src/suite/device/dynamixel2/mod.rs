@@ -109,8 +109,9 @@ pub(super) fn families<'a>(author: Author<'a>, target: &Target<'a>) -> Vec<Famil
 pub(super) const INSTRUCTIONS: Instructions = Instructions {
     read: |id, address, length| read(id, address, length).into(),
     write: |id, address, data| write(id, address, data).into(),
-    action: |id| instruction(id, code::ACTION, Vec::new()).into(),
-    reboot: |id| instruction(id, code::REBOOT, Vec::new()).into(),
+    action: Some(|id| instruction(id, code::ACTION, Vec::new()).into()),
+    reboot: Some(|id| instruction(id, code::REBOOT, Vec::new()).into()),
+    held: |data| data,
 };
 
 /// Ping.

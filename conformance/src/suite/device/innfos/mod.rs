@@ -4,11 +4,14 @@
 //! - read: each command that reads, and what its answer may hold;
 //! - addressee: other addresses, and the broadcast address;
 //! - damaged: frames that are none, and what is in one datagram or in two;
+//! - sentence: what sentences say of every frame;
+//! - written, command: what is written is told again, and which commands are answered;
 //! - unknown: commands and data that the document does not have.
 
 mod board;
 mod frames;
 mod reads;
+mod writes;
 
 use std::time::Duration;
 
@@ -16,7 +19,7 @@ use actucheck_spec::wire::innfos::{Packet, WIRE, reference};
 use actucheck_spec::wire::{self, Direction};
 
 use super::steps::{asked, packet_then, then};
-use super::{Identity, Target};
+use super::{Identity, Instructions, Target};
 use crate::adapter::{Asked, Permissions, Question, Reported};
 use crate::suite::Author;
 use crate::suite::check::{Check, Demand};
@@ -34,6 +37,11 @@ mod code {
     pub(super) const POSITION: u8 = 0x06;
     pub(super) const HANDSHAKE: u8 = 0x44;
     pub(super) const MODE: u8 = 0x55;
+    pub(super) const SAVE: u8 = 0x0D;
+    pub(super) const PROTECTION: u8 = 0x61;
+    pub(super) const CLEAR_ALARMS: u8 = 0xFE;
+    /// What sets current, speed and position.
+    pub(super) const GOALS: [u8; 3] = [0x08, 0x09, 0x0A];
     pub(super) const ALARMS: u8 = 0xFF;
 }
 
@@ -58,8 +66,24 @@ pub(super) fn families<'a>(author: Author<'a>, target: &Target<'a>) -> Vec<Famil
         family("damaged", frames::damaged),
         family("datagram", frames::datagrams),
         family("unknown", reads::unknown),
+        family("sentence", reads::sentences),
+        family("written", writes::checks),
+        family("command", writes::commands),
     ]
 }
+
+/// What reads values and sets them back. The number of a value is the code of the command that writes it, and
+/// after that the code of the one that reads it.
+pub(super) const INSTRUCTIONS: Instructions = Instructions {
+    read: |id, number, _| request(id, number.to_be_bytes()[1]).into(),
+    write: |id, number, data| with_data(id, number.to_be_bytes()[0], data).into(),
+    action: None,
+    reboot: None,
+    // The command that is answered comes before the data.
+    held: |data| data.get(1..).unwrap_or_default(),
+};
+
+pub(super) use self::writes::kept;
 
 /// The handshake with the board, which comes before everything else.
 pub(super) fn greeting() -> wire::Packet {
@@ -127,7 +151,30 @@ impl Talk<'_> {
     }
 
     fn asks(&self, name: &str, requirement: &str, steps: Vec<Asked>, demand: Demand) -> Check {
-        let question = Question::Device { wire: WIRE, needs: Permissions::READ, steps };
+        self.asks_with(Permissions::READ, name, requirement, steps, demand)
+    }
+
+    /// Demands what comes back, step by step, where more than reading is needed.
+    fn demands(
+        &self,
+        needs: Permissions,
+        name: &str,
+        requirement: &str,
+        steps: Vec<(Asked, Vec<Vec<Like>>)>,
+    ) -> Check {
+        let (steps, wanted) = steps.into_iter().map(|(asked, rows)| (asked, Wanted(rows))).unzip();
+        self.asks_with(needs, name, requirement, steps, Demand::Answer(wanted))
+    }
+
+    fn asks_with(
+        &self,
+        needs: Permissions,
+        name: &str,
+        requirement: &str,
+        steps: Vec<Asked>,
+        demand: Demand,
+    ) -> Check {
+        let question = Question::Device { wire: WIRE, needs, steps };
         self.author.check(format!("innfos.device.{name}"), requirement, question, demand)
     }
 

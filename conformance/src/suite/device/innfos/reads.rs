@@ -104,3 +104,17 @@ pub(super) fn unknown(talk: &Talk<'_>) -> Vec<Check> {
     );
     unknown.into_iter().chain(missing).chain([with_data, damaged]).collect()
 }
+
+/// Sentences about every frame that the answer to a read shows.
+pub(super) fn sentences(talk: &Talk<'_>) -> Vec<Check> {
+    let sentences = ["packets", "crc.value", "crc.byte-order"].map(|sentence| {
+        let answer = talk.answer(code::POSITION, vec![Part::Any(4)]);
+        talk.check(
+            &format!("sentence.{}/shown", sentence.replace('.', "-")),
+            &format!("innfos.{sentence}"),
+            vec![asked(talk.ask(code::POSITION), 1)],
+            vec![vec![vec![answer]]],
+        )
+    });
+    sentences.into()
+}
