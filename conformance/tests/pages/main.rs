@@ -38,10 +38,11 @@ const NOT_RUN: [(&str, &str); 15] = [
 ];
 
 /// Commands whose exit status is not 0: the template of an adapter has no library behind it yet.
-const STATUS: [(&str, i32); 3] = [
+const STATUS: [(&str, i32); 4] = [
     ("actucheck codec -- python3 adapter.py", 3),
     ("actucheck host --select '*.host.basic.*' -- python3 adapter.py", 2),
     ("actucheck host -- python3 adapter.py", 2),
+    ("actucheck device --device ja40 --id 1 --adapter -- python3 adapter.py", 2),
 ];
 
 /// What pages take for granted that their readers have.
