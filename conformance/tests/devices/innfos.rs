@@ -245,6 +245,17 @@ pub(crate) const FAULTS: &[Fault] = &[
     answering("save-fails", "answers 0x0D with 00", "command.0d/answer", |_, answer| {
         of(answer, 0x0D, |reply| reply.data.0[0] = 0)
     }),
+    answering("gain-short", "tells a gain in two bytes", "read.19/size", |_, answer| {
+        of(answer, 0x19, |reply| reply.data.0.truncate(2))
+    }),
+    answering(
+        "answers-a-byte",
+        "answers a single byte",
+        "damaged.cut-1/silence",
+        |asked, answer| {
+            if asked.len() == 1 { vec![HEADER, 1, 0x06, 0, 0, END] } else { answer }
+        },
+    ),
     hearing(
         "looks-into-data",
         "finds a request in the data of another",

@@ -14,6 +14,7 @@
 
 mod bad;
 mod change;
+mod covered;
 mod effects;
 mod fault;
 mod faults;
@@ -21,6 +22,7 @@ mod firmware;
 mod innfos;
 mod interrupted;
 mod killing;
+mod packets;
 mod rewrite;
 mod right;
 mod writing;
@@ -50,7 +52,7 @@ fn main() -> ExitCode {
 
 /// The faults of all wires.
 fn every() -> impl Iterator<Item = &'static Fault> {
-    let wires = [faults::FAULTS, writing::FAULTS, effects::FAULTS, innfos::FAULTS];
+    let wires = [faults::FAULTS, packets::FAULTS, writing::FAULTS, effects::FAULTS, innfos::FAULTS];
     wires.into_iter().flatten()
 }
 
@@ -71,6 +73,8 @@ fn tests() -> ExitCode {
         .map(|row| test(format!("killed::{}", row.name), Box::new(|| killing::wrong(row))))
         .collect();
     trials.push(test("checks::each_has_a_requirement".to_owned(), Box::new(right::requirements)));
+    let covered = Box::new(covered::without_a_fault);
+    trials.push(test("checks::each_must_finds_a_fault".to_owned(), covered));
     for (name, wrong) in interrupted::TESTS {
         trials.push(Trial::test(format!("interrupted::{name}"), move || {
             let wrong = wrong();
