@@ -29,21 +29,23 @@ pub(crate) struct Manual {
 
 /// Prints the program's page, or writes all pages into a folder.
 pub(crate) fn run(options: &Manual) -> Result<ExitCode, Failure> {
-    let mut program = Cli::command();
+    // `help` has no page.
+    let mut program = Cli::command().disable_help_subcommand(true);
+    program = program.mut_subcommands(|subcommand| subcommand.disable_help_subcommand(true));
     // The pages of subcommands have the program's name before their own.
     program.build();
     match &options.out {
-        None => shared::print(page(program)?)?,
-        Some(folder) => write(folder, program)?,
+        None => shared::print(page(&program)?)?,
+        Some(folder) => write(folder, &program)?,
     }
     Ok(ExitCode::SUCCESS)
 }
 
 /// Writes the page of a command and those of its subcommands.
-fn write(folder: &Path, command: clap::Command) -> Result<(), Failure> {
+fn write(folder: &Path, command: &clap::Command) -> Result<(), Failure> {
     for subcommand in command.get_subcommands().filter(|subcommand| subcommand.get_name() != "help")
     {
-        write(folder, subcommand.clone())?;
+        write(folder, subcommand)?;
     }
     let name = command.get_bin_name().unwrap_or("actucheck").replace(' ', "-");
     let path = folder.join(format!("{name}.1"));
@@ -53,9 +55,15 @@ fn write(folder: &Path, command: clap::Command) -> Result<(), Failure> {
 }
 
 /// A page in the language of `man`.
-fn page(command: clap::Command) -> Result<Vec<u8>, Failure> {
-    let name = command.get_bin_name().unwrap_or("actucheck").replace(' ', "-");
+fn page(command: &clap::Command) -> Result<Vec<u8>, Failure> {
     let mut text = Vec::new();
-    Man::new(command).title(name).render(&mut text).map_err(Failure::incomplete)?;
+    let man = Man::new(command.clone()).title(name(command));
+    let man = man.source(concat!("actucheck ", env!("CARGO_PKG_VERSION")));
+    man.render(&mut text).map_err(Failure::incomplete)?;
     Ok(text)
+}
+
+/// The name of a command's page, such as `actucheck-spec-diff`.
+fn name(command: &clap::Command) -> String {
+    command.get_bin_name().unwrap_or("actucheck").replace(' ', "-")
 }

@@ -332,7 +332,12 @@ fn manual_pages_are_there_for_every_subcommand() {
     assert_eq!(actucheck(&["man", "--out", folder.path().to_str().unwrap()]).0, 0);
     let page = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
     assert!(page("actucheck-spec-errata.1").contains("actucheck spec errata"));
-    assert!(page("actucheck-codec.1").contains("Examples:"));
+    let codec = page("actucheck-codec.1");
+    assert!(
+        codec.contains("Examples:")
+            && codec.contains(concat!("actucheck ", env!("CARGO_PKG_VERSION")))
+    );
+    assert!(!page("actucheck-device.1").contains("device\\-help"), "there is no such page");
     let pages = fs::read_dir(&folder).unwrap().count();
     assert!(pages > 20, "{pages} pages");
     let (status, _, stderr) = actucheck(&["man", "--out", "/nowhere"]);
