@@ -54,15 +54,17 @@ Examples:
   actucheck device restore actucheck-ja40-1-20260102T030405Z.journal.json
       the same after a crash, a power cut or a cable that was pulled
 
-A run reads, and sends what must be refused: nothing changes on the device, and nothing moves. What changes
-something needs --allow. Before the first write a journal file gets all that the device holds; it is
-written back after each check and read again, also after Ctrl-C, and the file is removed. A device with torque
-on is not written to. No other program may use the port meanwhile.
+A run reads, and sends what must be refused: nothing changes on the device, and nothing moves. \
+What changes something needs --allow. Before the first write a journal file gets all that the \
+device holds; it is written back after each check and read again, also after Ctrl-C, and the \
+file is removed. A device with torque on is not written to. No other program may use the port \
+meanwhile.
 
-What the documents leave unspecified is recorded: `actucheck report compare` of the reports of two
-devices shows where they differ.
+What the documents leave unspecified is recorded: `actucheck report compare` of the reports of \
+two devices shows where they differ.
 
-What fails is asked again of the same device. If it does not fail in the same way, it is `flaky`.
+What fails is asked again of the same device. If it does not fail in the same way, it is \
+`flaky`.
 
 Exit status: 0 all passed, 1 something failed or was flaky, 2 wrong usage, 3 something could not be run \
 or written, 4 the port can't be used, or nothing answers";

@@ -25,7 +25,7 @@ const LIMITS: RangeInclusive<i64> = 1000..=3000;
 /// A Homing Offset: a quarter of a turn of the JA40.
 const OFFSET: i64 = 8192;
 
-/// A register whose range the documents leave open, what it takes, and what it does not, however they are read.
+/// A register whose range the documents leave unspecified, what it takes, and what it does not, however they are read.
 const AGREED: [(&str, &str, &[i64], Option<i64>); 2] = [
     ("Drive Mode", "drive-mode.range", &[0, 1, 2, 3], Some(8)),
     ("Homing Offset", "homing-offset.range", &[0, 1, 32_768], None),
