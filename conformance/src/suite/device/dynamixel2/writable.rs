@@ -5,7 +5,7 @@ use actucheck_spec::model::{Access, Area, Bound, Device, Register};
 use super::Talk;
 use crate::adapter::{Permission, Permissions};
 
-/// Registers that no check writes. With another ID, rate or protocol the device would not hear what sets it
+/// Registers that no check of values writes; only checks of their own write some. With another ID, rate or protocol the device would not hear what sets it
 /// back. Others switch torque, let it be switched on at the next start, or stop the device if nothing is sent;
 /// the mode decides what all goals mean, and one of its values moves the shaft.
 const NEVER: [&str; 10] = [
