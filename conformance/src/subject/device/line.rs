@@ -5,7 +5,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use actucheck_spec::wire::{Packet, Wire};
+use actucheck_spec::model::HexBytes;
+use actucheck_spec::wire::{Direction, Packet, Wire};
 
 use super::counts::Counts;
 use super::other_host::Own;
@@ -48,6 +49,8 @@ pub struct Line {
     pub(super) gone: Option<String>,
     /// What was sent last.
     last: Own,
+    /// Whether several packets were sent at once, whose answers may still come.
+    owes: bool,
     /// What passed so far.
     counts: Counts,
 }
@@ -89,6 +92,7 @@ impl Line {
             hello: None,
             gone: None,
             last,
+            owes: false,
             counts,
         }
     }
@@ -160,6 +164,8 @@ impl Line {
         let late = self.drain()?;
         self.last.look(self.wire, late)?;
         let heard: Vec<_> = steps.iter().map(|step| self.step(step)).collect::<io::Result<_>>()?;
+        let mut pieces = steps.iter().flat_map(|step| &step.send);
+        self.owes = pieces.any(|piece| self.are_several(&piece.bytes));
         self.last = Own::of(self.wire, steps, &heard);
         for heard in &heard {
             self.last.look(self.wire, heard.received())?;
@@ -167,12 +173,18 @@ impl Line {
         Ok(heard)
     }
 
-    /// Takes what came since the last conversation.
+    /// Whether these bytes are more than one packet.
+    fn are_several(&self, bytes: &HexBytes) -> bool {
+        self.wire.stream(std::slice::from_ref(bytes), Some(Direction::Request)).len() > 1
+    }
+
+    /// Takes what came since the last conversation, and what may still come of it.
     fn drain(&mut self) -> io::Result<Vec<u8>> {
         let (mut buffer, mut drained) = ([0; 1024], Vec::new());
+        let quiet = if std::mem::take(&mut self.owes) { self.pause() } else { Duration::ZERO };
         // A device that sends without end does not stop a run.
         for _ in 0..DRAINED {
-            let count = self.port.receive(&mut buffer, Duration::ZERO)?;
+            let count = self.port.receive(&mut buffer, quiet)?;
             if count == 0 {
                 break;
             }
