@@ -43,12 +43,10 @@ pub(crate) fn run(options: &Manual) -> Result<ExitCode, Failure> {
 
 /// Writes the page of a command and those of its subcommands.
 fn write(folder: &Path, command: &clap::Command) -> Result<(), Failure> {
-    for subcommand in command.get_subcommands().filter(|subcommand| subcommand.get_name() != "help")
-    {
+    for subcommand in command.get_subcommands() {
         write(folder, subcommand)?;
     }
-    let name = command.get_bin_name().unwrap_or("actucheck").replace(' ', "-");
-    let path = folder.join(format!("{name}.1"));
+    let path = folder.join(format!("{}.1", name(command)));
     let text = page(command)?;
     fs::write(&path, text)
         .map_err(|error| Failure::incomplete(format!("cannot write {}: {error}", path.display())))

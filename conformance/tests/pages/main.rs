@@ -79,7 +79,8 @@ fn pages() -> Vec<PathBuf> {
 /// A shell with the program on its path.
 fn shell(line: &str, folder: &Path) -> Command {
     let program = Path::new(env!("CARGO_BIN_EXE_actucheck"));
-    let path = format!("{}:{}", program.parent().unwrap().display(), env!("PATH"));
+    let path =
+        format!("{}:{}", program.parent().unwrap().display(), std::env::var("PATH").unwrap());
     let mut command = Command::new("sh");
     command.args(["-c", line]).env("PATH", path).current_dir(folder);
     command
