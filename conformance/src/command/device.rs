@@ -270,8 +270,7 @@ impl Device {
             Some(library) => subject.of_library(library),
             None => subject,
         };
-        let layout = device.map(Layout::of).or_else(|| kept(wire, spec).map(Layout::of_values));
-        let subject = match layout.filter(|_| !allowed.only_read()) {
+        let subject = match layout(spec, wire, device).filter(|_| !allowed.only_read()) {
             Some(layout) => {
                 let at = writing::At { wire, place: &place, baud, id, model: said.model_number };
                 let word = device.map_or(wire.id(), |device| &device.device);
@@ -285,7 +284,7 @@ impl Device {
         if place.has_rate() {
             let timed = subject.look(Line::traffic).response;
             let begins = timed.map_or(BEGINS, |times| Duration::from_micros(times.median_us));
-            let effort = self.effort(spec, &target)?.sentence(baud, begins);
+            let effort = self.effort(spec, &target)?.timed(baud, begins);
             anstream::eprintln!("actucheck: {effort}");
         }
         Ok((subject, planned))
@@ -328,9 +327,15 @@ impl Device {
             None => target,
         };
         let table = plan::table(&self.plan(spec, &target)?);
-        let baud = self.baud.or_else(|| factory_rate(target.device?)).unwrap_or(BAUD);
         let allowed = self.writing.allowed();
-        let effort = self.effort(spec, &target)?.sentence(baud, BEGINS);
+        let effort = self.effort(spec, &target)?;
+        let effort = if has_tables(self.wire()?) {
+            let baud = self.baud.or_else(|| factory_rate(target.device?)).unwrap_or(BAUD);
+            effort.timed(baud, BEGINS)
+        } else {
+            // On such a wire no port has a rate.
+            effort.sentence()
+        };
         shared::print(format!("{table}\nwith --allow {allowed}, {effort}\n").as_bytes())?;
         Ok(ExitCode::SUCCESS)
     }
@@ -344,7 +349,7 @@ impl Device {
 
     /// What those of them send that are allowed.
     fn effort(&self, spec: &Spec, target: &Target<'_>) -> Result<Effort, Failure> {
-        let layout = target.device.map(Layout::of);
+        let layout = layout(spec, self.wire()?, target.device);
         Ok(Effort::of(&self.plan(spec, target)?, &self.writing.allowed(), layout.as_ref()))
     }
 }
@@ -361,6 +366,11 @@ fn table_of<'s>(tables: &Tables, id: u8, spec: &'s Spec) -> Option<&'s model::De
         let table = tables.of(id).filter(|table| table.id != NONE.id)?;
         spec.device(of_model(table.model_number?)?.id)
     })
+}
+
+/// What is kept of a device while it is written to.
+fn layout(spec: &Spec, wire: Wire, device: Option<&model::Device>) -> Option<Layout> {
+    device.map(Layout::of).or_else(|| kept(wire, spec).map(Layout::of_values))
 }
 
 /// The rate with which a device leaves the factory.

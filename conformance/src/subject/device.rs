@@ -18,7 +18,7 @@ use crate::port::PortError;
 use crate::traffic::Traffic;
 
 pub use self::keeper::{Keeper, Kept};
-pub use self::line::Line;
+pub use self::line::{Line, SHORTEST_PAUSE};
 pub(crate) use self::slave::plays;
 pub use self::slave::{Slave, SlaveError};
 

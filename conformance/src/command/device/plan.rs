@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use actucheck::adapter::{Asked, Pause, Permissions, Question};
 use actucheck::journal::Layout;
+use actucheck::subject::device::SHORTEST_PAUSE;
 use actucheck::suite::plan::Plan;
 
 use super::super::shared::table;
@@ -13,8 +14,6 @@ const BITS: u64 = 10;
 /// Bytes of an answer without data, and of a request for registers.
 const ANSWER: usize = 11;
 const REQUEST: usize = 14;
-/// About how long a pause for an answer is, at least.
-const PAUSE: Duration = Duration::from_millis(5);
 /// About how long an answer takes to begin, if none was timed: a device waits 0.5 ms when it leaves the
 /// factory, and a port is not faster than that either.
 pub(super) const BEGINS: Duration = Duration::from_millis(1);
@@ -58,7 +57,7 @@ impl Effort {
             self.sent += piece.bytes.len();
             self.pauses += match piece.after {
                 Pause::None | Pause::Moment => Duration::ZERO,
-                Pause::Answer => PAUSE,
+                Pause::Answer => SHORTEST_PAUSE,
             };
         }
         let call = step.packet.as_ref().and_then(|packet| packet.call.as_ref());
@@ -84,15 +83,20 @@ impl Effort {
         Duration::from_micros(line) + begins.saturating_mul(answers) + self.pauses
     }
 
-    /// What is sent, and about how long that takes at a rate, in a sentence.
-    pub(super) fn sentence(&self, baud: u32, begins: Duration) -> String {
+    /// What is sent, in a sentence.
+    pub(super) fn sentence(&self) -> String {
         let Self { checks, packets, sent, .. } = self;
+        format!(
+            "checks that are asked: {checks}; packets and parts of packets: {packets}, with {sent} bytes"
+        )
+    }
+
+    /// The same, and about how long it takes at a rate, if answers begin after such a time.
+    pub(super) fn timed(&self, baud: u32, begins: Duration) -> String {
+        let what = self.sentence();
         let seconds = self.takes(baud, begins).as_secs_f64();
         let ms = begins.as_secs_f64() * 1e3;
-        format!(
-            "checks that are asked: {checks}; packets and parts of packets: {packets}, with {sent} bytes; about {seconds:.1} s at \
-             {baud} bit/s, if answers begin after {ms:.1} ms"
-        )
+        format!("{what}; about {seconds:.1} s at {baud} bit/s, if answers begin after {ms:.1} ms")
     }
 }
 

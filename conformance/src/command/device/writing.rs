@@ -37,7 +37,7 @@ pub(super) struct At<'a> {
 fn permission() -> impl clap::builder::TypedValueParser<Value = Option<Permission>> {
     let meaning = |permission| match permission {
         Permission::WriteRam => {
-            "write registers of the RAM area while torque is off, and set them back"
+            "write registers of the RAM area, or an actuator's values, while torque is off, and set them back"
         }
         Permission::Eeprom => "write registers of the EEPROM area, which wear, and set them back",
         Permission::Reboot => {
