@@ -8,7 +8,7 @@ use actucheck_spec::wire::dynamixel2::Packet;
 use actucheck_spec::wire::dynamixel2::WIRE;
 use actucheck_spec::wire::dynamixel2::reference::packets;
 
-use super::change::instruction;
+use super::change::is;
 use super::fault::{Fault, answering, hearing};
 use super::killing::{Run, run};
 use super::right::{ACTUATORS, Bus, SERVOS, Test};
@@ -45,19 +45,19 @@ pub(crate) const TESTS: [Test; 10] = [
 /// Firmware that does not let a run come to its end.
 pub(crate) const FAULTS: &[Fault] = &[
     hearing("port-vanishes", "ends in the middle", "", |heard| {
-        if instruction(&heard) == Some(0x40) {
+        if is(&heard, 0x40) {
             std::process::exit(0);
         }
         heard
     }),
     answering("another-host", "is not alone with the program on the line", "", |asked, answer| {
-        if instruction(asked) != Some(0x40) {
+        if !is(asked, 0x40) {
             return answer;
         }
         [answer, request(7, 1, &[])].concat()
     }),
     answering("another-host-asks-it", "hears another program write to it", "", |asked, answer| {
-        if instruction(asked) != Some(0x40) {
+        if !is(asked, 0x40) {
             return answer;
         }
         [request(1, 3, &[0x34, 2, 0]), answer].concat()
@@ -67,7 +67,7 @@ pub(crate) const FAULTS: &[Fault] = &[
         "hears another program after its answers",
         "",
         |asked, answer| {
-            if instruction(asked) != Some(0x40) {
+            if !is(asked, 0x40) {
                 return answer;
             }
             [answer, request(1, 3, &[0x34, 2, 0])].concat()

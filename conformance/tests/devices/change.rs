@@ -3,6 +3,9 @@
 use actucheck_spec::wire::dynamixel2::reference::{HEADER, packets, repair};
 use actucheck_spec::wire::dynamixel2::{Packet, WIRE};
 
+use super::code::READ;
+use super::rewrite::Written as _;
+
 /// The code of the first packet in these bytes.
 pub(crate) fn instruction(asked: &[u8]) -> Option<u8> {
     match packets(asked).first() {
@@ -57,7 +60,7 @@ pub(crate) fn renamed(mut heard: Vec<u8>, is_own: fn(u8, u8) -> bool) -> Vec<u8>
 
 /// Lets an instruction to several devices name ID 1.
 pub(crate) fn names_it(mut heard: Vec<u8>, code: u8) -> Vec<u8> {
-    if instruction(&heard) == Some(code) && heard.len() == 15 {
+    if is(&heard, code) && heard.len() == 15 {
         heard[12] = 1;
         repair(&mut heard);
     }
@@ -75,4 +78,66 @@ pub(crate) fn with_params(heard: Vec<u8>, code: u8, change: impl Fn(&mut Vec<u8>
         }
         _ => heard,
     }
+}
+
+/// Whether these bytes begin with an instruction.
+pub(crate) fn is(asked: &[u8], code: u8) -> bool {
+    instruction(asked) == Some(code)
+}
+
+/// Answers an instruction with an error and no data.
+pub(crate) fn failed(asked: &[u8], answer: Vec<u8>, code: u8, number: u8) -> Vec<u8> {
+    if !is(asked, code) {
+        return answer;
+    }
+    each(answer, |_, error, data| {
+        *error = number;
+        data.clear();
+    })
+}
+
+/// Answers a Write of these bytes with an error.
+pub(crate) fn refuses(
+    asked: &[u8],
+    answer: Vec<u8>,
+    address: u16,
+    data: &[u8],
+    number: u8,
+) -> Vec<u8> {
+    if !asked.ends_with_write(address, data) {
+        return answer;
+    }
+    each(answer, |_, error, _| *error = number)
+}
+
+/// Answers the Read of a register with another first byte.
+pub(crate) fn tells(asked: &[u8], answer: Vec<u8>, register: (u16, u16), first: u8) -> Vec<u8> {
+    if read_of(asked) != Some(register) {
+        return answer;
+    }
+    each(answer, |_, _, data| data[0] = first)
+}
+
+/// Refuses the Read of a register with Access Error, as if there were none.
+pub(crate) fn register_missing(asked: &[u8], answer: Vec<u8>, register: (u16, u16)) -> Vec<u8> {
+    if read_of(asked) == Some(register) { failed(asked, answer, READ, 7) } else { answer }
+}
+
+/// Changes the bytes of the answer to an instruction, and makes the CRC fit.
+pub(crate) fn repaired(
+    asked: &[u8],
+    mut answer: Vec<u8>,
+    code: u8,
+    change: fn(&mut Vec<u8>),
+) -> Vec<u8> {
+    if is(asked, code) && !answer.is_empty() {
+        change(&mut answer);
+        repair(&mut answer);
+    }
+    answer
+}
+
+/// Does not answer an instruction.
+pub(crate) fn silent(asked: &[u8], answer: Vec<u8>, code: u8) -> Vec<u8> {
+    if is(asked, code) { Vec::new() } else { answer }
 }

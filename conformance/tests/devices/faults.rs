@@ -2,7 +2,8 @@
 
 use actucheck_spec::wire::dynamixel2::reference::{HEADER, frame, packets, repair};
 
-use super::change::{each, instruction, names_it, read_of, renamed, with_params};
+use super::change::{each, is, names_it, read_of, renamed, silent, with_params};
+use super::code::{FAST_SYNC_READ, PING, READ, SYNC_READ};
 use super::fault::{Fault, answering, hearing};
 
 /// The faults. `found_by` is a check's id after `dynamixel2.device.`.
@@ -24,7 +25,7 @@ pub(crate) const FAULTS: &[Fault] = &[
         "answers a Read with one byte too few",
         "basic.read/answer",
         |asked, answer| {
-            if instruction(asked) == Some(0x02) {
+            if is(asked, READ) {
                 each(answer, |_, _, data| data.truncate(data.len() - 1))
             } else {
                 answer
@@ -35,16 +36,14 @@ pub(crate) const FAULTS: &[Fault] = &[
         "sync-read-silent",
         "does not answer Sync Read",
         "basic.sync-read/answer",
-        |asked, answer| {
-            if instruction(asked) == Some(0x82) { Vec::new() } else { answer }
-        },
+        |asked, answer| silent(asked, answer, SYNC_READ),
     ),
     answering(
         "fast-crc-of-all",
         "makes the CRC of a fast status packet wrong",
         "basic.fast-sync-read/answer",
         |asked, mut answer| {
-            if instruction(asked) == Some(0x8A)
+            if is(asked, FAST_SYNC_READ)
                 && let Some(last) = answer.last_mut()
             {
                 *last ^= 1;
@@ -57,11 +56,7 @@ pub(crate) const FAULTS: &[Fault] = &[
         "tells the model number with the high byte first",
         "identity.model-number/ping",
         |asked, answer| {
-            if instruction(asked) == Some(0x01) {
-                each(answer, |_, _, data| data[..2].reverse())
-            } else {
-                answer
-            }
+            if is(asked, PING) { each(answer, |_, _, data| data[..2].reverse()) } else { answer }
         },
     ),
     answering(
@@ -69,11 +64,7 @@ pub(crate) const FAULTS: &[Fault] = &[
         "tells another firmware version on Ping than on Read",
         "identity.firmware-version/read",
         |asked, answer| {
-            if instruction(asked) == Some(0x01) {
-                each(answer, |_, _, data| data[2] ^= 1)
-            } else {
-                answer
-            }
+            if is(asked, PING) { each(answer, |_, _, data| data[2] ^= 1) } else { answer }
         },
     ),
     answering(
@@ -170,9 +161,7 @@ pub(crate) const FAULTS: &[Fault] = &[
         "undefined-silent",
         "does not answer an undefined instruction",
         "refused.instruction-40/answer",
-        |asked, answer| {
-            if instruction(asked) == Some(0x40) { Vec::new() } else { answer }
-        },
+        |asked, answer| silent(asked, answer, 0x40),
     ),
     answering(
         "gaps-are-zero",
@@ -254,11 +243,7 @@ pub(crate) const FAULTS: &[Fault] = &[
         "does not answer a Ping to the broadcast ID",
         "addressee.broadcast.ping/answers",
         |asked, answer| {
-            if asked.get(4) == Some(&254) && instruction(asked) == Some(1) {
-                Vec::new()
-            } else {
-                answer
-            }
+            if asked.get(4) == Some(&254) && is(asked, PING) { Vec::new() } else { answer }
         },
     ),
     hearing(
@@ -353,25 +338,25 @@ pub(crate) const FAULTS: &[Fault] = &[
         },
     ),
     hearing("reads-from-zero", "reads from address 0", "table.neighbours/order", |heard| {
-        with_params(heard, 0x02, |params| params[..2].fill(0))
+        with_params(heard, READ, |params| params[..2].fill(0))
     }),
     hearing(
         "sync-read-other-register",
         "reads the next address in a Sync Read",
         "several.sync-read.as-read/data",
-        |heard| with_params(heard, 0x82, |params| params[0] += 2),
+        |heard| with_params(heard, SYNC_READ, |params| params[0] += 2),
     ),
     hearing(
         "sync-read-of-others",
         "answers a Sync Read that does not name it",
         "several.sync-read.not-named/silence",
-        |heard| names_it(heard, 0x82),
+        |heard| names_it(heard, SYNC_READ),
     ),
     hearing(
         "fast-sync-read-of-others",
         "answers a Fast Sync Read that does not name it",
         "several.fast-sync-read.not-named/silence",
-        |heard| names_it(heard, 0x8A),
+        |heard| names_it(heard, FAST_SYNC_READ),
     ),
     answering(
         "alert-always",

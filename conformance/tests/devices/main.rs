@@ -3,8 +3,8 @@
 //! This program is the firmware too, so that a test needs nothing built but itself and `actucheck`:
 //!
 //! ```sh
-//! cargo test -p actucheck --test devices                          # every test
-//! cargo test -q -p actucheck --test devices -- table              # the faults, as a table in Markdown
+//! cargo test --workspace --test devices                          # every test
+//! cargo test -q --workspace --test devices -- table              # the faults, as a table in Markdown
 //! actucheck device --device ja40 -- target/debug/deps/devices-… firmware ja40@1 reads-for-all
 //!                                                                 # a run against one of them
 //! ```
@@ -14,6 +14,7 @@
 
 mod bad;
 mod change;
+mod code;
 mod covered;
 mod effects;
 mod fault;
@@ -22,9 +23,12 @@ mod firmware;
 mod innfos;
 mod interrupted;
 mod killing;
+mod modes;
 mod packets;
 mod rewrite;
 mod right;
+mod several;
+mod tables;
 mod writing;
 
 use std::collections::BTreeSet;
@@ -52,8 +56,17 @@ fn main() -> ExitCode {
 
 /// The faults of all wires.
 fn every() -> impl Iterator<Item = &'static Fault> {
-    let wires = [faults::FAULTS, packets::FAULTS, writing::FAULTS, effects::FAULTS, innfos::FAULTS];
-    wires.into_iter().flatten()
+    let tables = [
+        faults::FAULTS,
+        packets::FAULTS,
+        tables::FAULTS,
+        several::FAULTS,
+        writing::FAULTS,
+        effects::FAULTS,
+        modes::FAULTS,
+        innfos::FAULTS,
+    ];
+    tables.into_iter().flatten()
 }
 
 fn tests() -> ExitCode {

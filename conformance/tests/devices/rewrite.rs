@@ -2,10 +2,8 @@
 
 use actucheck_spec::wire::dynamixel2::reference::frame;
 
-use super::change::{each, instruction, with_params};
-
-/// The code of Write.
-pub(crate) const WRITE: u8 = 0x03;
+use super::change::{each, is, with_params};
+use super::code::WRITE;
 
 /// The address and the data of a Write, a Reg Write among them.
 fn written(params: &[u8]) -> Option<(u16, &[u8])> {
@@ -15,7 +13,7 @@ fn written(params: &[u8]) -> Option<(u16, &[u8])> {
 
 /// Answers as if a Write had been carried out that was refused with this error.
 pub(crate) fn never_refuses(asked: &[u8], answer: Vec<u8>, number: u8) -> Vec<u8> {
-    if instruction(asked) != Some(WRITE) {
+    if !is(asked, WRITE) {
         return answer;
     }
     each(answer, |_, error, _| {
@@ -27,7 +25,7 @@ pub(crate) fn never_refuses(asked: &[u8], answer: Vec<u8>, number: u8) -> Vec<u8
 
 /// Takes another number for the error of a Write.
 pub(crate) fn other_error(asked: &[u8], answer: Vec<u8>, from: u8, to: u8) -> Vec<u8> {
-    if instruction(asked) != Some(WRITE) {
+    if !is(asked, WRITE) {
         return answer;
     }
     each(answer, |_, error, _| {

@@ -1,23 +1,26 @@
 //! Faults of firmware that only show when it is written to, each with the check that finds it.
 
-use super::change::{each, instruction, with_params};
+use super::change::{each, is, silent, with_params};
+use super::code::{
+    ACTION, BULK_WRITE, FACTORY_RESET, FAST_SYNC_WRITE, PING, REBOOT, REG_WRITE, SYNC_WRITE, WRITE,
+};
 use super::fault::{Fault, answering, hearing, on};
 use super::rewrite::{
-    WRITE, Written as _, after_first, changed, elsewhere, never_refuses, other_error, packet,
-    unstuffed, with_code,
+    Written as _, after_first, changed, elsewhere, never_refuses, other_error, packet, unstuffed,
+    with_code,
 };
 
 /// The faults. `found_by` is a check's id after `dynamixel2.device.`.
 pub(crate) const FAULTS: &[Fault] = &[
     answering("write-silent", "does not answer Write", "basic.write/answer", |asked, answer| {
-        if instruction(asked) == Some(WRITE) { Vec::new() } else { answer }
+        silent(asked, answer, WRITE)
     }),
     answering(
         "write-echoes-data",
         "answers Write with the data",
         "basic.write/answer",
         |asked, answer| {
-            if instruction(asked) != Some(WRITE) {
+            if !is(asked, WRITE) {
                 return answer;
             }
             each(answer, |_, error, data| {
@@ -169,14 +172,14 @@ pub(crate) const FAULTS: &[Fault] = &[
         "sync-write-first-only",
         "carries out only the first block of a Sync Write",
         "written.sync-write.after-other/data",
-        |heard| with_params(heard, 0x83, |params| params.truncate(7)),
+        |heard| with_params(heard, SYNC_WRITE, |params| params.truncate(7)),
     ),
     hearing(
         "sync-write-last-only",
         "carries out only the last block of a Sync Write",
         "written.sync-write.before-other/data",
         |heard| {
-            with_params(heard, 0x83, |params| {
+            with_params(heard, SYNC_WRITE, |params| {
                 if params.len() == 10 {
                     params.drain(4..7);
                 }
@@ -188,14 +191,14 @@ pub(crate) const FAULTS: &[Fault] = &[
         "ignores a Sync Write",
         "written.sync-write.alone/data",
         |heard| {
-            if instruction(&heard) == Some(0x83) { after_first(&heard) } else { heard }
+            if is(&heard, SYNC_WRITE) { after_first(&heard) } else { heard }
         },
     ),
     hearing(
         "sync-write-for-all",
         "carries out a Sync Write for another device",
         "written.sync-write.not-named/nothing",
-        |heard| with_params(heard, 0x83, |params| params[4] = 1),
+        |heard| with_params(heard, SYNC_WRITE, |params| params[4] = 1),
     ),
     answering(
         "sync-write-answered",
@@ -203,7 +206,7 @@ pub(crate) const FAULTS: &[Fault] = &[
         "written.sync-write.answer/silence",
         |asked, answer| {
             let answers = [0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x04, 0x00, 0x55, 0x00, 0xA1, 0x0C];
-            if instruction(asked) == Some(0x83) { answers.to_vec() } else { answer }
+            if is(asked, SYNC_WRITE) { answers.to_vec() } else { answer }
         },
     ),
     answering(
@@ -211,7 +214,7 @@ pub(crate) const FAULTS: &[Fault] = &[
         "makes the CRC of the answer to Fast Sync Write wrong",
         "written.fast-sync-write.answer/status",
         |asked, mut answer| {
-            if instruction(asked) == Some(0x8B)
+            if is(asked, FAST_SYNC_WRITE)
                 && let Some(last) = answer.last_mut()
             {
                 *last ^= 1;
@@ -224,7 +227,7 @@ pub(crate) const FAULTS: &[Fault] = &[
         "writes only the low byte of a Fast Sync Write",
         "written.fast-sync-write.alone/data",
         |heard| {
-            with_params(heard, 0x8B, |params| {
+            with_params(heard, FAST_SYNC_WRITE, |params| {
                 if let Some(last) = params.last_mut() {
                     *last = 0;
                 }
@@ -235,7 +238,7 @@ pub(crate) const FAULTS: &[Fault] = &[
         "fast-sync-write-for-all",
         "carries out a Fast Sync Write for another device",
         "written.fast-sync-write.not-named/nothing",
-        |heard| with_params(heard, 0x8B, |params| params[4] = 1),
+        |heard| with_params(heard, FAST_SYNC_WRITE, |params| params[4] = 1),
     ),
     hearing(
         "writes-for-others",
@@ -249,11 +252,7 @@ pub(crate) const FAULTS: &[Fault] = &[
         "written.broadcast.write/silence",
         |asked, answer| {
             let answers = [0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x04, 0x00, 0x55, 0x00, 0xA1, 0x0C];
-            if asked.get(4) == Some(&254) && instruction(asked) == Some(WRITE) {
-                answers.to_vec()
-            } else {
-                answer
-            }
+            if asked.get(4) == Some(&254) && is(asked, WRITE) { answers.to_vec() } else { answer }
         },
     ),
     hearing(
@@ -261,7 +260,7 @@ pub(crate) const FAULTS: &[Fault] = &[
         "ignores a Write to the broadcast ID",
         "written.broadcast.write/data",
         |heard| {
-            if heard.get(4) == Some(&254) && instruction(&heard) == Some(WRITE) {
+            if heard.get(4) == Some(&254) && is(&heard, WRITE) {
                 after_first(&heard)
             } else {
                 heard
@@ -275,7 +274,7 @@ pub(crate) const FAULTS: &[Fault] = &[
             "carries out a Reg Write at once",
             "registered.deferred/effect",
             |heard| {
-                if instruction(&heard) == Some(0x04) { with_code(&heard, WRITE) } else { heard }
+                if is(&heard, REG_WRITE) { with_code(&heard, WRITE) } else { heard }
             },
         ),
     ),
@@ -285,9 +284,7 @@ pub(crate) const FAULTS: &[Fault] = &[
             "action-silent",
             "does not answer Action",
             "basic.action/answer",
-            |asked, answer| {
-                if instruction(asked) == Some(0x05) { Vec::new() } else { answer }
-            },
+            |asked, answer| silent(asked, answer, ACTION),
         ),
     ),
     on(
@@ -296,9 +293,7 @@ pub(crate) const FAULTS: &[Fault] = &[
             "reg-write-silent",
             "does not answer Reg Write",
             "basic.reg-write/answer",
-            |asked, answer| {
-                if instruction(asked) == Some(0x04) { Vec::new() } else { answer }
-            },
+            |asked, answer| silent(asked, answer, REG_WRITE),
         ),
     ),
     on(
@@ -308,11 +303,7 @@ pub(crate) const FAULTS: &[Fault] = &[
             "answers an Action without a Reg Write without an error",
             "registered.nothing/effect",
             |asked, answer| {
-                if instruction(asked) == Some(0x05) {
-                    each(answer, |_, error, _| *error = 0)
-                } else {
-                    answer
-                }
+                if is(asked, ACTION) { each(answer, |_, error, _| *error = 0) } else { answer }
             },
         ),
     ),
@@ -350,7 +341,7 @@ pub(crate) const FAULTS: &[Fault] = &[
             "ignores a Bulk Write",
             "written.bulk-write.alone/data",
             |heard| {
-                if instruction(&heard) == Some(0x93) { after_first(&heard) } else { heard }
+                if is(&heard, BULK_WRITE) { after_first(&heard) } else { heard }
             },
         ),
     ),
@@ -358,16 +349,14 @@ pub(crate) const FAULTS: &[Fault] = &[
         "reboot-silent",
         "does not answer Reboot",
         "restart.reboot/answer",
-        |asked, answer| {
-            if instruction(asked) == Some(0x08) { Vec::new() } else { answer }
-        },
+        |asked, answer| silent(asked, answer, REBOOT),
     ),
     hearing(
         "reboot-ignored",
         "answers Reboot, and does nothing",
         "restart.ram/initial-values",
         |heard| {
-            if instruction(&heard) == Some(0x08) { with_code(&heard, 0x01) } else { heard }
+            if is(&heard, REBOOT) { with_code(&heard, PING) } else { heard }
         },
     ),
     hearing(
@@ -375,7 +364,7 @@ pub(crate) const FAULTS: &[Fault] = &[
         "sets the EEPROM area back when it restarts",
         "restart.eeprom/kept",
         |heard| {
-            if instruction(&heard) == Some(0x08) { packet(0x06, &[0x02]) } else { heard }
+            if is(&heard, REBOOT) { packet(FACTORY_RESET, &[0x02]) } else { heard }
         },
     ),
     hearing(
@@ -383,7 +372,7 @@ pub(crate) const FAULTS: &[Fault] = &[
         "only restarts at a Factory Reset",
         "reset.keep-id-and-baud-rate/initial-values",
         |heard| {
-            if instruction(&heard) == Some(0x06) { packet(0x08, &[]) } else { heard }
+            if is(&heard, FACTORY_RESET) { packet(REBOOT, &[]) } else { heard }
         },
     ),
     answering(
