@@ -1,6 +1,6 @@
 //! The generated files in this folder are up to date.
 //!
-//! `ACCEPT=1 cargo test -p actucheck-fuzz --test published` writes the files anew.
+//! `ACCEPT=1 cargo test --workspace --test published` writes the files anew.
 
 #![allow(clippy::unwrap_used)] // tests may stop at a surprise
 
@@ -54,8 +54,5 @@ fn the_generated_files_are_fresh() {
         .chain(there.keys())
         .filter(|path| generated.get(*path) != there.get(*path))
         .collect();
-    assert!(
-        stale.is_empty(),
-        "stale: {stale:?}; ACCEPT=1 cargo test -p actucheck-fuzz --test published"
-    );
+    assert!(stale.is_empty(), "stale: {stale:?}; ACCEPT=1 cargo test --workspace --test published");
 }

@@ -2,7 +2,7 @@
 //! in the small spec of `tests/base`, and `diagnostics.txt` has the expected messages. Generation
 //! cases have `expected.rs` instead.
 //!
-//! `ACCEPT=1 cargo test -p actucheck-spec --test cases` writes the expected files anew; read the
+//! `ACCEPT=1 cargo test --workspace --test cases` writes the expected files anew; read the
 //! difference before you commit it.
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise

@@ -1,6 +1,6 @@
 //! The generated files in this folder are up to date, and the YAML files fit their schemas.
 //!
-//! `ACCEPT=1 cargo test -p actucheck-spec --test published` writes the files anew.
+//! `ACCEPT=1 cargo test --workspace --test published` writes the files anew.
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 
@@ -59,10 +59,7 @@ fn the_generated_files_are_fresh() {
         }
         stale.push(path);
     }
-    assert!(
-        stale.is_empty(),
-        "stale: {stale:?}; ACCEPT=1 cargo test -p actucheck-spec --test published"
-    );
+    assert!(stale.is_empty(), "stale: {stale:?}; ACCEPT=1 cargo test --workspace --test published");
 }
 
 #[test]

@@ -1,5 +1,5 @@
 //! JSON Schemas of the lines between the suite and an adapter, in version 4 of the adapter protocol.
-//! `ACCEPT=1 cargo test -p actucheck --test reports` rewrites the files in `conformance/schema`.
+//! `ACCEPT=1 cargo test --workspace --test reports` rewrites the files in `conformance/schema`.
 
 use actucheck_spec::schema::{of_read, of_written};
 use schemars::JsonSchema;

@@ -1,4 +1,4 @@
-//! JSON Schemas of the JSON output, derived from the model. `ACCEPT=1 cargo test -p actucheck
+//! JSON Schemas of the JSON output, derived from the model. `ACCEPT=1 cargo test --workspace
 //! --test reports` rewrites the files in `conformance/schema`.
 
 use actucheck_spec::schema::of_written;

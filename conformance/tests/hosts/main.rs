@@ -4,8 +4,8 @@
 //! This program is the hosts' adapter too, so that a test needs nothing built but itself:
 //!
 //! ```sh
-//! cargo test -p actucheck --test hosts                    # every test
-//! cargo test -p actucheck --test hosts -- no-drain        # those with this in their name
+//! cargo test --workspace --test hosts                    # every test
+//! cargo test --workspace --test hosts -- no-drain        # those with this in their name
 //! cargo test -q -p actucheck --test hosts -- table        # the faults, as a table in Markdown
 //! cargo test -q -p actucheck --test hosts -- adapter none # the right host, as an adapter
 //! cargo test -q -p actucheck --test hosts -- adapter no-drain 50
