@@ -36,16 +36,12 @@ fn run() -> Result<ExitCode, Failure> {
     };
     match &cli.command {
         Command::Codec(options) => command::codec::run(options),
-        #[cfg(unix)]
         Command::Host(options) => command::host::run(options),
-        #[cfg(unix)]
         Command::Device(options) => command::device::run(options),
-        #[cfg(unix)]
         Command::Scan(options) => command::scan::run(options),
         Command::Fuzz(options) => command::fuzz::run(options),
         Command::Decode(options) => command::decode::run(options),
         Command::Encode(options) => command::encode::run(options),
-        #[cfg(unix)]
         Command::Bus(options) => command::bus::run(options),
         Command::List(options) => command::list::run(options),
         Command::Show(options) => command::show::run(options),

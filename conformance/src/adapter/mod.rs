@@ -27,6 +27,7 @@ use std::time::Duration;
 pub use called::Called;
 pub use device::{Asked, Heard, Pause, Permission, Permissions, Piece};
 pub use greeting::{Contradiction, Greeting};
+#[cfg(unix)]
 pub(crate) use host::passed;
 pub use host::{
     Burst, CallError, CallTo, Course, Exchange, Exchanged, Passed, Reported, Returned, Sent, Step,

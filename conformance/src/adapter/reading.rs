@@ -7,8 +7,10 @@ use serde::{Deserialize, Deserializer};
 use serde_json::Value;
 use thiserror::Error;
 
+#[cfg(unix)]
+use super::Reported;
 use super::value::Given;
-use super::{Exchanged, Greeting, Output, Question, Reported, Told, VERSIONS};
+use super::{Exchanged, Greeting, Output, Question, Told, VERSIONS};
 use crate::legible::{LONGEST_TEXT, legible};
 
 /// The most bytes of an `ok` whose form is looked at. No right one is nearly as long. A longer one

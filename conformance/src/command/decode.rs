@@ -214,7 +214,7 @@ fn stream(options: &Decode, wire: Wire, tables: Tables, input: Input) -> Result<
 fn fast(text: &str) -> Result<Fast, String> {
     let parse = || {
         let (length, ids) = text.split_once(':')?;
-        let ids = ids.split(',').map(|id| id.trim().parse().ok());
+        let ids = ids.split(',').map(|id| id.trim().parse::<u8>().ok());
         Some(Fast { length: length.trim().parse().ok()?, ids: ids.collect::<Option<_>>()? })
     };
     parse().ok_or_else(|| {

@@ -14,16 +14,21 @@ pub(crate) mod fuzz;
 pub(crate) mod host;
 pub(crate) mod list;
 pub(crate) mod man;
+#[cfg(not(unix))]
+pub(crate) mod missing;
 pub(crate) mod replay;
 pub(crate) mod report;
 #[cfg(unix)]
 pub(crate) mod scan;
+#[cfg_attr(not(unix), expect(dead_code, reason = "some of it is for subcommands that are missing"))]
 mod shared;
 pub(crate) mod show;
 pub(crate) mod spec;
 
 use clap::{CommandFactory as _, Parser, Subcommand};
 
+#[cfg(not(unix))]
+pub(crate) use missing::{self as bus, self as device, self as host, self as scan};
 pub(crate) use shared::Failure;
 
 /// Checks implementations of robot actuators' protocols against the documents.
@@ -46,16 +51,12 @@ const WRITTEN: &str = "Exit status: 0 written, 2 wrong usage, 3 the output could
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     Codec(codec::Codec),
-    #[cfg(unix)]
     Host(host::Host),
-    #[cfg(unix)]
     Device(device::Device),
-    #[cfg(unix)]
     Scan(scan::Scan),
     Fuzz(fuzz::Fuzz),
     Decode(decode::Decode),
     Encode(encode::Encode),
-    #[cfg(unix)]
     Bus(bus::Bus),
     List(list::List),
     Show(show::Show),

@@ -22,7 +22,9 @@ use std::time::{Duration, Instant};
 use actucheck_spec::Spec;
 
 pub(crate) use begun::{command_line, date};
-pub(crate) use checking::{Asked, Checking, Planned, Running};
+#[cfg(unix)]
+pub(crate) use checking::{Asked, Running};
+pub(crate) use checking::{Checking, Planned};
 pub(crate) use device::DeviceOption;
 pub(crate) use failure::Failure;
 pub(crate) use look::{Look, next, terminal_width};
@@ -32,7 +34,9 @@ pub(crate) use selection::{Growth, Selection, no_host, not_offered};
 pub(crate) use streams::Streams;
 pub(crate) use subjects::{Adapter, Exchange, Subjects, finish};
 pub(crate) use target::{Draft, Target, print, printed, seen};
-pub(crate) use value::{duration, milliseconds, one_of, wire};
+#[cfg(unix)]
+pub(crate) use value::milliseconds;
+pub(crate) use value::{duration, one_of, wire};
 
 /// The spec that this program was built with.
 pub(crate) fn spec() -> Result<Spec, Failure> {
