@@ -142,7 +142,7 @@ impl Processor {
         #[cfg(target_arch = "x86_64")]
         let special = [Narrow::new().map(Self::Narrow), Wide::new().map(Self::Wide)];
         #[cfg(not(target_arch = "x86_64"))]
-        let special = [];
+        let special: [Option<Self>; 0] = [];
         [Self::Portable].into_iter().chain(special.into_iter().flatten())
     }
 
