@@ -25,7 +25,7 @@ pub enum Permission {
     Reboot,
     /// It sets the device back to factory settings, but for ID and rate, and restores what it held.
     Reset,
-    /// It switches torque on and off: the shaft may turn.
+    /// It switches torque on and off, and sends the shaft a few degrees on and back.
     Motion,
 }
 
@@ -96,7 +96,7 @@ impl fmt::Display for Permissions {
 }
 
 /// Bytes for a device, and how many packets are awaited after them.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Asked {
     /// The instruction packet that is looked at, in words. What is damaged is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -111,6 +111,59 @@ pub struct Asked {
     /// How often all is sent again if they do not come.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub again: u32,
+    /// It is sent again too until the answer holds this.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub until: Option<Bits>,
+    /// Nothing more is sent if the answer does not hold this.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub only_if: Option<Bits>,
+    /// What is sent is a Write of this number instead.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sum: Option<Sum>,
+}
+
+/// Bits of the number that the data of an answer are, low byte first.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Bits {
+    /// The lowest of the bits.
+    pub lowest: u8,
+    /// How many bits they are.
+    pub width: u8,
+    /// The values that they may have, shifted down to bit 0.
+    pub one_of: Vec<u64>,
+}
+
+impl Bits {
+    /// Whether a number has them.
+    #[must_use]
+    pub fn are_in(&self, bytes: &[u8]) -> bool {
+        let number =
+            bytes.iter().rev().fold(0_u64, |number, byte| (number << 8) | u64::from(*byte));
+        let ones = 1_u64.checked_shl(self.width.into()).map_or(u64::MAX, |end| end - 1);
+        self.one_of.contains(&(number.checked_shr(self.lowest.into()).unwrap_or_default() & ones))
+    }
+}
+
+/// A number that is written: what an earlier answer told, and more. Without that answer nothing is written.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Sum {
+    /// The ID of the device.
+    pub id: u8,
+    /// The address that it is written to.
+    pub address: u16,
+    /// The step whose first answer has four bytes, low byte first: a signed number. The first step is 0.
+    pub step: usize,
+    /// How much more is written.
+    pub by: i32,
+}
+
+impl Sum {
+    /// The bytes of it, if the answer was such a number.
+    #[must_use]
+    pub fn bytes(&self, told: &[u8]) -> Option<[u8; 4]> {
+        let told = i32::from_le_bytes(told.try_into().ok()?);
+        Some(told.saturating_add(self.by).to_le_bytes())
+    }
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
@@ -153,6 +206,8 @@ pub enum Pause {
     Moment,
     /// As long as the device takes for an answer, and longer.
     Answer,
+    /// So many milliseconds, in which a shaft turns.
+    Ms(u16),
 }
 
 /// What passed on the line in a step. It is the same as another if the same bytes came back, whatever

@@ -25,7 +25,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 pub use called::Called;
-pub use device::{Asked, Heard, Pause, Permission, Permissions, Piece};
+pub use device::{Asked, Bits, Heard, Pause, Permission, Permissions, Piece, Sum};
 pub use greeting::{Contradiction, Greeting};
 #[cfg(unix)]
 pub(crate) use host::passed;

@@ -1,6 +1,7 @@
 //! A device on its port.
 
 mod counts;
+mod decided;
 mod keeper;
 mod line;
 mod other_host;

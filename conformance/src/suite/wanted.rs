@@ -7,7 +7,7 @@ use actucheck_spec::wire::{Packet, Wire};
 use serde::{Deserialize, Serialize};
 
 use super::device;
-use crate::adapter::{Asked, Heard, Pause, Question, Reported};
+use crate::adapter::{Asked, Bits, Heard, Pause, Question, Reported};
 use crate::verdict::Verdict;
 
 /// What must come back in a step: one of these rows of answers, and nothing else.
@@ -55,19 +55,14 @@ pub enum Part {
         /// How far it may be off: what is measured is never quite still.
         within: i64,
     },
-    /// Without this the check is not about the device, whatever comes in later steps: a number of so many bytes,
-    /// low byte first, some bits of which have one of these values.
+    /// Without this the check is not about the device: a number of so many bytes, which has some bits.
     Given {
         /// What the device needs, in words after "it needs".
         what: String,
         /// How many bytes it has.
         size: usize,
-        /// The lowest of the bits.
-        lowest: u8,
-        /// How many bits they are.
-        width: u8,
-        /// The values, shifted down to bit 0.
-        one_of: Vec<u64>,
+        /// The bits.
+        has: Bits,
     },
     /// A register of so many bytes that is not 0 exactly if the answer has the alert.
     Alarms(usize),
@@ -80,16 +75,19 @@ pub enum Part {
         /// The highest that it may be.
         highest: i64,
     },
-    /// A number of so many bytes, low byte first, some bits of which have one of these values.
+    /// A number of so many bytes, low byte first, which has some bits.
     Bits {
         /// How many bytes it has.
         size: usize,
-        /// The lowest of the bits.
-        lowest: u8,
-        /// How many bits they are.
-        width: u8,
-        /// The values, shifted down to bit 0.
-        one_of: Vec<u64>,
+        /// The bits.
+        has: Bits,
+    },
+    /// Four bytes, low byte first: a signed number between two others.
+    Number {
+        /// The lowest that it may be.
+        lowest: i64,
+        /// The highest that it may be.
+        highest: i64,
     },
 }
 
@@ -129,9 +127,6 @@ pub(super) fn judge(question: &Question, wanted: &[Wanted], heard: &[Heard]) -> 
     };
     let told: Vec<_> =
         steps.iter().zip(heard).map(|(asked, heard)| Told::of(*wire, asked, heard)).collect();
-    if told.len() < wanted.len() {
-        return (Verdict::NotRun, "it was not asked to the end".to_owned());
-    }
     for (place, (wanted, came)) in wanted.iter().zip(&told).enumerate() {
         if !wanted.is_met(came, &told) {
             let step =
@@ -141,6 +136,9 @@ pub(super) fn judge(question: &Question, wanted: &[Wanted], heard: &[Heard]) -> 
         if let Some(what) = wanted.lacks(came) {
             return (Verdict::Skip, format!("it needs {what}"));
         }
+    }
+    if told.len() < wanted.len() {
+        return (Verdict::NotRun, "it was not asked to the end".to_owned());
     }
     (Verdict::Pass, String::new())
 }
@@ -184,19 +182,10 @@ impl Wanted {
         let data = came.answers.first()?.data.as_ref()?;
         let parts = self.0.iter().flatten().filter_map(|like| like.data.as_ref()).flatten();
         parts.into_iter().find_map(|part| match part {
-            Part::Given { what, lowest, width, one_of, .. } => {
-                (!has_bits(&data.0, *lowest, *width, one_of)).then_some(what.as_str())
-            }
+            Part::Given { what, has, .. } => (!has.are_in(&data.0)).then_some(what.as_str()),
             _ => None,
         })
     }
-}
-
-/// Whether bits of a number, low byte first, have one of these values.
-fn has_bits(bytes: &[u8], lowest: u8, width: u8, one_of: &[u64]) -> bool {
-    let number = bytes.iter().rev().fold(0_u64, |number, byte| (number << 8) | u64::from(*byte));
-    let ones = 1_u64.checked_shl(width.into()).map_or(u64::MAX, |end| end - 1);
-    one_of.contains(&(number.checked_shr(lowest.into()).unwrap_or_default() & ones))
 }
 
 impl Like {
@@ -230,7 +219,7 @@ impl Part {
             | Self::Between { size, .. }
             | Self::Given { size, .. }
             | Self::Bits { size, .. } => *size,
-            Self::Moved { .. } => size_of::<i32>(),
+            Self::Moved { .. } | Self::Number { .. } => size_of::<i32>(),
         }
     }
 
@@ -249,7 +238,10 @@ impl Part {
                     bytes.iter().fold(sign, |number: i64, byte| (number << 8) | i64::from(*byte));
                 (*lowest..=*highest).contains(&number)
             }
-            Self::Bits { lowest, width, one_of, .. } => has_bits(bytes, *lowest, *width, one_of),
+            Self::Bits { has, .. } => has.are_in(bytes),
+            Self::Number { lowest, highest } => {
+                number(bytes).is_some_and(|number| (*lowest..=*highest).contains(&number))
+            }
             Self::Moved { step, by, within } => {
                 let data = all.get(*step).and_then(|told| told.answers.first()?.data.as_ref());
                 let (before, now) = (data.and_then(|data| number(&data.0)), number(bytes));
@@ -303,7 +295,10 @@ impl fmt::Display for Part {
             Self::Between { size, lowest, highest } => {
                 write!(f, "{size} bytes, a number from {lowest} to {highest}")
             }
-            Self::Bits { size, lowest, width, one_of } => {
+            Self::Number { lowest, highest } => {
+                write!(f, "4 bytes, a number from {lowest} to {highest}")
+            }
+            Self::Bits { size, has: Bits { lowest, width, one_of } } => {
                 let values: Vec<_> = one_of.iter().map(ToString::to_string).collect();
                 let last = u32::from(*lowest) + u32::from(*width) - 1;
                 write!(

@@ -47,6 +47,9 @@ pub(crate) const TESTS: [Test; 9] = [
 const RUNS: usize = 250;
 /// Pieces that a check sends, with what keeps and restores the registers around it, and a few more.
 const PIECES: u64 = 70;
+/// What tells the time, or of a shaft that was stopped on its way.
+const MEASURED: [&str; 4] =
+    ["Realtime Tick", "Moving Status", "Present Position", "Position Trajectory"];
 /// Bytes of a packet that is cut.
 const BYTES: u64 = 16;
 
@@ -107,7 +110,7 @@ struct Bench {
     journal: Journal,
     path: PathBuf,
     questions: Vec<Question>,
-    ticks: Option<(u16, u16)>,
+    measured: Vec<(u16, u16)>,
 }
 
 impl Bench {
@@ -138,13 +141,14 @@ impl Bench {
             layout: device.map_or_else(values, Layout::of),
             held: Snapshot::default(),
         };
-        let tick = device.and_then(|device| device.register("Realtime Tick"));
+        let measured = device.into_iter().flat_map(|device| &device.registers);
+        let measured = measured.filter(|register| MEASURED.contains(&register.name.as_str()));
         let bench = Self {
             memory: Memory(Arc::new(Mutex::new(device_in_memory))),
             journal,
             path,
             questions: questions.collect(),
-            ticks: tick.map(|tick| (tick.address, tick.kind.size())),
+            measured: measured.map(|one| (one.address, one.kind.size())).collect(),
         };
         // A board answers who has greeted it.
         bench.line(u64::MAX, 0).greet(QUIET * 2).unwrap();
@@ -167,7 +171,7 @@ impl Bench {
         device.kept_by(Keeper::new(self.journal.clone(), self.path.clone()))
     }
 
-    /// All that the device holds, but the time.
+    /// All that the device holds, but the time, and where a shaft is.
     fn table(&self) -> Vec<u8> {
         let Journal { wire, id, layout, .. } = &self.journal;
         let mut line = self.line(u64::MAX, 0);
@@ -178,8 +182,8 @@ impl Bench {
             bytes.resize(bytes.len().max(end), 0);
             bytes[at..end].copy_from_slice(&run.data.0);
         }
-        if let Some((address, size)) = self.ticks {
-            bytes[address.into()..usize::from(address + size)].fill(0);
+        for (address, size) in &self.measured {
+            bytes[usize::from(*address)..usize::from(address + size)].fill(0);
         }
         bytes
     }

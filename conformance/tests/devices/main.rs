@@ -24,6 +24,7 @@ mod innfos;
 mod interrupted;
 mod killing;
 mod modes;
+mod motion;
 mod packets;
 mod rewrite;
 mod right;
@@ -64,6 +65,7 @@ fn every() -> impl Iterator<Item = &'static Fault> {
         writing::FAULTS,
         effects::FAULTS,
         modes::FAULTS,
+        motion::FAULTS,
         innfos::FAULTS,
     ];
     tables.into_iter().flatten()

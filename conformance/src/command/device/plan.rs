@@ -58,6 +58,7 @@ impl Effort {
             self.pauses += match piece.after {
                 Pause::None | Pause::Moment => Duration::ZERO,
                 Pause::Answer => SHORTEST_PAUSE,
+                Pause::Ms(ms) => Duration::from_millis(ms.into()),
             };
         }
         let call = step.packet.as_ref().and_then(|packet| packet.call.as_ref());

@@ -47,7 +47,7 @@ fn permission() -> impl clap::builder::TypedValueParser<Value = Option<Permissio
             "set the device back to factory settings, but for ID and rate, and then to what it held"
         }
         Permission::Motion => {
-            "switch torque on and off: the shaft may turn; nothing may be in its way"
+            "switch torque on and off, and send the shaft 3 degrees on and back: it must be free to turn, and nothing may be in its way; a run that is cut off leaves it within these degrees, without torque"
         }
     };
     let read = (None, "read", "read, and send what must be refused; it is always allowed");

@@ -9,6 +9,7 @@ use actucheck_spec::model::HexBytes;
 use actucheck_spec::wire::{Direction, Packet, Wire};
 
 use super::counts::Counts;
+use super::decided;
 use super::other_host::Own;
 use super::record::Record;
 use crate::adapter::{Asked, Heard, Pause, Piece, Reported};
@@ -16,6 +17,8 @@ use crate::port::{Bytes, Place, Port, PortError};
 use crate::suite::device;
 use crate::traffic::Traffic;
 
+/// A pause between two looks at a shaft that turns.
+const POLL: Duration = Duration::from_millis(10);
 /// A pause in which bytes arrive alone.
 const MOMENT: Duration = Duration::from_millis(2);
 /// The shortest and the longest pause for an answer, whatever answers took so far.
@@ -32,7 +35,16 @@ const MORE: Duration = Duration::from_millis(100);
 const DRAINED: usize = 64;
 
 /// No bytes.
-static NOTHING: Asked = Asked { packet: None, fast: None, send: Vec::new(), awaits: 0, again: 0 };
+static NOTHING: Asked = Asked {
+    packet: None,
+    fast: None,
+    send: Vec::new(),
+    awaits: 0,
+    again: 0,
+    until: None,
+    only_if: None,
+    sum: None,
+};
 /// The line to a device.
 #[derive(Debug)]
 pub struct Line {
@@ -142,7 +154,7 @@ impl Line {
     ) -> Result<Vec<Packet>, PortError> {
         let bytes = self.wire.encode(packet).unwrap_or_default();
         let piece = Piece { after: Pause::None, bytes: bytes.into() };
-        let step = Asked { packet: None, fast: None, send: vec![piece], awaits, again: 0 };
+        let step = Asked { send: vec![piece], awaits, ..Asked::default() };
         let usual = std::mem::replace(&mut self.limit, limit);
         let heard = self.tried(&step);
         self.limit = usual;
@@ -167,7 +179,16 @@ impl Line {
     pub(super) fn converse(&mut self, steps: &[Asked]) -> io::Result<Vec<Heard>> {
         let late = self.drain()?;
         self.last.look(self.wire, late)?;
-        let heard: Vec<_> = steps.iter().map(|step| self.step(step)).collect::<io::Result<_>>()?;
+        let mut heard: Vec<Heard> = Vec::new();
+        for step in steps {
+            let came = self.step(&decided::step(self.wire, step, steps, &heard))?;
+            let bits = step.only_if.as_ref();
+            let goes_on = bits.is_none_or(|bits| decided::holds(self.wire, step, &came, bits));
+            heard.push(came);
+            if !goes_on || self.is_interrupted() {
+                break;
+            }
+        }
         let mut pieces = steps.iter().flat_map(|step| &step.send);
         self.owes = pieces.any(|piece| self.are_several(&piece.bytes));
         self.last = Own::of(self.wire, steps, &heard);
@@ -200,11 +221,19 @@ impl Line {
 
     fn step(&mut self, asked: &Asked) -> io::Result<Heard> {
         let mut record = Record::new(if self.echoes { asked } else { &NOTHING });
-        for _ in 0..=asked.again {
+        for turn in 0..=asked.again {
+            // What came before was not yet it.
+            if turn > 0 && asked.until.is_some() {
+                self.listen(&mut record, POLL, None)?;
+                record = Record::new(if self.echoes { asked } else { &NOTHING });
+            }
             for (place, piece) in asked.send.iter().enumerate() {
                 match piece.after {
                     Pause::None => {}
                     Pause::Moment => self.listen(&mut record, MOMENT, None)?,
+                    Pause::Ms(ms) => {
+                        self.listen(&mut record, Duration::from_millis(ms.into()), None)?;
+                    }
                     Pause::Answer => {
                         let pause = self.pause();
                         self.listen(&mut record, pause, None)?;
@@ -218,7 +247,9 @@ impl Line {
                 self.port.send(&piece.bytes)?;
             }
             self.listen(&mut record, self.limit, Some(asked))?;
-            if self.is_over(&record, asked) || self.is_interrupted() {
+            if self.is_over(&record, asked) && self.is_reached(&record, asked)
+                || self.is_interrupted()
+            {
                 break;
             }
         }
@@ -281,6 +312,12 @@ impl Line {
             _ => true,
         };
         is_last && packets.len() >= record.before + asked.awaits
+    }
+
+    /// Whether what is there holds what is waited for.
+    fn is_reached(&self, record: &Record, asked: &Asked) -> bool {
+        let data = || decided::data(self.wire, asked, &record.came);
+        asked.until.as_ref().is_none_or(|bits| data().is_some_and(|data| bits.are_in(&data.0)))
     }
 
     /// What a packet says, but for the alert, which a device may get at any time.
@@ -364,7 +401,7 @@ mod tests {
         let piece =
             |(after, bytes): &(Pause, &[u8])| Piece { after: *after, bytes: bytes.to_vec().into() };
         let send = send.iter().map(piece).collect();
-        Asked { packet: None, fast: None, send, awaits: 1, again: 0 }
+        Asked { send, awaits: 1, ..Asked::default() }
     }
 
     /// The answers to three packets at once say what the answer to the Ping after them does, so only time tells

@@ -15,14 +15,14 @@ pub(super) fn bytes_of(packet: impl Into<Packet>) -> HexBytes {
 pub(super) fn asked(packet: impl Into<Packet>, awaits: usize) -> Asked {
     let packet = packet.into();
     let send = vec![Piece { after: Pause::None, bytes: bytes_of(packet.clone()) }];
-    Asked { packet: Some(Called::from(packet)), fast: None, send, awaits, again: 0 }
+    Asked { packet: Some(Called::from(packet)), send, awaits, ..Asked::default() }
 }
 
 /// Bytes that must not be answered, and a packet that must be.
 pub(super) fn then(bytes: impl Into<HexBytes>, hello: impl Into<Packet>) -> Asked {
     let piece = Piece { after: Pause::None, bytes: bytes.into() };
     let hello = Piece { after: Pause::Answer, bytes: bytes_of(hello) };
-    Asked { packet: None, fast: None, send: vec![piece, hello], awaits: 1, again: 0 }
+    Asked { send: vec![piece, hello], awaits: 1, ..Asked::default() }
 }
 
 /// The same for a packet instead of bytes.

@@ -97,7 +97,7 @@ fn ignored(
 /// Pings, until one of them is heard.
 fn heard(talk: &Talk<'_>) -> Asked {
     let ping = Piece { after: Pause::None, bytes: bytes_of(talk.ping()) };
-    Asked { packet: None, fast: None, send: vec![ping], awaits: 1, again: UNTIL_HEARD }
+    Asked { send: vec![ping], awaits: 1, again: UNTIL_HEARD, ..Asked::default() }
 }
 
 /// A Ping is heard after bytes that are no packet, whatever their length says.
@@ -183,7 +183,7 @@ fn heard_in(
 ) -> Check {
     let piece = |(after, bytes): (Pause, Vec<u8>)| Piece { after, bytes: bytes.into() };
     let send = pieces.into_iter().map(piece).collect();
-    let step = Asked { packet: None, fast: None, send, awaits: 1, again: 0 };
+    let step = Asked { send, awaits: 1, ..Asked::default() };
     talk.check(
         named(&format!("{name}/heard")),
         &[requirement],

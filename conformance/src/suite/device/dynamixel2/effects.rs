@@ -8,7 +8,7 @@ use super::sentences::{Conversation, shown};
 use super::writable::{bytes, lasting, probe};
 use super::written::{Step, at, to_several};
 use super::{Talk, asked, code, error, instruction};
-use crate::adapter::{Asked, Permission, Permissions};
+use crate::adapter::{Asked, Bits, Permission, Permissions};
 use crate::suite::check::Check;
 use crate::suite::wanted::{Like, Part};
 
@@ -203,7 +203,7 @@ fn cleared_position(talk: &Talk<'_>) -> Vec<Check> {
     let read = |part| (asked(talk.read(position.address, 4), 1), vec![vec![talk.done(part)]]);
     let clear = |params| talk.done_by(instruction(talk.id(), code::CLEAR, params));
     let lowest = u8::try_from(counts.trailing_zeros()).unwrap_or_default();
-    let within = Part::Bits { size: 4, lowest, width: 32 - lowest, one_of: vec![0] };
+    let within = Part::Bits { size: 4, has: Bits { lowest, width: 32 - lowest, one_of: vec![0] } };
     let needs = Permissions::from([Permission::Reboot]);
     let used = [clear(CLEAR.to_vec()), read(within)];
     let used = conversation(needed.iter().cloned().chain(used).collect());

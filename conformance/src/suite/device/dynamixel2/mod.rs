@@ -10,7 +10,8 @@
 //! - several: instructions that read from several devices;
 //! - written, registered, stuffed: what is written is held, whoever else is meant, and whatever its bytes are;
 //! - range, limit, access, length: what can't be written;
-//! - restart: what a restart or a reset leaves, and what torque locks.
+//! - restart: what a restart or a reset leaves, and what torque locks;
+//! - motion: a shaft on its way to a goal, and at the end of it.
 
 mod access;
 mod addressee;
@@ -20,6 +21,7 @@ mod identity;
 mod level;
 mod limits;
 mod modes;
+mod motion;
 mod refused;
 mod restart;
 mod sentences;
@@ -102,6 +104,7 @@ pub(super) fn families<'a>(author: Author<'a>, target: &Target<'a>) -> Vec<Famil
         family("restart", restart::reboot),
         family("reset", restart::reset),
         family("lock", restart::lock),
+        family("motion", motion::checks),
     ]
 }
 

@@ -11,13 +11,13 @@ use super::sentences::shown;
 use super::writable::{bytes, needs};
 use super::written::Step;
 use super::{Talk, asked, error, named, write};
-use crate::adapter::{Permission, Permissions};
+use crate::adapter::{Asked, Bits, Permission, Permissions};
 use crate::suite::check::Check;
 use crate::suite::wanted::Part;
 
 /// Numbers of modes.
-const POSITION: u64 = 3;
-const EXTENDED_POSITION: u64 = 4;
+pub(super) const POSITION: u64 = 3;
+pub(super) const EXTENDED_POSITION: u64 = 4;
 /// Values that no document has for Operating Mode.
 const NO_MODES: [i64; 2] = [2, 18];
 /// Position limits, on any device within a turn.
@@ -41,18 +41,21 @@ impl Talk<'_> {
         one_of: Vec<u64>,
     ) -> Step {
         let (size, what) = (register.kind.size(), what.to_owned());
-        let part = Part::Given { what, size: size.into(), lowest, width, one_of };
-        (asked(self.read(register.address, size), 1), vec![vec![self.done(part)]])
+        let has = Bits { lowest, width, one_of };
+        let part = Part::Given { what, size: size.into(), has: has.clone() };
+        let read = asked(self.read(register.address, size), 1);
+        // What needs it could do harm without it.
+        (Asked { only_if: Some(has), ..read }, vec![vec![self.done(part)]])
     }
 
     /// The same for its Operating Mode.
-    fn in_mode(&self, mode: u64) -> Option<Step> {
+    pub(super) fn in_mode(&self, mode: u64) -> Option<Step> {
         let register = self.target.device?.register("Operating Mode")?;
         Some(self.given(register, &format!("Operating Mode {mode}"), (0, 8), vec![mode]))
     }
 
     /// A register of the device.
-    fn register(&self, name: &str) -> Option<&Register> {
+    pub(super) fn register(&self, name: &str) -> Option<&Register> {
         self.target.device?.register(name)
     }
 }

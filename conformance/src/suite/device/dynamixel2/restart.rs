@@ -18,7 +18,7 @@ const UNTIL_BACK: u32 = 10;
 /// Pings, until the device is back.
 pub(super) fn back(talk: &Talk<'_>) -> Step {
     let ping = Piece { after: Pause::None, bytes: bytes_of(talk.ping()) };
-    let asked = Asked { packet: None, fast: None, send: vec![ping], awaits: 1, again: UNTIL_BACK };
+    let asked = Asked { send: vec![ping], awaits: 1, again: UNTIL_BACK, ..Asked::default() };
     (asked, vec![vec![talk.pong()]])
 }
 

@@ -3,7 +3,7 @@
 
 use super::several::{self, Kind};
 use super::{BROADCAST, Talk, asked, code, error, frame, named, ping};
-use crate::adapter::{Asked, Permissions};
+use crate::adapter::{Asked, Bits, Permissions};
 use crate::suite::check::{Check, Demand};
 use crate::suite::wanted::{Like, Part, Wanted};
 
@@ -170,7 +170,7 @@ fn alert(talk: &Talk<'_>) -> Option<Conversation> {
 /// Who answers a Read has level 1 or 2.
 fn level(talk: &Talk<'_>) -> Option<Conversation> {
     let register = talk.target.device?.register("Status Return Level")?;
-    let level = Part::Bits { size: 1, lowest: 0, width: 8, one_of: vec![1, 2] };
+    let level = Part::Bits { size: 1, has: Bits { lowest: 0, width: 8, one_of: vec![1, 2] } };
     let read = talk.read(register.address, register.kind.size());
     Some((vec![asked(read, 1)], vec![vec![vec![talk.done(level)]]]))
 }

@@ -3,6 +3,7 @@
 use actucheck_spec::model::{Area, Device, Register};
 
 use super::{Talk, asked, named, word};
+use crate::adapter::Bits;
 use crate::suite::check::Check;
 use crate::suite::wanted::Part;
 
@@ -139,7 +140,7 @@ fn has_bits(talk: &Talk<'_>, held: &Held) -> Option<Check> {
     let register = talk.target.device?.register(held.register)?;
     let size = register.kind.size();
     let (lowest, width, one_of) = (held.lowest, held.width, held.one_of.to_vec());
-    let part = Part::Bits { size: size.into(), lowest, width, one_of };
+    let part = Part::Bits { size: size.into(), has: Bits { lowest, width, one_of } };
     Some(talk.check(
         named(&format!("table.{}/{}", word(held.register), held.name)),
         &[held.requirement],

@@ -3,6 +3,7 @@
 use actucheck_spec::wire::innfos::WIRE;
 
 use super::{ALL, FLAGS, Talk, answer, asked, bytes_of, code, request};
+use crate::adapter::Bits;
 use crate::suite::check::Check;
 use crate::suite::device::basic;
 use crate::suite::wanted::{Like, Part};
@@ -39,7 +40,7 @@ pub(super) fn checks(talk: &Talk<'_>) -> Vec<Check> {
 }
 
 fn yes() -> Part {
-    Part::Bits { size: 1, lowest: 0, width: 8, one_of: vec![FLAGS[1]] }
+    Part::Bits { size: 1, has: Bits { lowest: 0, width: 8, one_of: vec![FLAGS[1]] } }
 }
 
 /// Every actuator answers the query. One row of answers holds each of them, so that few can be awaited in

@@ -3,6 +3,7 @@
 use actucheck_spec::wire::innfos::{Command, Format, Operation};
 
 use super::{FLAGS, Talk, asked, bytes_of, code, with_data};
+use crate::adapter::Bits;
 use crate::suite::check::Check;
 use crate::suite::codec::innfos::tables;
 use crate::suite::wanted::Part;
@@ -50,7 +51,8 @@ fn of_row(talk: &Talk<'_>, row: &Command) -> Vec<Check> {
     };
     let sizes = row.reply.iter().map(|size| Part::Any(usize::from(*size)));
     let size = sizes.map(|part| answered("size", requirement, part));
-    let one_of = |one_of: Vec<u64>| Part::Bits { size: 1, lowest: 0, width: 8, one_of };
+    let one_of =
+        |one_of: Vec<u64>| Part::Bits { size: 1, has: Bits { lowest: 0, width: 8, one_of } };
     let relative = || Part::Between { size: 4, lowest: -WHOLE, highest: WHOLE };
     let value = match row.format {
         Some(Format::Flag) => Some(answered("value", "innfos.flag.values", one_of(FLAGS.to_vec()))),

@@ -5,7 +5,7 @@ use actucheck_spec::Spec;
 use actucheck_spec::wire::innfos::{Command, Format, Operation};
 
 use super::{Talk, asked, code, with_data};
-use crate::adapter::{Asked, Permission, Permissions};
+use crate::adapter::{Asked, Bits, Permission, Permissions};
 use crate::journal::Place;
 use crate::suite::check::Check;
 use crate::suite::wanted::{Like, Part};
@@ -87,7 +87,7 @@ pub(super) fn commands(talk: &Talk<'_>) -> Vec<Check> {
 fn no_alarm(talk: &Talk<'_>) -> Step {
     let what = "an actuator without an alarm".to_owned();
     // The command comes before the two bytes of the alarms.
-    let none = Part::Given { what, size: 3, lowest: 8, width: 16, one_of: vec![0] };
+    let none = Part::Given { what, size: 3, has: Bits { lowest: 8, width: 16, one_of: vec![0] } };
     let answer = Like { id: talk.id(), error: None, data: Some(vec![none]) };
     (asked(talk.ask(code::ALARMS), 1), vec![vec![answer]])
 }
