@@ -44,6 +44,17 @@ pub(crate) fn shrink<T: Shrink>(
     }
 }
 
+/// The same row with one of its items smaller.
+pub(crate) fn one_smaller<T: Shrink + Clone>(row: &[T]) -> impl Iterator<Item = Vec<T>> {
+    row.iter().enumerate().flat_map(move |(place, item)| {
+        item.smaller().map(move |smaller| {
+            let mut row = row.to_vec();
+            row.iter_mut().skip(place).take(1).for_each(|slot| *slot = smaller.clone());
+            row
+        })
+    })
+}
+
 /// Fewer in a row.
 impl<T: Clone> Shrink for Vec<T> {
     fn smaller(&self) -> Box<dyn Iterator<Item = Self> + '_> {

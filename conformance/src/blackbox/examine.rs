@@ -43,7 +43,7 @@ impl Examiner<'_> {
     ) -> Option<Finding> {
         let goes_on = self.goes_on;
         let started = Instant::now();
-        let time = if kind.is_of_host() { TIME_OF_CONVERSATIONS } else { TIME };
+        let time = if kind.is_of_conversation() { TIME_OF_CONVERSATIONS } else { TIME };
         let goes_on = move || goes_on() && started.elapsed() < time;
         if self.fails_after(&[], &drawn.check, kind, &goes_on).is_some() {
             self.alone(drawn, kind, &goes_on)
@@ -56,7 +56,7 @@ impl Examiner<'_> {
     fn alone(&mut self, drawn: &Drawn, kind: &Kind, goes_on: &dyn Fn() -> bool) -> Option<Finding> {
         let steps = match kind {
             kind if kind.is_slow() => SLOW_STEPS,
-            kind if kind.is_of_host() => CONVERSATIONS,
+            kind if kind.is_of_conversation() => CONVERSATIONS,
             _ => STEPS,
         };
         let scope = self.scope;

@@ -5,9 +5,10 @@ use std::fmt;
 use actucheck_spec::model::Fault;
 use actucheck_spec::wire::Packet;
 
-use crate::adapter::{CallError, Course, Output, Question, Reported, Returned, Trouble};
+use crate::adapter::{CallError, Course, Heard, Output, Question, Reported, Returned, Trouble};
 use crate::subject::Answer;
 use crate::suite::check::{Check, Demand};
+use crate::suite::wanted;
 use crate::verdict::{Outcome, Verdict};
 
 /// A kind of failure, with its smallest known case.
@@ -58,7 +59,7 @@ pub struct Kind {
 pub enum Symptom {
     /// The answer differs; this is the first difference.
     Differs(&'static str),
-    /// A call of a host did this.
+    /// A call of a host, or a device, did this.
     Does(&'static str),
     /// A frame with this fault was accepted.
     Accepted(String),
@@ -79,6 +80,11 @@ impl Kind {
     #[must_use]
     pub fn is_of_host(&self) -> bool {
         self.op == CALL
+    }
+
+    /// Whether it is a failure in a conversation, in which it is waited.
+    pub(super) fn is_of_conversation(&self) -> bool {
+        self.is_of_host() || self.op == DEVICE
     }
 
     /// Whether another failure may have the same cause. The requirement that a conversation is about
@@ -120,6 +126,7 @@ impl Failure {
     /// reason is not a failure.
     pub(super) fn of(check: &Check, answer: Answer) -> Option<Self> {
         let done = match (&check.question, &answer) {
+            (Question::Device { .. }, Answer::Ok(Output::Line(heard))) => answers(check, heard),
             (Question::Converse { .. }, Answer::Ok(output)) => Some(does(check, output)?),
             _ => None,
         };
@@ -151,6 +158,15 @@ impl Failure {
 
 /// The op of conversations.
 const CALL: &str = "call";
+
+/// The op of conversations with devices.
+const DEVICE: &str = "device";
+
+/// What a device does wrong, if it does.
+fn answers(check: &Check, heard: &[Heard]) -> Option<&'static str> {
+    let Demand::Answer(wanted) = &check.demand else { return None };
+    wanted::symptom(&check.question, wanted, heard)
+}
 
 /// What the last call of a conversation does wrong. `None` if it does nothing, or fails for another
 /// reason than it should.

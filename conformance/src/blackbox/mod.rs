@@ -10,6 +10,7 @@
 //! answers depend neither on earlier questions nor on time. A limit in time ends a run, and the
 //! shrinking of a slow subject, at another place each time.
 
+mod ask;
 mod change;
 mod examine;
 mod finding;
@@ -38,6 +39,7 @@ use crate::adapter::{Hello, Wire};
 use crate::subject::Subject;
 use crate::suite::Author;
 use crate::suite::check::Check;
+use crate::suite::device::Target;
 
 pub use finding::{Finding, Kind, Symptom};
 pub use topic::{NotAsked, Topic};
@@ -55,15 +57,36 @@ const BATCH_OF_CONVERSATIONS: u64 = 32;
 
 /// Which probes are asked.
 #[derive(Clone, Copy, Debug)]
-pub struct Options {
+pub struct Options<'a> {
     /// The wire of the probes.
     pub wire: Wire,
     /// Where the probes come from.
     pub seed: u64,
     /// How many are asked.
     pub cases: u64,
-    /// Whether they are conversations of a host.
-    pub host: bool,
+    /// Who is asked.
+    pub asks: Asks<'a>,
+}
+
+/// Who is asked.
+#[derive(Clone, Copy, Debug)]
+pub enum Asks<'a> {
+    /// A codec, one question after the other.
+    Codec,
+    /// A host, in conversations.
+    Host,
+    /// This device, in conversations. It is only read.
+    Device(&'a Target<'a>),
+}
+
+impl<'a> Asks<'a> {
+    /// The device, if one is asked.
+    const fn target(self) -> Option<&'a Target<'a>> {
+        match self {
+            Self::Device(target) => Some(target),
+            Self::Codec | Self::Host => None,
+        }
+    }
 }
 
 /// The result of fuzzing.
@@ -88,11 +111,17 @@ pub fn has_conversations(wire: Wire) -> bool {
     wire::of(wire).is_some_and(|probes| probes.host.is_some())
 }
 
+/// Whether there are conversations with devices on a wire.
+#[must_use]
+pub fn has_requests(wire: Wire) -> bool {
+    wire::of(wire).is_some_and(|probes| probes.requests.is_some())
+}
+
 /// Asks the processes of a subject the probes of the options. `watch` is called with the number of
 /// probes asked and of kinds of failure found; fuzzing ends when it breaks.
 pub fn fuzz(
     spec: &Spec,
-    options: &Options,
+    options: &Options<'_>,
     subjects: &mut [Box<dyn Subject + Send>],
     watch: &(dyn Fn(u64, usize) -> ControlFlow<()> + Sync),
 ) -> Fuzzed {
@@ -101,7 +130,8 @@ pub fn fuzz(
     };
     let mut lanes: Vec<_> =
         subjects.iter_mut().map(|subject| Lane::new(subject.as_mut())).collect();
-    let scope = Scope { author: Author { spec, wire: options.wire }, hello: &hello };
+    let target = options.asks.target();
+    let scope = Scope { author: Author { spec, wire: options.wire }, hello: &hello, target };
     let Some(source) = Source::new(&scope, options) else {
         let given_up = Some(format!("the adapter offers no op of {}", options.wire));
         return Fuzzed { given_up, ..Fuzzed::default() };
@@ -128,8 +158,9 @@ pub fn fuzz(
 
 /// Checks of the first probes, `cases` at most.
 #[must_use]
-pub fn checks(spec: &Spec, options: &Options, hello: &Hello) -> Vec<Check> {
-    let scope = Scope { author: Author { spec, wire: options.wire }, hello };
+pub fn checks(spec: &Spec, options: &Options<'_>, hello: &Hello) -> Vec<Check> {
+    let target = options.asks.target();
+    let scope = Scope { author: Author { spec, wire: options.wire }, hello, target };
     let Some(mut source) = Source::new(&scope, options) else { return Vec::new() };
     let cases = usize::try_from(options.cases).unwrap_or(usize::MAX);
     let rows = std::iter::repeat_with(|| source.draw(|_| true)).take(cases);
@@ -153,12 +184,14 @@ fn ask(lanes: &mut [Lane<'_>], shared: &Shared<'_>) {
 struct Scope<'a> {
     author: Author<'a>,
     hello: &'a Hello,
+    /// The device that is asked, if it is one.
+    target: Option<&'a Target<'a>>,
 }
 
 impl Scope<'_> {
     /// The check of a probe; `None` if there is no right answer.
     fn check(&self, probe: &Probe, id: String) -> Option<Check> {
-        probe.check(&self.author, self.hello, id)
+        probe.check(&self.author, (self.hello, self.target), id)
     }
 
     /// What a probe is about.
@@ -189,8 +222,11 @@ struct Known {
 
 impl Fuzzer<'_> {
     /// Draws a batch and deals it to the lanes. Probes that are best asked in a row go to one lane.
-    fn draw(&mut self, options: &Options, lanes: &mut [Lane<'_>]) {
-        let batch = if options.host { BATCH_OF_CONVERSATIONS } else { BATCH };
+    fn draw(&mut self, options: &Options<'_>, lanes: &mut [Lane<'_>]) {
+        let batch = match options.asks {
+            Asks::Codec => BATCH,
+            Asks::Host | Asks::Device(_) => BATCH_OF_CONVERSATIONS,
+        };
         let mut left = batch.min(options.cases.saturating_sub(self.result.asked));
         let (mut turn, mut fruitless) = (0, 0);
         while left > 0 {

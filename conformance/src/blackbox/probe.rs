@@ -11,6 +11,7 @@ use proptest::prop_oneof;
 use proptest::sample::select;
 use proptest::strategy::Union;
 
+use super::ask::Request;
 use super::payload::payload;
 use super::talk::Talk;
 use super::topic::Topic;
@@ -18,6 +19,7 @@ use super::wire::{self, Probes};
 use crate::adapter::{Hello, Limits, Output, Question};
 use crate::suite::Author;
 use crate::suite::check::{Check, Demand};
+use crate::suite::device::{Target, conversation};
 use crate::suite::random::data;
 
 /// Bytes that headers, ends and byte stuffing are made of, and those at the ends of their range.
@@ -36,6 +38,8 @@ pub(super) enum Probe {
     /// A stream, with the places where it is cut, in units of 1/65,536 of its length.
     Stream(Vec<Part>, Vec<u16>),
     Converse(Talk),
+    /// Requests to a device.
+    Ask(Vec<Request>),
 }
 
 /// A part of a stream: noise, then a frame with damage.
@@ -116,6 +120,12 @@ pub(super) fn strategy(
         .map(|(_, weight, strategy)| (weight, strategy))
         .collect();
     (!asked.is_empty()).then(|| Union::new_weighted(asked).boxed())
+}
+
+/// Generates requests to a device.
+pub(super) fn requests(wire: Wire, target: &Target<'_>) -> Option<BoxedStrategy<Vec<Probe>>> {
+    let requests = (wire::of(wire)?.requests?)(target);
+    Some(requests.prop_map(Probe::Ask).prop_map(alone).boxed())
 }
 
 /// Generates conversations for a host with these calls; `None` if it offers no such wire.
@@ -280,8 +290,19 @@ impl Damage {
 }
 
 impl Probe {
-    /// The check of this probe; `None` if the documents leave the right answer unspecified.
-    pub(super) fn check(&self, author: &Author<'_>, hello: &Hello, id: String) -> Option<Check> {
+    /// The check of this probe, of this device if it asks one; `None` if the documents leave the right
+    /// answer unspecified.
+    pub(super) fn check(
+        &self,
+        author: &Author<'_>,
+        (hello, target): (&Hello, Option<&Target<'_>>),
+        id: String,
+    ) -> Option<Check> {
+        if let Self::Ask(requests) = self {
+            let pieces: Vec<_> = requests.iter().map(Request::pieces).collect::<Option<_>>()?;
+            let (requirement, question, demand) = conversation(*author, target?, &pieces)?;
+            return Some(author.check(id, &requirement, question, demand));
+        }
         let probes = wire::of(author.wire)?;
         let (requirement, question, demand) = (probes.question)(author, self)?;
         let (requirement, demand) = match within(hello, &question, &demand) {
@@ -296,6 +317,10 @@ impl Probe {
     pub(super) fn beginnings(self) -> Vec<Self> {
         match self {
             Self::Converse(talk) => talk.beginnings().map(Self::Converse).collect(),
+            Self::Ask(requests) => {
+                let first = |count| requests.iter().take(count).cloned().collect();
+                (1..=requests.len()).map(first).map(Self::Ask).collect()
+            }
             probe => vec![probe],
         }
     }
@@ -317,6 +342,13 @@ impl Probe {
             Self::Stream(parts, _) => {
                 let direction = parts.first().map(|part| part.packet.direction());
                 ("stream", direction.map(|direction| direction.to_string()))
+            }
+            Self::Ask(requests) => {
+                let parts = requests.iter().flat_map(|request| &request.parts);
+                let names = parts.filter_map(|part| name(&part.packet));
+                let topics: BTreeSet<_> =
+                    names.map(|packet| Topic { op: "device", packet }).collect();
+                return topics.into_iter().collect();
             }
             Self::Converse(talk) => {
                 let names = talk.exchanges.iter().filter_map(|exchange| name(&exchange.packet));

@@ -4,7 +4,7 @@ use actucheck_spec::wire::Packet;
 
 use super::probe::{Part, Probe};
 use super::wire;
-use crate::shrink::{Shrink, pieces, without};
+use crate::shrink::{Shrink, one_smaller, pieces, without};
 
 impl Shrink for Packet {
     fn smaller(&self) -> Box<dyn Iterator<Item = Self> + '_> {
@@ -26,16 +26,14 @@ impl Shrink for Probe {
                 Box::new(less.chain(packets.map(|packet| Self::Decode(packet, damage.clone()))))
             }
             Self::Converse(talk) => Box::new(talk.smaller().map(Self::Converse)),
+            Self::Ask(requests) => {
+                let fewer = requests.smaller().chain(one_smaller(requests));
+                Box::new(fewer.map(Self::Ask))
+            }
             Self::Stream(parts, cuts) => {
                 let fewer = parts.smaller().map(|parts| Self::Stream(parts, cuts.clone()));
                 let longer = cuts.smaller().map(|cuts| Self::Stream(parts.clone(), cuts));
-                let inside = parts.iter().enumerate().flat_map(move |(place, part)| {
-                    part.smaller().map(move |part| {
-                        let mut parts = parts.clone();
-                        parts.iter_mut().skip(place).take(1).for_each(|slot| *slot = part.clone());
-                        Self::Stream(parts, cuts.clone())
-                    })
-                });
+                let inside = one_smaller(parts).map(|parts| Self::Stream(parts, cuts.clone()));
                 Box::new(fewer.chain(longer).chain(inside))
             }
         }

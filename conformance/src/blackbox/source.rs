@@ -5,7 +5,7 @@ use proptest::test_runner::TestRunner;
 
 use super::finding::Failure;
 use super::probe::{self, Probe};
-use super::{Options, Scope};
+use super::{Asks, Options, Scope};
 use crate::adapter::{Output, Question};
 use crate::subject::Answer;
 use crate::suite::Author;
@@ -23,12 +23,12 @@ pub(super) struct Source<'a> {
 
 impl<'a> Source<'a> {
     /// `None` if the subject offers nothing to ask.
-    pub(super) fn new(scope: &'a Scope<'a>, options: &Options) -> Option<Self> {
+    pub(super) fn new(scope: &'a Scope<'a>, options: &Options<'_>) -> Option<Self> {
         let (Author { spec, wire }, seed) = (scope.author, options.seed);
-        let strategy = if options.host {
-            probe::conversations(spec, wire, scope.hello)?
-        } else {
-            probe::strategy(spec, wire, scope.hello)?
+        let strategy = match options.asks {
+            Asks::Codec => probe::strategy(spec, wire, scope.hello)?,
+            Asks::Host => probe::conversations(spec, wire, scope.hello)?,
+            Asks::Device(target) => probe::requests(wire, target)?,
         };
         Some(Self { scope, strategy, runner: runner(seed), seed, drawn: 0 })
     }
@@ -99,10 +99,14 @@ impl Drawn {
 
 /// What came of the first calls of a conversation.
 fn beginning(answer: &Answer, check: &Check) -> Option<Answer> {
-    let (Answer::Ok(Output::Conversation(courses)), Question::Converse { steps, .. }) =
-        (answer, &check.question)
-    else {
-        return None;
-    };
-    Some(Answer::Ok(Output::Conversation(courses.get(..steps.len())?.to_vec())))
+    let Answer::Ok(output) = answer else { return None };
+    Some(Answer::Ok(match (output, &check.question) {
+        (Output::Conversation(courses), Question::Converse { steps, .. }) => {
+            Output::Conversation(courses.get(..steps.len())?.to_vec())
+        }
+        (Output::Line(heard), Question::Device { steps, .. }) => {
+            Output::Line(heard.get(..steps.len())?.to_vec())
+        }
+        _ => return None,
+    }))
 }

@@ -6,7 +6,7 @@ use super::probe::{Part, cut, joined};
 use super::wire;
 use crate::adapter::{Burst, Called, Step};
 use crate::bus::has_datagrams;
-use crate::shrink::Shrink;
+use crate::shrink::{Shrink, one_smaller};
 
 /// The pause between two pieces of an answer, which is much shorter than any time-out.
 const PAUSE_MS: u32 = 3;
@@ -91,17 +91,8 @@ impl Exchange {
 impl Shrink for Talk {
     fn smaller(&self) -> Box<dyn Iterator<Item = Self> + '_> {
         let fewer = self.exchanges.smaller().map(|exchanges| Self { exchanges, ..self.clone() });
-        let inside = self.exchanges.iter().enumerate().flat_map(move |(place, exchange)| {
-            exchange.smaller().map(move |smaller| {
-                let mut talk = self.clone();
-                talk.exchanges
-                    .iter_mut()
-                    .skip(place)
-                    .take(1)
-                    .for_each(|slot| *slot = smaller.clone());
-                talk
-            })
-        });
+        let inside =
+            one_smaller(&self.exchanges).map(|exchanges| Self { exchanges, ..self.clone() });
         Box::new(fewer.chain(inside))
     }
 }
@@ -113,18 +104,7 @@ impl Shrink for Exchange {
         let plainer = own.map(|host| (host.smaller)(self)).unwrap_or_default();
         let whole = self.cuts.smaller().map(|cuts| Self { cuts, ..self.clone() });
         let less = self.played.smaller().map(|played| Self { played, ..self.clone() });
-        let inside = self.played.iter().enumerate().flat_map(move |(place, part)| {
-            part.smaller().map(move |smaller| {
-                let mut exchange = self.clone();
-                exchange
-                    .played
-                    .iter_mut()
-                    .skip(place)
-                    .take(1)
-                    .for_each(|slot| *slot = smaller.clone());
-                exchange
-            })
-        });
+        let inside = one_smaller(&self.played).map(|played| Self { played, ..self.clone() });
         Box::new(sooner.into_iter().chain(less).chain(whole).chain(plainer).chain(inside))
     }
 }

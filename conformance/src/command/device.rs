@@ -1,25 +1,26 @@
 //! `actucheck device`.
 
-mod open;
+pub(crate) mod open;
 mod plan;
 mod restore;
 mod writing;
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use actucheck::adapter::Wire;
-use actucheck::device::{NONE, Tables, of_model};
+use actucheck::device::Tables;
 use actucheck::journal::Layout;
 use actucheck::port::Place;
 use actucheck::subject::device::{Device as Subject, Keeper, Kept, Line};
-use actucheck::suite::device::{
-    Target, has_tables, hello, hello_all, identity, ids, is_checked, kept, reported,
-};
+use actucheck::suite::check::Check;
+use actucheck::suite::device::{Target, has_tables, ids, is_checked, kept};
 use actucheck::suite::plan::Plan;
+use actucheck::suite::saved;
 use actucheck::suite::{self, Options};
 use actucheck_spec::{Spec, model};
 use clap::{Args, Subcommand};
@@ -28,7 +29,7 @@ use super::ENDED;
 use super::shared::{
     self, Asked, DeviceOption, Failure, Planned, Running, Selection, Subjects, both, milliseconds,
 };
-use open::Opening;
+use open::{BAUD, Found, Opening, factory_rate, name_of, table_of};
 use plan::{BEGINS, Effort};
 
 const EXAMPLES: &str = "\
@@ -51,6 +52,8 @@ Examples:
       what a run would send, what each check needs, and about how long it takes; nothing is opened
   actucheck device /dev/ttyUSB0 --allow write-ram,eeprom
       write too, while torque is off; the device holds afterwards what it held before
+  actucheck device /dev/ttyUSB0 --replay findings.yaml
+      what `actucheck fuzz --device` found, asked again
   actucheck device restore actucheck-ja40-1-20260102T030405Z.journal.json
       the same after a crash, a power cut or a cable that was pulled
 
@@ -99,6 +102,9 @@ pub(crate) struct Device {
     answer_within: Duration,
     #[command(flatten)]
     writing: writing::Writing,
+    /// Ask only the checks of this file, as `actucheck fuzz --device` writes it
+    #[arg(long, value_name = "FILE", conflicts_with = "dry_run")]
+    replay: Option<PathBuf>,
     /// Print what would be sent, and open no port
     #[arg(long)]
     dry_run: bool,
@@ -119,15 +125,6 @@ pub(crate) struct Device {
 enum Action {
     Restore(restore::Restore),
 }
-
-/// The rate of most devices that leave the factory.
-const BAUD: u32 = 57_600;
-
-/// How long a program may take to start.
-const START: Duration = Duration::from_secs(5);
-
-/// How long it is listened for more devices.
-const MORE: Duration = Duration::from_millis(100);
 
 /// Runs the checks, writes the reports, and returns the exit status.
 pub(crate) fn run(options: &Device) -> Result<ExitCode, Failure> {
@@ -216,52 +213,20 @@ impl Device {
         interrupted: &Arc<AtomicBool>,
     ) -> Result<(Subject, Planned<'a>), Failure> {
         let (wire, place, id) = (self.wire()?, self.place(), self.id);
-        let baud = self.baud.or_else(|| factory_rate(table_of(&tables, id, spec)?));
-        let baud = baud.unwrap_or(BAUD);
-        let opening = Opening {
+        let Found { line, library, device, said, present, baud } = Opening {
             wire,
             place: &place,
             is_adapter: self.adapter,
-            baud,
+            baud: self.baud,
             limit: self.answer_within,
-        };
-        let (mut line, library) = opening.line(interrupted)?;
-        // A program has to start first; what is sent meanwhile waits.
-        let limit = match &place {
-            Place::Program(_) => START.max(self.answer_within),
-            _ => self.answer_within,
-        };
-        let greeted = line.greet(limit).map_err(Failure::not_started)?;
-        let mut ask = |packet, limit, awaits| {
-            let answers = line.exchange(&packet, limit, awaits).map_err(Failure::not_started)?;
-            let answers = answers.iter().flat_map(|answer| reported(wire, answer));
-            Ok::<_, Failure>(answers.collect::<Vec<_>>())
-        };
-        let mut found = None;
-        if let Some(packet) = hello(wire, id) {
-            let answers = ask(packet, limit, 1)?;
-            found = answers.into_iter().find(|answer| answer.id == id);
+            id,
         }
-        let Some(found) = found else { return Err(self.nothing_answers(&place, baud)) };
-        let others = match (greeted, hello_all(wire)) {
-            (Some(found), _) => found.iter().flat_map(|answer| reported(wire, answer)).collect(),
-            (None, Some(packet)) => ask(packet, MORE, usize::MAX)?,
-            (None, None) => Vec::new(),
-        };
-        let mut present: Vec<u8> = [id].into_iter().chain(others.iter().map(|it| it.id)).collect();
-        present.sort_unstable();
-        present.dedup();
+        .find(spec, &mut tables, interrupted)?;
         if let Some(neighbour) = self.neighbour.filter(|id| !present.contains(id)) {
             let message = format!("the neighbour with ID {neighbour} does not answer at {place}");
             return Err(Failure::not_started(message));
         }
-        let said = identity(wire, &found);
-        if let Some(model) = said.model_number {
-            tables.learn(id, model);
-        }
-        let device = table_of(&tables, id, spec);
-        let unknown = if has_tables(wire) { "a device that is not known" } else { "an actuator" };
-        let name = device.map_or(unknown, |device| &device.title);
+        let name = name_of(wire, device);
         let firmware = said.firmware_version;
         let firmware = firmware.map_or_else(String::new, |version| format!("firmware {version}"));
         let allowed = self.writing.allowed();
@@ -280,7 +245,10 @@ impl Device {
             None => subject,
         };
         let target = Target { id, device, neighbour: self.neighbour, present };
-        let planned = planned(spec, wire, &target);
+        let planned = match &self.replay {
+            Some(path) => replayed(wire, saved::read(path).map_err(Failure::usage)?),
+            None => planned(spec, wire, &target),
+        };
         if place.has_rate() {
             let timed = subject.look(Line::traffic).response;
             let begins = timed.map_or(BEGINS, |times| Duration::from_micros(times.median_us));
@@ -288,15 +256,6 @@ impl Device {
             anstream::eprintln!("actucheck: {effort}");
         }
         Ok((subject, planned))
-    }
-
-    fn nothing_answers(&self, place: &Place, baud: u32) -> Failure {
-        let rate = if place.has_rate() { format!(", --baud {baud}") } else { String::new() };
-        Failure::not_started(format!(
-            "{place}: nothing answers; is the device on, and are --id {}{rate} and the wiring right? \
-             `actucheck scan` looks for devices at every rate",
-            self.id
-        ))
     }
 
     /// The words that ask checks again.
@@ -315,6 +274,7 @@ impl Device {
         option("neighbour", self.neighbour.map(|id| id.to_string()));
         option("baud", self.baud.map(|baud| baud.to_string()));
         let allowed = self.writing.allowed();
+        option("replay", self.replay.as_ref().map(|path| path.display().to_string()));
         option("allow", (!allowed.only_read()).then(|| allowed.to_string()));
         words
     }
@@ -354,28 +314,20 @@ impl Device {
     }
 }
 
+/// The checks of a file.
+fn replayed<'a>(wire: Wire, mut checks: Vec<Check>) -> Planned<'a> {
+    checks.retain(|check| check.question.wire() == wire);
+    let (plan, widest) = (Plan::of(checks.clone()), Plan::of(checks));
+    Planned { wires: vec![wire], plan, widest, records: BTreeMap::new(), options: Options::new() }
+}
+
 fn planned<'a>(spec: &'a Spec, wire: Wire, target: &Target<'a>) -> Planned<'a> {
     let plan = || suite::device_plan(spec, &[wire], target);
     let (wires, records) = (vec![wire], BTreeMap::new());
     Planned { wires, plan: plan(), widest: plan(), records, options: Options::new() }
 }
 
-/// The control table of a device, as the spec or the user's file has it.
-fn table_of<'s>(tables: &Tables, id: u8, spec: &'s Spec) -> Option<&'s model::Device> {
-    tables.written(id, spec).or_else(|| {
-        let table = tables.of(id).filter(|table| table.id != NONE.id)?;
-        spec.device(of_model(table.model_number?)?.id)
-    })
-}
-
 /// What is kept of a device while it is written to.
 fn layout(spec: &Spec, wire: Wire, device: Option<&model::Device>) -> Option<Layout> {
     device.map(Layout::of).or_else(|| kept(wire, spec).map(Layout::of_values))
-}
-
-/// The rate with which a device leaves the factory.
-fn factory_rate(device: &model::Device) -> Option<u32> {
-    let register = device.register("Baud Rate")?;
-    let value = register.values.iter().find(|value| Some(value.value) == register.initial)?;
-    value.actual.and_then(|rate| rate.try_into().ok())
 }

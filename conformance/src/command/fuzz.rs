@@ -1,26 +1,31 @@
 //! `actucheck fuzz`.
 
+#[cfg(unix)]
+mod on_port;
+
 use std::hash::{BuildHasher, RandomState};
 use std::io::{self, Write};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::sync::atomic::Ordering;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use actucheck::adapter::{Hello, Wire};
-use actucheck::blackbox::{self, Finding, Fuzzed, fuzz};
+use actucheck::blackbox::{self, Asks, Finding, Fuzzed, fuzz};
 use actucheck::legible::{LONGEST_TEXT, legible};
 use actucheck::report::screen::{self, Detail};
 use actucheck::report::{Collector, End, Report, Run};
-use actucheck::suite::Options;
-use actucheck::suite::saved;
+use actucheck::suite::device::Target;
+use actucheck::suite::{Options, saved};
+use actucheck_spec::Spec;
 use clap::Args;
 use clap::builder::ArgPredicate;
 use indicatif::ProgressBar;
 
 use super::ENDED;
-use super::shared::{self, Adapter, Failure, Look, Subjects, Target, duration, wire};
+use super::shared::{self, Adapter, Failure, Look, Subjects, duration, wire};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -32,8 +37,14 @@ Examples:
       four processes of the adapter side by side
   actucheck fuzz --host -- python3 my_adapter.py
       conversations of a library that opens a port, on a line with faults
+  actucheck fuzz --device /dev/ttyUSB0 --time 5m
+      requests to the device with ID 1 on a serial port, which only read
+  actucheck fuzz --device --seed 7 --cases 300 -- actucheck bus ja40@1 --stdio
+      a virtual device, to see what it looks like; firmware that was compiled for this machine goes the same way
   actucheck replay findings.yaml -- ./my-adapter
       what was found, asked again
+  actucheck device /dev/ttyUSB0 --replay findings.yaml
+      the same of a device
 
 A seed and a number of probes ask the same each time, for any number of processes. What is found \
 is then the same too, unless answers depend on time or on earlier questions. A failure that does \
@@ -45,6 +56,11 @@ are right, or damaged, late, doubled, missing, or of others. Each call is judged
 the packets that the reference model finds in what came, and what it sends. What the documents leave \
 unspecified is not judged. What is found is shrunk to the shortest conversation; what does not come again \
 is told, but is no failure: a machine may be too busy for a host that does not wait long.
+
+With --device a probe is a conversation of one to six requests to a device: Ping, Read of any registers or \
+addresses, undefined instructions, packets to others, damaged packets, and noise. Nothing is sent that could be \
+taken for an instruction that changes something. What must come back is what the documents say, and of stored \
+registers that they stay as they are; what the documents leave unspecified is not judged.
 
 What an adapter skips five times without another answer is not asked any more; the summary says \
 what that was.
@@ -66,6 +82,9 @@ pub(crate) struct Fuzz {
     /// Fuzz a host that opens a port, with conversations on a line with faults
     #[arg(long)]
     host: bool,
+    #[cfg(unix)]
+    #[command(flatten)]
+    on_port: on_port::OnPort,
     /// How long to fuzz, as in 90s, 10m or 1h; one minute if neither this nor --cases is given
     #[arg(long, value_name = "TIME", value_parser = duration, conflicts_with = "cases")]
     time: Option<Duration>,
@@ -97,11 +116,10 @@ const RESTARTS: u32 = 1000;
 /// Fuzzes, prints the findings and saves them.
 pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
     let spec = shared::spec()?;
-    Target::all_differ(options.adapter.trace().into_iter().chain([options.out.as_path()]))?;
-    let out = Target::new(&options.out)?;
+    shared::Target::all_differ(options.adapter.trace().into_iter().chain([options.out.as_path()]))?;
+    let out = shared::Target::new(&options.out)?;
     let interrupted = shared::interrupted()?;
-    let mut subjects =
-        Subjects::start_with(&options.adapter, options.jobs, Some(RESTARTS), &interrupted)?;
+    let (mut subjects, target) = options.begin(&spec, &interrupted)?;
     let hello = subjects.hello.clone();
     if !hello.wires.iter().any(|id| id == options.wire.id()) {
         return Err(shared::not_offered(options.wire, &hello));
@@ -109,13 +127,18 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
     if options.host {
         has_port(&hello, options.wire)?;
     }
+    let asks = match &target {
+        Some(target) => Asks::Device(target),
+        None if options.host => Asks::Host,
+        None => Asks::Codec,
+    };
     let seed = options.seed.unwrap_or_else(|| RandomState::new().hash_one(()));
     let cases = options.cases.unwrap_or(u64::MAX);
     let time = options.time.or_else(|| options.cases.is_none().then_some(MINUTE));
 
     let (started, date) = (Instant::now(), shared::date());
     let progress = progress(options);
-    let probes = blackbox::Options { wire: options.wire, seed, cases, host: options.host };
+    let probes = blackbox::Options { wire: options.wire, seed, cases, asks };
     let fuzzed = fuzz(&spec, &probes, &mut subjects.all, &|asked, found| {
         progress.set_position(asked);
         progress.set_message(format!("{found} kinds of finding"));
@@ -131,6 +154,7 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
     let kept = keep(out, &fuzzed.findings);
     let took = started.elapsed();
     let found = fuzzed.findings.iter();
+    let again = options.again();
     let run = Run {
         spec: &spec,
         date,
@@ -140,7 +164,7 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
         options: Options { seed, ..Options::new() },
         port: options.adapter.port(),
         command: &options.adapter.command,
-        again: &[],
+        again: &again,
         records: found
             .clone()
             .flat_map(Finding::checks)
@@ -180,7 +204,7 @@ fn has_port(hello: &Hello, wire: Wire) -> Result<(), Failure> {
 }
 
 /// Writes the smallest case of each kind of failure to a file that `replay` and `codec` take.
-fn keep(out: Target, findings: &[Finding]) -> Result<(), Failure> {
+fn keep(out: shared::Target, findings: &[Finding]) -> Result<(), Failure> {
     if findings.is_empty() {
         return Ok(());
     }
@@ -260,9 +284,54 @@ fn summary(
 }
 
 impl Fuzz {
+    /// Who is asked, and the device if it is one.
+    #[cfg(unix)]
+    fn begin<'s>(
+        &self,
+        spec: &'s Spec,
+        interrupted: &Arc<AtomicBool>,
+    ) -> Result<(Subjects, Option<Target<'s>>), Failure> {
+        if self.on_port.is_chosen() {
+            let command = &self.adapter.command;
+            let (device, target) = self.on_port.begin(self.wire, command, spec, interrupted)?;
+            return Ok((Subjects::of(device), Some(target)));
+        }
+        Ok((self.start(interrupted)?, None))
+    }
+
+    /// Who is asked. There are no ports on this system.
+    #[cfg(not(unix))]
+    fn begin<'s>(
+        &self,
+        _spec: &'s Spec,
+        interrupted: &Arc<AtomicBool>,
+    ) -> Result<(Subjects, Option<Target<'s>>), Failure> {
+        Ok((self.start(interrupted)?, None))
+    }
+
+    fn start(&self, interrupted: &Arc<AtomicBool>) -> Result<Subjects, Failure> {
+        Subjects::start_with(&self.adapter, self.jobs, Some(RESTARTS), interrupted)
+    }
+
+    /// The words that ask again what was found; none if `actucheck replay` does.
+    #[cfg(unix)]
+    fn again(&self) -> Vec<String> {
+        if self.on_port.is_chosen() { self.on_port.again(&self.out) } else { Vec::new() }
+    }
+
+    /// The words that ask again what was found; none, as `actucheck replay` does.
+    #[cfg(not(unix))]
+    fn again(&self) -> Vec<String> {
+        Vec::new()
+    }
+
     /// What its probes are.
-    const fn asked(&self) -> &'static str {
-        if self.host { "conversations" } else { "probes" }
+    fn asked(&self) -> &'static str {
+        #[cfg(unix)]
+        let is_conversation = self.host || self.on_port.is_chosen();
+        #[cfg(not(unix))]
+        let is_conversation = self.host;
+        if is_conversation { "conversations" } else { "probes" }
     }
 }
 

@@ -143,6 +143,38 @@ pub(super) fn judge(question: &Question, wanted: &[Wanted], heard: &[Heard]) -> 
     (Verdict::Pass, String::new())
 }
 
+/// What the device does in the first step that is wrong, in words that leave out all numbers.
+pub(crate) fn symptom(
+    question: &Question,
+    wanted: &[Wanted],
+    heard: &[Heard],
+) -> Option<&'static str> {
+    let Question::Device { wire, steps, .. } = question else { return None };
+    let told: Vec<_> =
+        steps.iter().zip(heard).map(|(asked, heard)| Told::of(*wire, asked, heard)).collect();
+    let (wanted, came) =
+        wanted.iter().zip(&told).find(|(wanted, came)| !wanted.is_met(came, &told))?;
+    if came.stray > 0 {
+        return Some("sends what is no packet");
+    }
+    let counts = || wanted.0.iter().map(Vec::len);
+    if counts().all(|count| count > came.answers.len()) {
+        return Some("does not answer");
+    }
+    if counts().all(|count| count < came.answers.len()) {
+        return Some("answers what it must not");
+    }
+    let is_error = |row: &Vec<Like>| {
+        let mut pairs = row.iter().zip(&came.answers);
+        pairs.all(|(like, answer)| {
+            like.error.is_none_or(|error| answer.error.unwrap_or_default() == error)
+        })
+    };
+    let rows = wanted.0.iter().filter(|row| row.len() == came.answers.len());
+    let is_right = rows.into_iter().any(is_error);
+    Some(if is_right { "answers with other data" } else { "answers with another error" })
+}
+
 /// What a device does in the first step, in a few words.
 pub(super) fn behaviour(question: &Question, heard: &[Heard]) -> String {
     let Question::Device { wire, steps, .. } = question else { return String::new() };

@@ -45,13 +45,13 @@ impl Firmware {
             match receive.recv_timeout(LOOK) {
                 Ok(bytes) => {
                     heard = Instant::now();
-                    self.hear(&bytes);
+                    self.hears(&bytes);
                 }
                 Err(RecvTimeoutError::Timeout) if heard.elapsed() > QUIET => {
                     heard = Instant::now();
                     let now = self.begun.elapsed();
-                    self.bus.quiet(Sender::default(), now);
-                    self.answer(&[]);
+                    let answer = self.quiet(now);
+                    say(&answer);
                 }
                 Err(RecvTimeoutError::Timeout) => {}
                 Err(RecvTimeoutError::Disconnected) => break,
@@ -59,31 +59,45 @@ impl Firmware {
         }
     }
 
-    fn hear(&mut self, bytes: &[u8]) {
+    fn hears(&mut self, bytes: &[u8]) {
+        let answer = self.hear(bytes, self.begun.elapsed());
+        say(&answer);
+    }
+
+    /// What it sends when nothing more comes.
+    pub(crate) fn quiet(&mut self, now: Duration) -> Vec<u8> {
+        self.bus.quiet(Sender::default(), now);
+        self.answer(&[], now)
+    }
+
+    /// What it sends after these bytes.
+    pub(crate) fn hear(&mut self, bytes: &[u8], now: Duration) -> Vec<u8> {
         let heard = match self.fault {
             Some(Fault { hears: Some(hears), .. }) => hears(bytes.to_vec()),
             _ => bytes.to_vec(),
         };
-        self.bus.send(&heard, self.begun.elapsed());
-        self.answer(bytes);
+        self.bus.send(&heard, now);
+        self.answer(bytes, now)
     }
 
-    /// Sends what the devices answer.
-    fn answer(&mut self, asked: &[u8]) {
+    fn answer(&mut self, asked: &[u8], now: Duration) -> Vec<u8> {
         let mut answer = Vec::new();
         // An answer may be a datagram of its own.
         loop {
-            match self.bus.receive(self.begun.elapsed()) {
+            match self.bus.receive(now) {
                 more if more.is_empty() => break,
                 more => answer.extend(more),
             }
         }
-        let answer = match self.fault {
+        match self.fault {
             Some(Fault { answers: Some(answers), .. }) => answers(asked, answer),
             _ => answer,
-        };
-        let mut out = stdout().lock();
-        // Who asked may be gone.
-        let _ = out.write_all(&answer).and_then(|()| out.flush());
+        }
     }
+}
+
+fn say(answer: &[u8]) {
+    let mut out = stdout().lock();
+    // Who asked may be gone.
+    let _ = out.write_all(answer).and_then(|()| out.flush());
 }

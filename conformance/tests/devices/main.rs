@@ -20,6 +20,7 @@ mod effects;
 mod fault;
 mod faults;
 mod firmware;
+mod fuzzed;
 mod innfos;
 mod interrupted;
 mod killing;
@@ -98,6 +99,9 @@ fn tests() -> ExitCode {
     }
     for (name, wrong) in right::TESTS {
         trials.push(test(format!("right::{name}"), Box::new(wrong)));
+    }
+    for (name, wrong) in fuzzed::TESTS {
+        trials.push(test(format!("fuzzed::{name}"), Box::new(wrong)));
     }
     for (name, wrong) in bad::TESTS {
         trials.push(test(format!("bad::{name}"), Box::new(wrong)));

@@ -7,11 +7,13 @@ use actucheck_spec::Spec;
 use actucheck_spec::wire::{Direction, Packet, Wire};
 use proptest::prelude::BoxedStrategy;
 
+use super::ask::Request;
 use super::probe::Probe;
 use super::talk::{Exchange, Talk};
 use crate::adapter::{Hello, Limits, Question};
 use crate::suite::Author;
 use crate::suite::check::Demand;
+use crate::suite::device::Target;
 
 const ALL: [Probes; 2] = [dynamixel2::PROBES, innfos::PROBES];
 
@@ -35,7 +37,12 @@ pub(crate) struct Probes {
     pub(crate) question: fn(&Author<'_>, &Probe) -> Option<Asked>,
     /// Conversations of hosts; `None` if there are none yet.
     pub(crate) host: Option<HostProbes>,
+    /// Generates requests to a device; `None` if there are none yet.
+    pub(crate) requests: Option<Requests>,
 }
+
+/// Generates requests to a device.
+pub(crate) type Requests = fn(&Target<'_>) -> BoxedStrategy<Vec<Request>>;
 
 /// Conversations of hosts on a wire.
 #[derive(Clone, Copy)]

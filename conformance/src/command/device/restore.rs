@@ -79,10 +79,11 @@ pub(super) fn run(options: &Restore) -> Result<ExitCode, Failure> {
         wire: journal.wire,
         place: &place,
         is_adapter: options.adapter,
-        baud,
+        baud: Some(baud),
         limit: options.answer_within,
+        id: journal.id,
     };
-    let (mut line, _) = opening.line(&interrupted)?;
+    let (mut line, _) = opening.line(baud, &interrupted)?;
     // A board answers who has greeted it.
     line.greet(options.answer_within).map_err(Failure::not_started)?;
     let count = restore(&journal, &mut line).map_err(|error| {

@@ -4,7 +4,7 @@
 //! Nothing is demanded that waits for silence to show: after what must not be answered comes a request that
 //! must, and only its answer may be there. All bytes come from the reference model.
 
-mod dynamixel2;
+pub(crate) mod dynamixel2;
 mod innfos;
 mod steps;
 
@@ -17,8 +17,9 @@ use actucheck_spec::model;
 use actucheck_spec::wire::{self, Packet};
 
 use super::Author;
+use super::check::Demand;
 use super::plan::Family;
-use crate::adapter::{Asked, Reported, Wire};
+use crate::adapter::{Asked, Question, Reported, Wire};
 use crate::bus;
 use crate::journal::Place;
 
@@ -43,7 +44,7 @@ impl<'a> Target<'a> {
     }
 
     /// An ID that no device on the line has.
-    fn absent(&self, wire: Wire) -> u8 {
+    pub(crate) fn absent(&self, wire: Wire) -> u8 {
         let is_absent = |id: &u8| !self.present.contains(id) && *id != self.id;
         ids(wire).find(is_absent).unwrap_or(*ids(wire).end())
     }
@@ -80,7 +81,13 @@ struct Own {
     /// What its devices hold if they have no control tables: first whether the shaft may turn, then all that
     /// is set back.
     kept: Option<fn(&Spec) -> Vec<Place>>,
+    /// What any requests that only read must come to.
+    conversation: Option<Conversation>,
 }
+
+/// Writes a question and what must come back, of requests that are each sent in pieces.
+type Conversation =
+    fn(Author<'_>, &Target<'_>, &[Vec<Vec<u8>>]) -> Option<(String, Question, Demand)>;
 
 /// The packets by which registers are read and set back.
 #[derive(Clone, Copy, Debug)]
@@ -119,6 +126,7 @@ static WIRES: [Own; 2] = [
         identity: dynamixel2::identity,
         instructions: Some(dynamixel2::INSTRUCTIONS),
         kept: None,
+        conversation: Some(dynamixel2::conversation),
     },
     Own {
         wire: wire::innfos::WIRE,
@@ -131,6 +139,7 @@ static WIRES: [Own; 2] = [
         identity: innfos::identity,
         instructions: Some(innfos::INSTRUCTIONS),
         kept: Some(innfos::kept),
+        conversation: None,
     },
 ];
 
@@ -214,6 +223,17 @@ pub fn instructions(wire: Wire) -> Option<&'static Instructions> {
 #[must_use]
 pub fn kept(wire: Wire, spec: &Spec) -> Option<Vec<Place>> {
     own(wire)?.kept.map(|kept| kept(spec))
+}
+
+/// The requirement that the last of these requests is about, the question that asks them all, and what must
+/// come back; each request is the pieces that are sent. `None` if one of them might change something, or if
+/// the documents leave unspecified what answers it.
+pub(crate) fn conversation(
+    author: Author<'_>,
+    target: &Target<'_>,
+    requests: &[Vec<Vec<u8>>],
+) -> Option<(String, Question, Demand)> {
+    (own(author.wire)?.conversation?)(author, target, requests)
 }
 
 /// The ids of the basic checks that an answer rests on: that the device answers at all, and for each call

@@ -3,11 +3,12 @@
 mod exists;
 mod host;
 mod packets;
+mod requests;
 mod smaller;
 
 use actucheck_spec::Spec;
 use actucheck_spec::model::Fault;
-use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, HEADER, PATTERN, PREFIX};
+use actucheck_spec::wire::dynamixel2::reference::{self, BROADCAST, PATTERN, PREFIX};
 use actucheck_spec::wire::dynamixel2::{Packet, WIRE};
 use actucheck_spec::wire::{self, Direction};
 use proptest::prelude::Strategy;
@@ -33,6 +34,7 @@ pub(super) const PROBES: Probes = Probes {
     limit: LIMIT,
     question,
     host: Some(host::PROBES),
+    requests: Some(requests::requests),
 };
 
 /// The requirement on packets that are too long.
@@ -76,6 +78,8 @@ fn question(author: &Author<'_>, probe: &Probe) -> Option<Asked> {
         Probe::Decode(packet, damage) => decode(author, packet, damage),
         Probe::Stream(parts, cuts) => stream(author, parts, cuts),
         Probe::Converse(talk) => host::question(author.spec, talk),
+        // What a device must answer is a matter of its checks.
+        Probe::Ask(_) => None,
     }
 }
 
@@ -174,7 +178,9 @@ fn stream(author: &Author<'_>, parts: &[Part], cuts: &[u16]) -> Option<Asked> {
     let direction = parts.first()?.packet.direction();
     let stream = joined(parts)?;
     let packets = reference::packets(&stream);
-    if !packets.iter().all(|packet| exists(author.spec, packet)) || holds_unspecified(&stream) {
+    if !packets.iter().all(|packet| exists(author.spec, packet))
+        || reference::holds_unspecified(&stream)
+    {
         return None;
     }
     // A host need not read instruction packets, such as its own echo, nor a device status packets.
@@ -209,15 +215,4 @@ fn is_stuffed(packet: &Packet, frame: &[u8]) -> bool {
         Packet::FastStatus { .. } => return false,
     };
     frame.len() > PREFIX + fields + 2
-}
-
-/// Whether the stream has something that is a packet or not depending on an unspecified rule.
-fn holds_unspecified(stream: &[u8]) -> bool {
-    (0..stream.len()).any(|from| {
-        let rest = stream.get(from..).unwrap_or_default();
-        let [_, _, _, _, _, low, high, ..] = *rest else { return false };
-        let size = PREFIX + usize::from(u16::from_le_bytes([low, high]));
-        let frame = rest.get(..size).unwrap_or_default();
-        rest.starts_with(&HEADER) && reference::is_unspecified(frame)
-    })
 }

@@ -130,14 +130,14 @@ fn ids() -> BoxedStrategy<Vec<u8>> {
 }
 
 /// An address. Half of them are below 256, as some libraries support no others.
-fn address() -> BoxedStrategy<[u8; 2]> {
+pub(super) fn address() -> BoxedStrategy<[u8; 2]> {
     prop_oneof![2 => select(&ENDS[..]), 3 => 0..256_u16, 2 => any::<u16>()]
         .prop_map(u16::to_le_bytes)
         .boxed()
 }
 
 /// A number of bytes to read.
-fn length() -> BoxedStrategy<[u8; 2]> {
+pub(super) fn length() -> BoxedStrategy<[u8; 2]> {
     prop_oneof![2 => select(&ENDS[1..]), 5 => 1..512_u16, 1 => 1..=u16::MAX]
         .prop_map(u16::to_le_bytes)
         .boxed()
@@ -229,6 +229,6 @@ fn bulk_write() -> BoxedStrategy<Vec<u8>> {
         .boxed()
 }
 
-fn packet_of(id: u8, instruction: u8, params: Vec<u8>) -> Packet {
+pub(super) fn packet_of(id: u8, instruction: u8, params: Vec<u8>) -> Packet {
     Packet::Instruction { id, instruction, params: params.into() }
 }

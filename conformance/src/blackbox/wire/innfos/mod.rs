@@ -29,6 +29,7 @@ pub(super) const PROBES: Probes = Probes {
     limit: "innfos.frame.length",
     question,
     host: Some(host::PROBES),
+    requests: None,
 };
 
 /// Bytes that could be taken for the first or the last one of a frame, flags, modes, and others.

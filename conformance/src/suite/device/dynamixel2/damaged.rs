@@ -70,7 +70,7 @@ fn printed(talk: &Talk<'_>) -> Option<Check> {
 }
 
 /// What answers a damaged packet, if anything does.
-fn crc_error(talk: &Talk<'_>) -> Like {
+pub(super) fn crc_error(talk: &Talk<'_>) -> Like {
     talk.refusal(error::CRC)
 }
 
@@ -95,7 +95,7 @@ fn ignored(
 }
 
 /// Pings, until one of them is heard.
-fn heard(talk: &Talk<'_>) -> Asked {
+pub(super) fn heard(talk: &Talk<'_>) -> Asked {
     let ping = Piece { after: Pause::None, bytes: bytes_of(talk.ping()) };
     Asked { send: vec![ping], awaits: 1, again: UNTIL_HEARD, ..Asked::default() }
 }

@@ -23,6 +23,7 @@ mod limits;
 mod modes;
 mod motion;
 mod refused;
+mod requests;
 mod restart;
 mod sentences;
 mod several;
@@ -116,6 +117,9 @@ pub(super) const INSTRUCTIONS: Instructions = Instructions {
     reboot: Some(|id| instruction(id, code::REBOOT, Vec::new()).into()),
     held: |data| data,
 };
+
+pub(crate) use refused::UNDEFINED;
+pub(super) use requests::conversation;
 
 /// Ping.
 pub(super) fn hello(id: u8) -> wire::Packet {

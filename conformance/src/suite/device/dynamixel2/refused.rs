@@ -6,7 +6,7 @@ use super::{Talk, asked, code, error, instruction, named};
 use crate::suite::check::Check;
 
 /// Codes that no document defines.
-const UNDEFINED: [u8; 5] = [0x09, 0x11, 0x40, 0x7F, 0xA0];
+pub(crate) const UNDEFINED: [u8; 5] = [0x09, 0x11, 0x40, 0x7F, 0xA0];
 
 pub(super) fn checks(talk: &Talk<'_>) -> Vec<Check> {
     let undefined = UNDEFINED.map(|code| {

@@ -18,7 +18,7 @@ pub(super) enum Kind {
 }
 
 impl Kind {
-    const ALL: [Self; 3] = [Self::Sync, Self::FastSync, Self::Bulk];
+    pub(super) const ALL: [Self; 3] = [Self::Sync, Self::FastSync, Self::Bulk];
 
     const fn name(self) -> &'static str {
         match self {
@@ -33,12 +33,12 @@ impl Kind {
     }
 
     /// The requirements that say this of it, or else what it does.
-    fn rows(self, what: &str) -> Vec<String> {
+    pub(super) fn rows(self, what: &str) -> Vec<String> {
         let all = [what, "status", "effect"];
         all.map(|what| format!("{}.{what}", self.word())).to_vec()
     }
 
-    const fn code(self) -> u8 {
+    pub(super) const fn code(self) -> u8 {
         match self {
             Self::Sync => code::SYNC_READ,
             Self::FastSync => code::FAST_SYNC_READ,

@@ -30,6 +30,12 @@ impl Held {
     ) -> Self {
         Self { document, register, name, requirement, lowest, width, one_of }
     }
+
+    /// What a register of so many bytes holds.
+    fn part(&self, size: u16) -> Part {
+        let (lowest, width, one_of) = (self.lowest, self.width, self.one_of.to_vec());
+        Part::Bits { size: size.into(), has: Bits { lowest, width, one_of } }
+    }
 }
 
 const DRIVE_MODE: (&str, &str) = ("Drive Mode", "bits");
@@ -136,11 +142,17 @@ fn held(talk: &Talk<'_>) -> Vec<Check> {
     own.filter_map(|held| has_bits(talk, held)).collect()
 }
 
+/// What a register must hold, if the document says so of some of its bits.
+pub(super) fn bits(talk: &Talk<'_>, register: &Register) -> Option<Part> {
+    let document = talk.document();
+    let is_own = |held: &&Held| document == Some(held.document) && held.register == register.name;
+    HELD.iter().find(is_own).map(|held| held.part(register.kind.size()))
+}
+
 fn has_bits(talk: &Talk<'_>, held: &Held) -> Option<Check> {
     let register = talk.target.device?.register(held.register)?;
     let size = register.kind.size();
-    let (lowest, width, one_of) = (held.lowest, held.width, held.one_of.to_vec());
-    let part = Part::Bits { size: size.into(), has: Bits { lowest, width, one_of } };
+    let part = held.part(size);
     Some(talk.check(
         named(&format!("table.{}/{}", word(held.register), held.name)),
         &[held.requirement],

@@ -13,7 +13,10 @@ pub use call::{CALLS, call};
 pub use packet::{
     crc, decode, decode_fast, encode, frame, is_unspecified, part, repair, stuff, unstuff,
 };
-pub use stream::{Event, events, is_certain, lacks_bytes, packets, packets_behind_lengths};
+pub use stream::{
+    Event, events, holds_unspecified, is_certain, lacks_bytes, missing, packets,
+    packets_behind_lengths,
+};
 pub use value::{half_a_count, register_bytes, register_number, register_value};
 
 /// The first bytes of every packet.

@@ -1,6 +1,6 @@
 //! Packets in a stream, found the slow way: at each byte, test whether a whole packet begins.
 
-use super::{BROADCAST, HEADER, PREFIX, STATUS, crc, decode, unstuff};
+use super::{BROADCAST, HEADER, PREFIX, STATUS, crc, decode, is_unspecified, unstuff};
 use crate::model::Fault;
 use crate::wire::dynamixel2::Packet;
 
@@ -189,6 +189,25 @@ pub fn lacks_bytes(stream: &[u8]) -> bool {
         rest = rest.get(packet.unwrap_or(1)..).unwrap_or_default();
     }
     false
+}
+
+/// Whether the stream has something that is a packet or not depending on an unspecified rule.
+#[must_use]
+pub fn holds_unspecified(stream: &[u8]) -> bool {
+    (0..stream.len()).any(|from| {
+        let rest = stream.get(from..).unwrap_or_default();
+        let frame = size(rest).and_then(|size| rest.get(..size)).unwrap_or_default();
+        rest.starts_with(&HEADER) && is_unspecified(frame)
+    })
+}
+
+/// How many bytes are missing after the stream for a receiver that trusts every length; `None` if one is not
+/// there yet.
+#[must_use]
+pub fn missing(stream: &[u8]) -> Option<usize> {
+    let starts = (0..stream.len()).filter_map(|from| stream.get(from..));
+    let mut headers = starts.filter(|rest| rest.starts_with(&HEADER));
+    headers.try_fold(0, |most, rest| Some(most.max(size(rest)?.saturating_sub(rest.len()))))
 }
 
 /// The packet that begins here, and its size.
