@@ -123,8 +123,12 @@ pub(super) fn strategy(
 }
 
 /// Generates requests to a device.
-pub(super) fn requests(wire: Wire, target: &Target<'_>) -> Option<BoxedStrategy<Vec<Probe>>> {
-    let requests = (wire::of(wire)?.requests?)(target);
+pub(super) fn requests(
+    spec: &Spec,
+    wire: Wire,
+    target: &Target<'_>,
+) -> Option<BoxedStrategy<Vec<Probe>>> {
+    let requests = (wire::of(wire)?.requests?)(spec, target);
     Some(requests.prop_map(Probe::Ask).prop_map(alone).boxed())
 }
 

@@ -41,6 +41,8 @@ Examples:
       requests to the device with ID 1 on a serial port, which only read
   actucheck fuzz --device --seed 7 --cases 300 -- actucheck bus ja40@1 --stdio
       a virtual device, to see what it looks like; firmware that was compiled for this machine goes the same way
+  actucheck fuzz --wire innfos --device udp://192.168.1.30:2000 --id 6
+      the actuator with the address 6 behind its board
   actucheck replay findings.yaml -- ./my-adapter
       what was found, asked again
   actucheck device /dev/ttyUSB0 --replay findings.yaml
@@ -58,9 +60,10 @@ unspecified is not judged. What is found is shrunk to the shortest conversation;
 is told, but is no failure: a machine may be too busy for a host that does not wait long.
 
 With --device a probe is a conversation of one to six requests to a device: Ping, Read of any registers or \
-addresses, undefined instructions, packets to others, damaged packets, and noise. Nothing is sent that could be \
+addresses, undefined instructions, packets to others, damaged packets, and noise; with --wire innfos each command \
+that reads, the board's handshake and query, and damaged datagrams. Nothing is sent that could be \
 taken for an instruction that changes something. What must come back is what the documents say, and of stored \
-registers that they stay as they are; what the documents leave unspecified is not judged.
+registers and values that they stay as they are; what the documents leave unspecified is not judged.
 
 What an adapter skips five times without another answer is not asked any more; the summary says \
 what that was.
@@ -316,7 +319,7 @@ impl Fuzz {
     /// The words that ask again what was found; none if `actucheck replay` does.
     #[cfg(unix)]
     fn again(&self) -> Vec<String> {
-        if self.on_port.is_chosen() { self.on_port.again(&self.out) } else { Vec::new() }
+        if self.on_port.is_chosen() { self.on_port.again(self.wire, &self.out) } else { Vec::new() }
     }
 
     /// The words that ask again what was found; none, as `actucheck replay` does.

@@ -242,7 +242,8 @@ fn are_in(parts: &[Part], answer: &Reported, all: &[Told]) -> bool {
 }
 
 impl Part {
-    const fn size(&self) -> usize {
+    /// How many bytes it has.
+    pub(super) const fn size(&self) -> usize {
         match self {
             Self::Bytes(bytes) => bytes.0.len(),
             Self::Any(size)

@@ -9,7 +9,7 @@ use std::process::Command;
 use std::sync::Arc;
 use std::time::Duration;
 
-use actucheck::adapter::{Permissions, Question};
+use actucheck::adapter::{Permissions, Question, Wire};
 use actucheck::blackbox::{Asks, Fuzzed, Options, checks, fuzz};
 use actucheck::port::{Bytes, Place};
 use actucheck::subject::Subject as _;
@@ -18,18 +18,28 @@ use actucheck::suite::check::Check;
 use actucheck::suite::device::{Target, hello};
 use actucheck_spec::Spec;
 use actucheck_spec::wire::dynamixel2::WIRE;
+use actucheck_spec::wire::innfos::{self, Operation};
 
 use super::every;
 use super::firmware::Firmware;
+use super::right::{ACTUATORS, Bus};
 
 /// A test, which returns what is wrong.
 type Test = fn() -> String;
 
-pub(crate) const TESTS: [(&str, Test); 4] = [
+pub(crate) const TESTS: [(&str, Test); 7] = [
     ("right_devices_pass", right),
     ("faults_are_found", faults),
     ("nothing_is_written", only_reads),
-    ("as_a_program", as_a_program),
+    ("boards_are_only_read", boards_only_read),
+    ("as_a_program", || {
+        as_a_program(&["--table", "ja40"], &["--device", "ja40"], "ja40@1", "done-is-1")
+    }),
+    ("a_board_at_a_port", at_a_port),
+    ("a_board_as_a_program", || {
+        let board = ["--wire", "innfos", "--id", "6"];
+        as_a_program(&board, &board, "dd-6010@6 dd-6010@7", "never-ready")
+    }),
 ];
 
 /// In so many conversations each of [`FOUND`] is found.
@@ -37,7 +47,7 @@ const CASES: u64 = 300;
 const SEED: u64 = 1;
 
 /// Faults that requests which only read can show.
-const FOUND: [&str; 18] = [
+const FOUND: [&str; 47] = [
     "alarm-bit-0",
     "answers-every-id",
     "broadcast-ping-silent",
@@ -56,6 +66,36 @@ const FOUND: [&str; 18] = [
     "ping-wants-data",
     "read-limited",
     "reads-twice",
+    // Boards and actuators.
+    "alarms-long",
+    "answers-a-byte",
+    "answers-every-address",
+    "answers-for-the-board",
+    "answers-twice",
+    "crc-always",
+    "crc-high-first",
+    "crc-missing",
+    "crc-of-a-byte",
+    "current-in-amperes",
+    "end-not-awaited",
+    "end-not-checked",
+    "gain-short",
+    "greeted-with-no",
+    "header-not-checked",
+    "length-ignored",
+    "length-low-first",
+    "length-low-only",
+    "limit-in-percent",
+    "limit-unsigned",
+    "looks-into-data",
+    "mac-short",
+    "mode-from-zero",
+    "never-ready",
+    "on-is-ff",
+    "other-command",
+    "query-silent",
+    "speed-short",
+    "state-silent",
 ];
 
 /// A virtual device as a port.
@@ -97,13 +137,26 @@ impl Bytes for Played {
     }
 }
 
+/// The wire of devices.
+fn wire_of(devices: &str) -> Wire {
+    if devices.starts_with("dd-") { innfos::WIRE } else { WIRE }
+}
+
+/// The IDs of devices; the first is asked.
+fn ids(devices: &str) -> Vec<u8> {
+    let id = |device: &str| device.split_once('@').unwrap().1.parse().unwrap();
+    devices.split(' ').map(id).collect()
+}
+
 /// A device with this fault on its line.
 fn device(devices: &str, fault: &str) -> Device {
+    let (wire, id) = (wire_of(devices), ids(devices)[0]);
     let firmware = Firmware::new(devices, fault);
     let port = Played { firmware, now: Duration::ZERO, coming: VecDeque::new() };
     let (place, limit) = (Place::Program(Vec::new()), Duration::from_millis(100));
-    let mut line = Line::on(WIRE, &place, Box::new(port), limit, Arc::default());
-    line.exchange(&hello(WIRE, 1).unwrap(), limit, 1).unwrap();
+    let mut line = Line::on(wire, &place, Box::new(port), limit, Arc::default());
+    line.greet(limit).unwrap();
+    line.exchange(&hello(wire, id).unwrap(), limit, 1).unwrap();
     Device::new(devices.to_owned(), String::new(), line, Permissions::READ)
 }
 
@@ -111,9 +164,9 @@ fn device(devices: &str, fault: &str) -> Device {
 fn fuzzed(devices: &str, fault: &str, cases: u64) -> Fuzzed {
     let spec = Spec::embedded().unwrap();
     let (model, _) = devices.split_once('@').unwrap();
-    let target = Target::alone(Some(spec.device(model).unwrap()));
-    let target = if devices.contains(' ') { target.with_neighbour(2) } else { target };
-    let options = Options { wire: WIRE, seed: SEED, cases, asks: Asks::Device(&target) };
+    let (wire, present) = (wire_of(devices), ids(devices));
+    let target = Target { id: present[0], present, ..Target::alone(spec.device(model)) };
+    let options = Options { wire, seed: SEED, cases, asks: Asks::Device(&target) };
     let device = device(devices, fault);
     fuzz(&spec, &options, &mut [Box::new(device)], &|_, _| ControlFlow::Continue(()))
 }
@@ -125,15 +178,14 @@ fn requests(question: &Question) -> usize {
 }
 
 fn right() -> String {
-    let models = ["ja40", "ja-variant", "xm430-w210", "xl330-m288"];
-    let wrong = models.map(|model| {
-        let Fuzzed { asked, findings, passing, given_up, .. } =
-            fuzzed(&format!("{model}@1"), "none", CASES);
+    let devices = ["ja40@1", "ja-variant@1", "xm430-w210@1", "xl330-m288@1", "dd-6010@6 dd-6010@7"];
+    let wrong = devices.map(|devices| {
+        let Fuzzed { asked, findings, passing, given_up, .. } = fuzzed(devices, "none", CASES);
         let is_right = asked == CASES && findings.is_empty() && passing.is_empty();
         if is_right && given_up.is_none() {
             return String::new();
         }
-        format!("{model}: {asked} asked, {given_up:?}, {findings:#?} {passing:#?}\n")
+        format!("{devices}: {asked} asked, {given_up:?}, {findings:#?} {passing:#?}\n")
     });
     wrong.concat()
 }
@@ -164,6 +216,33 @@ fn only_reads() -> String {
     }
 }
 
+/// In no datagram, and behind no header in one, is a command that writes or that there is not.
+fn boards_only_read() -> String {
+    let spec = Spec::embedded().unwrap();
+    let target = Target::alone(None);
+    let options =
+        Options { wire: innfos::WIRE, seed: SEED, cases: 3_000, asks: Asks::Device(&target) };
+    let device = device("dd-6010@1", "none");
+    let checks = checks(&spec, &options, device.hello());
+    let commands = &spec.wires.innfos.content.commands;
+    let reads =
+        |code: u8| commands.iter().any(|row| row.code == code && row.operation == Operation::Read);
+    let is_wrong = |check: &&Check| {
+        let Question::Device { needs, steps, .. } = &check.question else { return true };
+        let mut datagrams = steps.iter().flat_map(|step| &step.send).map(|piece| &piece.bytes.0);
+        let changes = |datagram: &Vec<u8>| {
+            let mut frames = datagram.windows(3).enumerate();
+            frames.any(|(at, bytes)| (at == 0 || bytes[0] == 0xEE) && !reads(bytes[2]))
+        };
+        !needs.only_read() || datagrams.any(changes)
+    };
+    let wrong = checks.iter().find(is_wrong);
+    match (checks.len(), wrong) {
+        (2_000.., None) => String::new(),
+        (count, wrong) => format!("{count} checks, {wrong:#?}"),
+    }
+}
+
 /// Each fault is found, and the fewest requests show it.
 fn faults() -> String {
     let wrong = FOUND.map(|name| {
@@ -178,26 +257,34 @@ fn faults() -> String {
     wrong.concat()
 }
 
+/// A right board behind a UDP port.
+fn at_a_port() -> String {
+    let bus = Bus::start(&ACTUATORS, &["--udp", "0"]);
+    let port = format!("udp://{}", bus.address);
+    let mut command = Command::new(env!("CARGO_BIN_EXE_actucheck"));
+    let options =
+        ["--wire", "innfos", "--id", "6", "--seed", "1", "--cases", "40", "--device", &port];
+    let output = command.arg("fuzz").args(options).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stdout);
+    let is_right = output.status.success() && said.contains("40 conversations");
+    if is_right && said.contains("nothing found") { String::new() } else { format!("{output:?}") }
+}
+
 /// What the program finds is asked again by the program.
-fn as_a_program() -> String {
+fn as_a_program(fuzzed: &[&str], checked: &[&str], devices: &str, fault: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
     let found = folder.path().join("findings.yaml");
     let own = std::env::current_exe().unwrap();
     let run = |arguments: &[&str], fault: &str| {
         let mut command = Command::new(env!("CARGO_BIN_EXE_actucheck"));
         command.args(arguments).arg(&found).arg("--").arg(&own);
-        let output = command.args(["firmware", "ja40@1", fault]).output().unwrap();
+        let output = command.args(["firmware", devices, fault]).output().unwrap();
         (output.status.code(), String::from_utf8_lossy(&output.stdout).into_owned())
     };
-    let fuzz =
-        ["fuzz", "--device", "--answer-within", "100", "--seed", "1", "--cases", "10", "--out"];
-    let replay = ["device", "--device", "ja40", "--replay"];
-    let told = [
-        run(&fuzz, "done-is-1"),
-        run(&replay, "done-is-1"),
-        run(&replay, "none"),
-        run(&fuzz, "none"),
-    ];
+    let fuzz = ["fuzz", "--device", "--answer-within", "100", "--seed", "1", "--cases", "10"];
+    let fuzz = [&fuzz[..], fuzzed, &["--out"]].concat();
+    let replay = [&["device"][..], checked, &["--replay"]].concat();
+    let told = [run(&fuzz, fault), run(&replay, fault), run(&replay, "none"), run(&fuzz, "none")];
     let statuses = told.each_ref().map(|(status, _)| *status);
     if statuses == [Some(1), Some(1), Some(0), Some(0)] {
         String::new()

@@ -42,7 +42,7 @@ pub(crate) struct Probes {
 }
 
 /// Generates requests to a device.
-pub(crate) type Requests = fn(&Target<'_>) -> BoxedStrategy<Vec<Request>>;
+pub(crate) type Requests = fn(&Spec, &Target<'_>) -> BoxedStrategy<Vec<Request>>;
 
 /// Conversations of hosts on a wire.
 #[derive(Clone, Copy)]

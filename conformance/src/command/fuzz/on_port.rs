@@ -10,7 +10,7 @@ use actucheck::blackbox;
 use actucheck::device::Tables;
 use actucheck::port::Place;
 use actucheck::subject::device::Device as Subject;
-use actucheck::suite::device::{Target, ids};
+use actucheck::suite::device::{Target, has_tables, ids};
 use actucheck_spec::Spec;
 use clap::Args;
 
@@ -33,7 +33,7 @@ pub(super) struct OnPort {
     /// The device's control table, as `actucheck device --device` takes it [default: by the model that it tells]
     #[arg(long, value_name = "DEVICE", requires = "device")]
     table: Option<String>,
-    /// The device's ID
+    /// The device's ID, or its address
     #[arg(long, value_name = "ID", default_value_t = 1, requires = "device")]
     id: u8,
     /// The rate of a serial port in bit/s [default: that with which the device leaves the factory, or 57600]
@@ -68,6 +68,10 @@ impl OnPort {
         let all = ids(wire);
         if !all.contains(&self.id) {
             let message = format!("--id is a number from {} to {}", all.start(), all.end());
+            return Err(Failure::usage(message));
+        }
+        if self.table.is_some() && !has_tables(wire) {
+            let message = "devices on this wire have no control table; leave out --table";
             return Err(Failure::usage(message));
         }
         let place = self.place(command)?;
@@ -119,7 +123,7 @@ impl OnPort {
     }
 
     /// The words that ask what was found again.
-    pub(super) fn again(&self, found: &Path) -> Vec<String> {
+    pub(super) fn again(&self, wire: Wire, found: &Path) -> Vec<String> {
         let mut words = vec!["actucheck".to_owned(), "device".to_owned()];
         words.extend(self.port().map(str::to_owned));
         if self.adapter {
@@ -128,6 +132,7 @@ impl OnPort {
         let mut option = |name: &str, value: Option<String>| {
             words.extend(value.into_iter().flat_map(|value| [format!("--{name}"), value]));
         };
+        option("wire", (wire != Wire::default()).then(|| wire.to_string()));
         option("device", self.table.clone());
         option("id", (self.id != 1).then(|| self.id.to_string()));
         option("baud", self.baud.map(|baud| baud.to_string()));

@@ -139,7 +139,7 @@ static WIRES: [Own; 2] = [
         identity: innfos::identity,
         instructions: Some(innfos::INSTRUCTIONS),
         kept: Some(innfos::kept),
-        conversation: None,
+        conversation: Some(innfos::conversation),
     },
 ];
 

@@ -1,5 +1,6 @@
 //! Requests to a device that only read, right ones and damaged ones.
 
+use actucheck_spec::Spec;
 use actucheck_spec::wire::dynamixel2::reference::{BROADCAST, HEADER};
 use actucheck_spec::wire::dynamixel2::{Packet, WIRE};
 use proptest::collection::vec;
@@ -23,7 +24,7 @@ const READ: u8 = 0x02;
 const SYNC: [u8; 2] = [0x82, 0x8A];
 const BULK: u8 = 0x92;
 
-pub(super) fn requests(target: &Target<'_>) -> BoxedStrategy<Vec<Request>> {
+pub(super) fn requests(_spec: &Spec, target: &Target<'_>) -> BoxedStrategy<Vec<Request>> {
     vec(request(target), 1..=MOST).boxed()
 }
 

@@ -1,6 +1,7 @@
 //! Probes of the INNFOS Ethernet protocol, with the reference model's answers.
 
 mod host;
+mod requests;
 
 use actucheck_spec::Spec;
 use actucheck_spec::model::Fault;
@@ -29,7 +30,7 @@ pub(super) const PROBES: Probes = Probes {
     limit: "innfos.frame.length",
     question,
     host: Some(host::PROBES),
-    requests: None,
+    requests: Some(requests::requests),
 };
 
 /// Bytes that could be taken for the first or the last one of a frame, flags, modes, and others.

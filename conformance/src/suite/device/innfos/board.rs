@@ -22,7 +22,6 @@ pub(super) fn basics(talk: &Talk<'_>) -> Vec<Check> {
 
 /// The handshake, the query, and that the actuator is there after them.
 pub(super) fn checks(talk: &Talk<'_>) -> Vec<Check> {
-    let greeted = || answer(ALL, code::HANDSHAKE, vec![yes()]);
     let handshake = || asked(request(ALL, code::HANDSHAKE), 1);
     let alone = talk.check(
         "board.handshake/answer",
@@ -39,8 +38,10 @@ pub(super) fn checks(talk: &Talk<'_>) -> Vec<Check> {
     [alone, echo].into_iter().chain(query(talk)).collect()
 }
 
-fn yes() -> Part {
-    Part::Bits { size: 1, has: Bits { lowest: 0, width: 8, one_of: vec![FLAGS[1]] } }
+/// The board's answer to the handshake.
+pub(super) fn greeted() -> Like {
+    let yes = Part::Bits { size: 1, has: Bits { lowest: 0, width: 8, one_of: vec![FLAGS[1]] } };
+    answer(ALL, code::HANDSHAKE, vec![yes])
 }
 
 /// Every actuator answers the query. One row of answers holds each of them, so that few can be awaited in
@@ -48,7 +49,7 @@ fn yes() -> Part {
 fn query(talk: &Talk<'_>) -> Vec<Check> {
     let present = &talk.target.present;
     let step = || asked(request(ALL, code::QUERY), present.len());
-    if present.len() > MOST {
+    let Some(rows) = found(present) else {
         let question = "Which actuators answer the query?";
         return vec![talk.record(
             "board.query/answers",
@@ -56,6 +57,17 @@ fn query(talk: &Talk<'_>) -> Vec<Check> {
             step(),
             question,
         )];
+    };
+    let check = |about: &str, requirement: &str| {
+        talk.check(&format!("board.query/{about}"), requirement, vec![step()], vec![rows.clone()])
+    };
+    vec![check("answers", "innfos.transport.query"), check("mac", "innfos.query.mac")]
+}
+
+/// What may answer the query if these actuators are there; `None` if they are too many.
+pub(super) fn found(present: &[u8]) -> Option<Vec<Vec<Like>>> {
+    if present.len() > MOST {
+        return None;
     }
     let orders = orders(present);
     let with_mac = |size: usize| {
@@ -65,11 +77,7 @@ fn query(talk: &Talk<'_>) -> Vec<Check> {
         orders.iter().map(row).collect::<Vec<_>>()
     };
     // How long a MAC address is here, is unspecified: it is four bytes or six.
-    let rows: Vec<_> = [4, 6].into_iter().flat_map(with_mac).collect();
-    let check = |about: &str, requirement: &str| {
-        talk.check(&format!("board.query/{about}"), requirement, vec![step()], vec![rows.clone()])
-    };
-    vec![check("answers", "innfos.transport.query"), check("mac", "innfos.query.mac")]
+    Some([4, 6].into_iter().flat_map(with_mac).collect())
 }
 
 /// These addresses in every order.

@@ -11,6 +11,7 @@
 mod board;
 mod frames;
 mod reads;
+mod requests;
 mod writes;
 
 use std::time::Duration;
@@ -83,6 +84,7 @@ pub(super) const INSTRUCTIONS: Instructions = Instructions {
     held: |data| data.get(1..).unwrap_or_default(),
 };
 
+pub(super) use self::requests::conversation;
 pub(super) use self::writes::kept;
 
 /// The handshake with the board, which comes before everything else.

@@ -37,11 +37,17 @@ fn has_two_texts(talk: &Talk<'_>, row: &Command) -> bool {
 }
 
 fn of_row(talk: &Talk<'_>, row: &Command) -> Vec<Check> {
-    let answered = |about: &str, requirement: &str, part: Part| {
+    let answered = |about: &str, (requirement, part): (&str, Part)| {
         let name = format!("read.{:02x}/{about}", row.code);
         let wanted = vec![vec![vec![talk.answer(row.code, vec![part])]]];
         talk.check(&name, requirement, vec![asked(talk.ask(row.code), 1)], wanted)
     };
+    let size = size(talk, row).map(|due| answered("size", due));
+    size.into_iter().chain(value(row).map(|due| answered("value", due))).collect()
+}
+
+/// How long the data of an answer is, and the requirement that says so.
+pub(super) fn size(talk: &Talk<'_>, row: &Command) -> Option<(&'static str, Part)> {
     let requirement = match row.format {
         Some(Format::Alarms) => "innfos.alarms.bits",
         _ if row.code == code::POSITION => "innfos.reply.always",
@@ -49,23 +55,21 @@ fn of_row(talk: &Talk<'_>, row: &Command) -> Vec<Check> {
         _ if has_two_texts(talk, row) => MEANING,
         _ => SIZES,
     };
-    let sizes = row.reply.iter().map(|size| Part::Any(usize::from(*size)));
-    let size = sizes.map(|part| answered("size", requirement, part));
+    Some((requirement, Part::Any(usize::from(*row.reply.first()?))))
+}
+
+/// What the data of an answer may be, and the requirement that says so, if one does.
+pub(super) fn value(row: &Command) -> Option<(&'static str, Part)> {
     let one_of =
         |one_of: Vec<u64>| Part::Bits { size: 1, has: Bits { lowest: 0, width: 8, one_of } };
     let relative = || Part::Between { size: 4, lowest: -WHOLE, highest: WHOLE };
-    let value = match row.format {
-        Some(Format::Flag) => Some(answered("value", "innfos.flag.values", one_of(FLAGS.to_vec()))),
-        Some(Format::Mode) => {
-            Some(answered("value", "innfos.mode.values", one_of(MODES.collect())))
-        }
-        _ if row.name == "Current" => Some(answered("value", "innfos.value.relative", relative())),
-        _ if row.name.contains("loop output") => {
-            Some(answered("value", "innfos.value.output-limit", relative()))
-        }
+    match row.format {
+        Some(Format::Flag) => Some(("innfos.flag.values", one_of(FLAGS.to_vec()))),
+        Some(Format::Mode) => Some(("innfos.mode.values", one_of(MODES.collect()))),
+        _ if row.name == "Current" => Some(("innfos.value.relative", relative())),
+        _ if row.name.contains("loop output") => Some(("innfos.value.output-limit", relative())),
         _ => None,
-    };
-    size.chain(value).collect()
+    }
 }
 
 /// What the tables do not have, after which the actuator is still there.
