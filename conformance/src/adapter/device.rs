@@ -23,16 +23,20 @@ pub enum Permission {
     Eeprom,
     /// It restarts the device, which forgets how many turns it has made.
     Reboot,
-    /// It sets the device back to factory settings, but for ID and rate, and restores what it held.
+    /// It sets the device back to factory settings, and restores what it held. ID and rate are set back only if
+    /// they are those of the factory already.
     Reset,
+    /// It stores the control table in the device's backup area. What was stored there can't be read before, so it is
+    /// not set back.
+    Backup,
     /// It switches torque on and off, and sends the shaft a few degrees on and back.
     Motion,
 }
 
 impl Permission {
     /// All of them, from the least harmful on.
-    pub const ALL: [Self; 5] =
-        [Self::WriteRam, Self::Eeprom, Self::Reboot, Self::Reset, Self::Motion];
+    pub const ALL: [Self; 6] =
+        [Self::WriteRam, Self::Eeprom, Self::Reboot, Self::Reset, Self::Backup, Self::Motion];
 
     /// The word that the command line has for it.
     #[must_use]
@@ -42,6 +46,7 @@ impl Permission {
             Self::Eeprom => "eeprom",
             Self::Reboot => "reboot",
             Self::Reset => "reset",
+            Self::Backup => "backup",
             Self::Motion => "motion",
         }
     }

@@ -8,6 +8,7 @@ pub(crate) const ACTION: u8 = 0x05;
 pub(crate) const FACTORY_RESET: u8 = 0x06;
 pub(crate) const REBOOT: u8 = 0x08;
 pub(crate) const CLEAR: u8 = 0x10;
+pub(crate) const BACKUP: u8 = 0x20;
 pub(crate) const SYNC_READ: u8 = 0x82;
 pub(crate) const SYNC_WRITE: u8 = 0x83;
 pub(crate) const FAST_SYNC_READ: u8 = 0x8A;

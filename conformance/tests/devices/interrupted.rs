@@ -47,9 +47,9 @@ pub(crate) const TESTS: [Test; 9] = [
 const RUNS: usize = 250;
 /// Pieces that a check sends, with what keeps and restores the registers around it, and a few more.
 const PIECES: u64 = 70;
-/// What tells the time, or of a shaft that was stopped on its way.
-const MEASURED: [&str; 4] =
-    ["Realtime Tick", "Moving Status", "Present Position", "Position Trajectory"];
+/// What tells the time, of a shaft that was stopped on its way, or of a backup.
+const MEASURED: [&str; 5] =
+    ["Realtime Tick", "Moving Status", "Present Position", "Position Trajectory", "Backup Ready"];
 /// Bytes of a packet that is cut.
 const BYTES: u64 = 16;
 
@@ -171,7 +171,7 @@ impl Bench {
         device.kept_by(Keeper::new(self.journal.clone(), self.path.clone()))
     }
 
-    /// All that the device holds, but the time, and where a shaft is.
+    /// All that the device holds, but the time, where a shaft is, and whether there is a backup.
     fn table(&self) -> Vec<u8> {
         let Journal { wire, id, layout, .. } = &self.journal;
         let mut line = self.line(u64::MAX, 0);

@@ -10,7 +10,7 @@ use super::every;
 use super::fault::Fault;
 
 /// All that a run may do.
-const ALL: &str = "write-ram,eeprom,reboot,reset,motion";
+const ALL: &str = "write-ram,eeprom,reboot,reset,backup,motion";
 
 /// The verdicts of a run by check, and its exit status.
 pub(crate) struct Run {

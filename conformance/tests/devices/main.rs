@@ -12,6 +12,7 @@
 #![allow(clippy::unwrap_used, clippy::indexing_slicing, clippy::panic)] // tests may stop at a surprise
 #![cfg(unix)]
 
+mod backup;
 mod bad;
 mod change;
 mod code;
@@ -67,6 +68,7 @@ fn every() -> impl Iterator<Item = &'static Fault> {
         effects::FAULTS,
         modes::FAULTS,
         motion::FAULTS,
+        backup::FAULTS,
         innfos::FAULTS,
     ];
     tables.into_iter().flatten()

@@ -44,7 +44,10 @@ fn permission() -> impl clap::builder::TypedValueParser<Value = Option<Permissio
             "restart the device, which forgets how many turns it made, and clears its alarms"
         }
         Permission::Reset => {
-            "set the device back to factory settings, but for ID and rate, and then to what it held"
+            "set the device back to factory settings, and then to what it held; ID and rate only if they are those of the factory already"
+        }
+        Permission::Backup => {
+            "store the control table in the device's backup area; what was stored there before is lost, as it can't be read"
         }
         Permission::Motion => {
             "switch torque on and off, and send the shaft 3 degrees on and back: it must be free to turn, and nothing may be in its way; a run that is cut off leaves it within these degrees, without torque"

@@ -15,7 +15,7 @@ use crate::suite::wanted::{Like, Part};
 /// The option and the key of Clear (DYNAMIXEL Protocol 2.0, Clear).
 const CLEAR: [u8; 5] = [0x01, 0x44, 0x58, 0x4C, 0x22];
 /// The first firmware that has Clear.
-const CLEARS_SINCE: u64 = 42;
+pub(super) const CLEARS_SINCE: u64 = 42;
 /// How many counts a shaft without torque may be moved by in the time of a check.
 pub(super) const STILL: i64 = 64;
 

@@ -11,12 +11,15 @@
 //! - written, registered, stuffed: what is written is held, whoever else is meant, and whatever its bytes are;
 //! - range, limit, access, length: what can't be written;
 //! - restart: what a restart or a reset leaves, and what torque locks;
+//! - backup: what Control Table Backup stores and restores;
 //! - motion: a shaft on its way to a goal, and at the end of it.
 
 mod access;
 mod addressee;
+mod backup;
 mod damaged;
 mod effects;
+mod factory;
 mod identity;
 mod level;
 mod limits;
@@ -55,6 +58,7 @@ mod code {
     pub(super) const FACTORY_RESET: u8 = 0x06;
     pub(super) const REBOOT: u8 = 0x08;
     pub(super) const CLEAR: u8 = 0x10;
+    pub(super) const BACKUP: u8 = 0x20;
     pub(super) const SYNC_READ: u8 = 0x82;
     pub(super) const SYNC_WRITE: u8 = 0x83;
     pub(super) const FAST_SYNC_READ: u8 = 0x8A;
@@ -92,7 +96,8 @@ pub(super) fn families<'a>(author: Author<'a>, target: &Target<'a>) -> Vec<Famil
         family("stream", damaged::in_streams),
         family("several", several::checks),
         family("sentence", |talk| {
-            [sentences::checks(talk), effects::checks(talk), modes::checks(talk)].concat()
+            let own = [sentences::checks, effects::checks, modes::checks];
+            own.into_iter().flat_map(|checks| checks(talk)).collect()
         }),
         family("level", level::checks),
         family("written", |talk| [written::kept(talk), written::several(talk)].concat()),
@@ -103,8 +108,9 @@ pub(super) fn families<'a>(author: Author<'a>, target: &Target<'a>) -> Vec<Famil
         family("access", access::checks),
         family("length", access::lengths),
         family("restart", restart::reboot),
-        family("reset", restart::reset),
+        family("reset", |talk| [restart::reset(talk), factory::checks(talk)].concat()),
         family("lock", restart::lock),
+        family("backup", backup::checks),
         family("motion", motion::checks),
     ]
 }

@@ -23,7 +23,7 @@ pub(super) fn back(talk: &Talk<'_>) -> Step {
 }
 
 /// Registers that must hold their initial values, each in a step.
-fn initial<'t>(
+pub(super) fn initial<'t>(
     talk: &'t Talk<'_>,
     is_meant: impl Fn(&Register) -> bool + 't,
 ) -> impl Iterator<Item = Step> + 't {
