@@ -64,6 +64,8 @@ pub enum Part {
         /// The bits.
         has: Bits,
     },
+    /// No bytes, in an answer that has the alert.
+    Alert,
     /// A register of so many bytes that is not 0 exactly if the answer has the alert.
     Alarms(usize),
     /// A signed number of so many bytes, high byte first, between two others.
@@ -253,6 +255,7 @@ impl Part {
             | Self::Given { size, .. }
             | Self::Bits { size, .. } => *size,
             Self::Moved { .. } | Self::Number { .. } => size_of::<i32>(),
+            Self::Alert => 0,
         }
     }
 
@@ -260,6 +263,7 @@ impl Part {
         match self {
             Self::Bytes(expected) => expected.0 == bytes,
             Self::Any(_) | Self::Given { .. } => true,
+            Self::Alert => alert,
             Self::Alarms(_) => bytes.iter().any(|byte| *byte != 0) == alert,
             Self::Same { step, from, count } => {
                 let earlier = all.get(*step).and_then(|told| told.answers.first()?.data.as_ref());
@@ -318,6 +322,7 @@ impl fmt::Display for Part {
         match self {
             Self::Bytes(bytes) => write!(f, "data {bytes}"),
             Self::Alarms(size) => write!(f, "{size} bytes, which are 0 unless there is the alert"),
+            Self::Alert => f.write_str("the alert"),
             Self::Any(1) => f.write_str("1 byte"),
             Self::Any(size) => write!(f, "{size} bytes"),
             Self::Same { step, .. } => write!(f, "what step {} told", step + 1),

@@ -12,6 +12,7 @@
 #![allow(clippy::unwrap_used, clippy::indexing_slicing, clippy::panic)] // tests may stop at a surprise
 #![cfg(unix)]
 
+mod alarm;
 mod backup;
 mod bad;
 mod change;
@@ -69,6 +70,7 @@ fn every() -> impl Iterator<Item = &'static Fault> {
         modes::FAULTS,
         motion::FAULTS,
         backup::FAULTS,
+        alarm::FAULTS,
         innfos::FAULTS,
     ];
     tables.into_iter().flatten()

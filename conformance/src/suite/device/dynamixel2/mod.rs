@@ -11,11 +11,13 @@
 //! - written, registered, stuffed: what is written is held, whoever else is meant, and whatever its bytes are;
 //! - range, limit, access, length: what can't be written;
 //! - restart: what a restart or a reset leaves, and what torque locks;
+//! - alarm: what a hardware error shows in a register and in every answer;
 //! - backup: what Control Table Backup stores and restores;
 //! - motion: a shaft on its way to a goal, and at the end of it.
 
 mod access;
 mod addressee;
+mod alarm;
 mod backup;
 mod damaged;
 mod effects;
@@ -110,6 +112,7 @@ pub(super) fn families<'a>(author: Author<'a>, target: &Target<'a>) -> Vec<Famil
         family("restart", restart::reboot),
         family("reset", |talk| [restart::reset(talk), factory::checks(talk)].concat()),
         family("lock", restart::lock),
+        family("alarm", alarm::checks),
         family("backup", backup::checks),
         family("motion", motion::checks),
     ]
