@@ -114,10 +114,10 @@ fn tests() -> ExitCode {
 }
 
 fn print_table() -> ExitCode {
-    println!("| fault | the device | found by |");
-    println!("|---|---|---|");
+    println!("| fault | of | the device | found by |");
+    println!("|---|---|---|---|");
     for row in every() {
-        println!("| `{}` | {} | `{}` |", row.name, row.does, row.found_by);
+        println!("| `{}` | `{}` | {} | `{}` |", row.name, row.devices, row.does, row.found_by);
     }
     ExitCode::SUCCESS
 }

@@ -9,6 +9,9 @@ use crate::adapter::Asked;
 use crate::suite::check::Check;
 use crate::suite::wanted::{Like, Part};
 
+/// How many devices long packets name.
+const MANY: [usize; 3] = [16, 64, 240];
+
 /// An instruction that reads from several devices.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Kind {
@@ -101,6 +104,22 @@ pub(super) fn checks(talk: &Talk<'_>) -> Vec<Check> {
     own(talk).flat_map(|kind| of_kind(talk, kind, range)).collect()
 }
 
+/// How it answers a long packet that names it first, and others that are not there. How long a packet it must take is
+/// nowhere said, so it is recorded. The shared answer of a Fast Sync Read would have no end.
+fn many(talk: &Talk<'_>, kind: Kind, range: (u16, u16), count: usize) -> Option<Check> {
+    let others = super::super::ids(WIRE).filter(|id| !talk.target.present.contains(id));
+    let ids: Vec<u8> = [talk.id()].into_iter().chain(others).take(count).collect();
+    let packet = kind.packet(BROADCAST, &ids, range);
+    (kind != Kind::FastSync).then(|| {
+        talk.record(
+            named(&format!("several.{}.of-{count}/answer", kind.word())),
+            &kind.rows("parameters"),
+            vec![talk.packet_then_ping(packet)],
+            &format!("How does it answer a {} of {count} devices?", kind.name()),
+        )
+    })
+}
+
 fn of_kind(talk: &Talk<'_>, kind: Kind, range: (u16, u16)) -> Vec<Check> {
     let (id, absent, word, size) = (talk.id(), talk.absent(), kind.word(), range.1);
     let silence = talk.check(
@@ -121,6 +140,7 @@ fn of_kind(talk: &Talk<'_>, kind: Kind, range: (u16, u16)) -> Vec<Check> {
         vec![talk.packet_then_ping(kind.packet(id, &[id], range))],
         &format!("How does it answer a {} to its own ID?", kind.name()),
     );
+    let many = MANY.map(|count| many(talk, kind, range, count));
     let part = Part::Same { step: 0, from: 0, count: size.into() };
     let as_read = talk.check(
         named(&format!("several.{word}.as-read/data")),
@@ -129,6 +149,7 @@ fn of_kind(talk: &Talk<'_>, kind: Kind, range: (u16, u16)) -> Vec<Check> {
         vec![vec![vec![data(id, size)]], vec![vec![talk.done(part)]]],
     );
     let mut checks = vec![silence, missing, own_id, as_read];
+    checks.extend(many.into_iter().flatten());
     let Some(neighbour) = talk.target.neighbour else { return checks };
     for (name, ids) in [("first", [id, neighbour]), ("second", [neighbour, id])] {
         checks.push(talk.check(
