@@ -35,7 +35,7 @@ use self::lane::{Heard, Lane, Shared};
 use self::probe::Probe;
 use self::source::{Drawn, Source};
 use self::topic::Topics;
-use crate::adapter::{Hello, Wire};
+use crate::adapter::{Hello, Permissions, Wire};
 use crate::subject::Subject;
 use crate::suite::Author;
 use crate::suite::check::Check;
@@ -75,15 +75,15 @@ pub enum Asks<'a> {
     Codec,
     /// A host, in conversations.
     Host,
-    /// This device, in conversations. It is only read.
-    Device(&'a Target<'a>),
+    /// This device, in conversations that are allowed.
+    Device(&'a Target<'a>, &'a Permissions),
 }
 
 impl<'a> Asks<'a> {
-    /// The device, if one is asked.
-    const fn target(self) -> Option<&'a Target<'a>> {
+    /// The device, if one is asked, and what may be done to it.
+    const fn device(self) -> Option<(&'a Target<'a>, &'a Permissions)> {
         match self {
-            Self::Device(target) => Some(target),
+            Self::Device(target, allowed) => Some((target, allowed)),
             Self::Codec | Self::Host => None,
         }
     }
@@ -130,8 +130,8 @@ pub fn fuzz(
     };
     let mut lanes: Vec<_> =
         subjects.iter_mut().map(|subject| Lane::new(subject.as_mut())).collect();
-    let target = options.asks.target();
-    let scope = Scope { author: Author { spec, wire: options.wire }, hello: &hello, target };
+    let device = options.asks.device();
+    let scope = Scope { author: Author { spec, wire: options.wire }, hello: &hello, device };
     let Some(source) = Source::new(&scope, options) else {
         let given_up = Some(format!("the adapter offers no op of {}", options.wire));
         return Fuzzed { given_up, ..Fuzzed::default() };
@@ -159,8 +159,8 @@ pub fn fuzz(
 /// Checks of the first probes, `cases` at most.
 #[must_use]
 pub fn checks(spec: &Spec, options: &Options<'_>, hello: &Hello) -> Vec<Check> {
-    let target = options.asks.target();
-    let scope = Scope { author: Author { spec, wire: options.wire }, hello, target };
+    let device = options.asks.device();
+    let scope = Scope { author: Author { spec, wire: options.wire }, hello, device };
     let Some(mut source) = Source::new(&scope, options) else { return Vec::new() };
     let cases = usize::try_from(options.cases).unwrap_or(usize::MAX);
     let rows = std::iter::repeat_with(|| source.draw(|_| true)).take(cases);
@@ -184,14 +184,14 @@ fn ask(lanes: &mut [Lane<'_>], shared: &Shared<'_>) {
 struct Scope<'a> {
     author: Author<'a>,
     hello: &'a Hello,
-    /// The device that is asked, if it is one.
-    target: Option<&'a Target<'a>>,
+    /// The device that is asked, if it is one, and what may be done to it.
+    device: Option<(&'a Target<'a>, &'a Permissions)>,
 }
 
 impl Scope<'_> {
     /// The check of a probe; `None` if there is no right answer.
     fn check(&self, probe: &Probe, id: String) -> Option<Check> {
-        probe.check(&self.author, (self.hello, self.target), id)
+        probe.check(&self.author, (self.hello, self.device), id)
     }
 
     /// What a probe is about.
@@ -225,7 +225,7 @@ impl Fuzzer<'_> {
     fn draw(&mut self, options: &Options<'_>, lanes: &mut [Lane<'_>]) {
         let batch = match options.asks {
             Asks::Codec => BATCH,
-            Asks::Host | Asks::Device(_) => BATCH_OF_CONVERSATIONS,
+            Asks::Host | Asks::Device(..) => BATCH_OF_CONVERSATIONS,
         };
         let mut left = batch.min(options.cases.saturating_sub(self.result.asked));
         let (mut turn, mut fruitless) = (0, 0);

@@ -16,7 +16,7 @@ use super::payload::payload;
 use super::talk::Talk;
 use super::topic::Topic;
 use super::wire::{self, Probes};
-use crate::adapter::{Hello, Limits, Output, Question};
+use crate::adapter::{Hello, Limits, Output, Permissions, Question};
 use crate::suite::Author;
 use crate::suite::check::{Check, Demand};
 use crate::suite::device::{Target, conversation};
@@ -124,11 +124,11 @@ pub(super) fn strategy(
 
 /// Generates requests to a device.
 pub(super) fn requests(
-    spec: &Spec,
-    wire: Wire,
+    author: Author<'_>,
     target: &Target<'_>,
+    allowed: &Permissions,
 ) -> Option<BoxedStrategy<Vec<Probe>>> {
-    let requests = (wire::of(wire)?.requests?)(spec, target);
+    let requests = (wire::of(author.wire)?.requests?)(author, target, allowed);
     Some(requests.prop_map(Probe::Ask).prop_map(alone).boxed())
 }
 
@@ -299,12 +299,12 @@ impl Probe {
     pub(super) fn check(
         &self,
         author: &Author<'_>,
-        (hello, target): (&Hello, Option<&Target<'_>>),
+        (hello, device): (&Hello, Option<(&Target<'_>, &Permissions)>),
         id: String,
     ) -> Option<Check> {
         if let Self::Ask(requests) = self {
             let pieces: Vec<_> = requests.iter().map(Request::pieces).collect::<Option<_>>()?;
-            let (requirement, question, demand) = conversation(*author, target?, &pieces)?;
+            let (requirement, question, demand) = conversation(*author, device?, &pieces)?;
             return Some(author.check(id, &requirement, question, demand));
         }
         let probes = wire::of(author.wire)?;

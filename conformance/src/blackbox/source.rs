@@ -28,7 +28,7 @@ impl<'a> Source<'a> {
         let strategy = match options.asks {
             Asks::Codec => probe::strategy(spec, wire, scope.hello)?,
             Asks::Host => probe::conversations(spec, wire, scope.hello)?,
-            Asks::Device(target) => probe::requests(spec, wire, target)?,
+            Asks::Device(target, allowed) => probe::requests(scope.author, target, allowed)?,
         };
         Some(Self { scope, strategy, runner: runner(seed), seed, drawn: 0 })
     }

@@ -3,7 +3,7 @@
 pub(crate) mod open;
 mod plan;
 mod restore;
-mod writing;
+pub(crate) mod writing;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -14,15 +14,14 @@ use std::time::Duration;
 
 use actucheck::adapter::Wire;
 use actucheck::device::Tables;
-use actucheck::journal::Layout;
 use actucheck::port::Place;
-use actucheck::subject::device::{Device as Subject, Keeper, Kept, Line};
+use actucheck::subject::device::{Device as Subject, Line};
 use actucheck::suite::check::Check;
-use actucheck::suite::device::{Target, has_tables, ids, is_checked, kept};
+use actucheck::suite::device::{Target, has_tables, ids, is_checked};
 use actucheck::suite::plan::Plan;
 use actucheck::suite::saved;
 use actucheck::suite::{self, Options};
-use actucheck_spec::{Spec, model};
+use actucheck_spec::Spec;
 use clap::{Args, Subcommand};
 
 use super::ENDED;
@@ -31,6 +30,7 @@ use super::shared::{
 };
 use open::{BAUD, Found, Opening, factory_rate, name_of, table_of};
 use plan::{BEGINS, Effort};
+use writing::{At, Writing, layout};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -101,7 +101,7 @@ pub(crate) struct Device {
     #[arg(long, value_name = "MS", default_value = "500", value_parser = milliseconds)]
     answer_within: Duration,
     #[command(flatten)]
-    writing: writing::Writing,
+    writing: Writing,
     /// Ask only the checks of this file, as `actucheck fuzz --device` writes it
     #[arg(long, value_name = "FILE", conflicts_with = "dry_run")]
     replay: Option<PathBuf>,
@@ -150,15 +150,7 @@ pub(crate) fn run(options: &Device) -> Result<ExitCode, Failure> {
     });
     let Some(subject) = subject else { return status };
     // Whatever became of the run: a device that was written to is restored.
-    let kept = match subject.end() {
-        Some(Kept::Left(sentence)) => Err(Failure::incomplete(sentence)),
-        Some(Kept::Restored) => {
-            let said = "the device holds what it held before; that was read back";
-            anstream::eprintln!("actucheck: {said}");
-            Ok(())
-        }
-        None => Ok(()),
-    };
+    let kept = writing::end(&subject);
     let status = match (status, &kept) {
         (Err(failure), Err(left)) => return Err(failure.and(left)),
         (status, _) => status?,
@@ -235,15 +227,8 @@ impl Device {
             Some(library) => subject.of_library(library),
             None => subject,
         };
-        let subject = match layout(spec, wire, device).filter(|_| !allowed.only_read()) {
-            Some(layout) => {
-                let at = writing::At { wire, place: &place, baud, id, model: said.model_number };
-                let word = device.map_or(wire.id(), |device| &device.device);
-                let (journal, path) = self.writing.journal((word, name), layout, &at);
-                subject.kept_by(Keeper::new(journal, path))
-            }
-            None => subject,
-        };
+        let at = At { wire, place: &place, baud, id, model: said.model_number };
+        let subject = self.writing.keep(subject, spec, device, &at);
         let target = Target { id, device, neighbour: self.neighbour, present };
         let planned = match &self.replay {
             Some(path) => replayed(wire, saved::read(path).map_err(Failure::usage)?),
@@ -325,9 +310,4 @@ fn planned<'a>(spec: &'a Spec, wire: Wire, target: &Target<'a>) -> Planned<'a> {
     let plan = || suite::device_plan(spec, &[wire], target);
     let (wires, records) = (vec![wire], BTreeMap::new());
     Planned { wires, plan: plan(), widest: plan(), records, options: Options::new() }
-}
-
-/// What is kept of a device while it is written to.
-fn layout(spec: &Spec, wire: Wire, device: Option<&model::Device>) -> Option<Layout> {
-    device.map(Layout::of).or_else(|| kept(wire, spec).map(Layout::of_values))
 }

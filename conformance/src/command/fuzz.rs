@@ -12,7 +12,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use actucheck::adapter::{Hello, Wire};
+use actucheck::adapter::{Hello, Permissions, Wire};
 use actucheck::blackbox::{self, Asks, Finding, Fuzzed, fuzz};
 use actucheck::legible::{LONGEST_TEXT, legible};
 use actucheck::report::screen::{self, Detail};
@@ -25,6 +25,8 @@ use clap::builder::ArgPredicate;
 use indicatif::ProgressBar;
 
 use super::ENDED;
+#[cfg(unix)]
+use super::device::writing::end;
 use super::shared::{self, Adapter, Failure, Look, Subjects, duration, wire};
 
 const EXAMPLES: &str = "\
@@ -61,7 +63,9 @@ is told, but is no failure: a machine may be too busy for a host that does not w
 
 With --device a probe is a conversation of one to six requests to a device: Ping, Read of any registers or \
 addresses, undefined instructions, packets to others, damaged packets, and noise; with --wire innfos each command \
-that reads, the board's handshake and query, and damaged datagrams. Nothing is sent that could be \
+that reads, the board's handshake and query, and damaged datagrams. With --allow write-ram registers of the RAM area \
+that do nothing by themselves are written too, by every instruction that writes, while torque is off; the device \
+holds afterwards what it held before, as after `actucheck device`. Nothing else is sent that could be \
 taken for an instruction that changes something. What must come back is what the documents say, and of stored \
 registers and values that they stay as they are; what the documents leave unspecified is not judged.
 
@@ -122,7 +126,7 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
     shared::Target::all_differ(options.adapter.trace().into_iter().chain([options.out.as_path()]))?;
     let out = shared::Target::new(&options.out)?;
     let interrupted = shared::interrupted()?;
-    let (mut subjects, target) = options.begin(&spec, &interrupted)?;
+    let Begun { mut subjects, device, end } = options.begin(&spec, &interrupted)?;
     let hello = subjects.hello.clone();
     if !hello.wires.iter().any(|id| id == options.wire.id()) {
         return Err(shared::not_offered(options.wire, &hello));
@@ -130,8 +134,8 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
     if options.host {
         has_port(&hello, options.wire)?;
     }
-    let asks = match &target {
-        Some(target) => Asks::Device(target),
+    let asks = match &device {
+        Some((target, allowed)) => Asks::Device(target, allowed),
         None if options.host => Asks::Host,
         None => Asks::Codec,
     };
@@ -154,6 +158,7 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
     progress.finish_and_clear();
     // What cannot be written is told after the findings.
     let (log, traced) = subjects.end();
+    let restored = end();
     let kept = keep(out, &fuzzed.findings);
     let took = started.elapsed();
     let found = fuzzed.findings.iter();
@@ -181,7 +186,7 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
     let written = show(&report, &fuzzed, options.look, &mut out)
         .and_then(|()| summary(options, seed, &fuzzed, kept.is_ok(), took, &mut out));
     let written = shared::printed(written);
-    [kept, traced].into_iter().fold(written, shared::both)?;
+    [kept, traced, restored].into_iter().fold(written, shared::both)?;
     if let Some(reason) = &fuzzed.given_up {
         let last = log.lines().last().map(|line| format!("; it said `{line}`")).unwrap_or_default();
         return Err(Failure::incomplete(legible(&format!("{reason}{last}"), LONGEST_TEXT)));
@@ -286,6 +291,21 @@ fn summary(
     writeln!(out, "{} {asked} in {seconds:.1} s, seed {seed}: {found}", fuzzed.asked)
 }
 
+/// Who is asked.
+struct Begun<'s> {
+    subjects: Subjects,
+    /// The device if it is one, and what may be done to it.
+    device: Option<(Target<'s>, Permissions)>,
+    /// Sets the device back if it was written to.
+    end: Box<dyn Fn() -> Result<(), Failure>>,
+}
+
+impl From<Subjects> for Begun<'_> {
+    fn from(subjects: Subjects) -> Self {
+        Self { subjects, device: None, end: Box::new(|| Ok(())) }
+    }
+}
+
 impl Fuzz {
     /// Who is asked, and the device if it is one.
     #[cfg(unix)]
@@ -293,13 +313,18 @@ impl Fuzz {
         &self,
         spec: &'s Spec,
         interrupted: &Arc<AtomicBool>,
-    ) -> Result<(Subjects, Option<Target<'s>>), Failure> {
+    ) -> Result<Begun<'s>, Failure> {
         if self.on_port.is_chosen() {
             let command = &self.adapter.command;
-            let (device, target) = self.on_port.begin(self.wire, command, spec, interrupted)?;
-            return Ok((Subjects::of(device), Some(target)));
+            let (device, target, allowed) =
+                self.on_port.begin(self.wire, command, spec, interrupted)?;
+            return Ok(Begun {
+                subjects: Subjects::of(device.clone()),
+                device: Some((target, allowed)),
+                end: Box::new(move || end(&device)),
+            });
         }
-        Ok((self.start(interrupted)?, None))
+        Ok(self.start(interrupted)?.into())
     }
 
     /// Who is asked. There are no ports on this system.
@@ -308,8 +333,8 @@ impl Fuzz {
         &self,
         _spec: &'s Spec,
         interrupted: &Arc<AtomicBool>,
-    ) -> Result<(Subjects, Option<Target<'s>>), Failure> {
-        Ok((self.start(interrupted)?, None))
+    ) -> Result<Begun<'s>, Failure> {
+        Ok(self.start(interrupted)?.into())
     }
 
     fn start(&self, interrupted: &Arc<AtomicBool>) -> Result<Subjects, Failure> {

@@ -10,7 +10,7 @@ use proptest::prelude::BoxedStrategy;
 use super::ask::Request;
 use super::probe::Probe;
 use super::talk::{Exchange, Talk};
-use crate::adapter::{Hello, Limits, Question};
+use crate::adapter::{Hello, Limits, Permissions, Question};
 use crate::suite::Author;
 use crate::suite::check::Demand;
 use crate::suite::device::Target;
@@ -42,7 +42,7 @@ pub(crate) struct Probes {
 }
 
 /// Generates requests to a device.
-pub(crate) type Requests = fn(&Spec, &Target<'_>) -> BoxedStrategy<Vec<Request>>;
+pub(crate) type Requests = fn(Author<'_>, &Target<'_>, &Permissions) -> BoxedStrategy<Vec<Request>>;
 
 /// Conversations of hosts on a wire.
 #[derive(Clone, Copy)]

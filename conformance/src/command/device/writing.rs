@@ -7,14 +7,18 @@ use actucheck::adapter::{Permission, Permissions, Wire};
 use actucheck::journal::{Journal, Layout, Snapshot, VERSION};
 use actucheck::names::as_word;
 use actucheck::port::Place;
+use actucheck::subject::device::{Device, Keeper, Kept};
+use actucheck::suite::device::kept;
+use actucheck_spec::{Spec, model};
 use chrono::{DateTime, SecondsFormat, Utc};
 use clap::Args;
 
-use super::super::shared::one_of;
+use super::super::shared::{Failure, one_of};
+use super::open::name_of;
 
 /// What may be done to the device.
 #[derive(Debug, Args)]
-pub(super) struct Writing {
+pub(crate) struct Writing {
     /// What a run may do beside reading; several with commas, or given more than once. None of them contains
     /// another
     #[arg(long, value_name = "WHAT", value_delimiter = ',', value_parser = permission())]
@@ -26,12 +30,34 @@ pub(super) struct Writing {
 }
 
 /// Where a device is.
-pub(super) struct At<'a> {
-    pub(super) wire: Wire,
-    pub(super) place: &'a Place,
-    pub(super) baud: u32,
-    pub(super) id: u8,
-    pub(super) model: Option<u16>,
+pub(crate) struct At<'a> {
+    pub(crate) wire: Wire,
+    pub(crate) place: &'a Place,
+    pub(crate) baud: u32,
+    pub(crate) id: u8,
+    /// The model number that it told.
+    pub(crate) model: Option<u16>,
+}
+
+/// What is kept of a device while it is written to.
+pub(super) fn layout(spec: &Spec, wire: Wire, device: Option<&model::Device>) -> Option<Layout> {
+    device.map(Layout::of).or_else(|| kept(wire, spec).map(Layout::of_values))
+}
+
+/// Sets a device back that was written to, and tells that.
+///
+/// # Errors
+/// If it does not hold what it held.
+pub(crate) fn end(subject: &Device) -> Result<(), Failure> {
+    match subject.end() {
+        Some(Kept::Left(sentence)) => Err(Failure::incomplete(sentence)),
+        Some(Kept::Restored) => {
+            let said = "the device holds what it held before; that was read back";
+            anstream::eprintln!("actucheck: {said}");
+            Ok(())
+        }
+        None => Ok(()),
+    }
 }
 
 fn permission() -> impl clap::builder::TypedValueParser<Value = Option<Permission>> {
@@ -59,12 +85,27 @@ fn permission() -> impl clap::builder::TypedValueParser<Value = Option<Permissio
 }
 
 impl Writing {
-    pub(super) fn allowed(&self) -> Permissions {
+    pub(crate) fn allowed(&self) -> Permissions {
         self.allow.iter().flatten().copied().collect()
     }
 
+    /// Lets what the device holds be kept, if it may be written to.
+    pub(crate) fn keep(
+        &self,
+        subject: Device,
+        spec: &Spec,
+        device: Option<&model::Device>,
+        at: &At<'_>,
+    ) -> Device {
+        let layout = layout(spec, at.wire, device).filter(|_| !self.allowed().only_read());
+        let Some(layout) = layout else { return subject };
+        let word = device.map_or(at.wire.id(), |device| &device.device);
+        let (journal, path) = self.journal((word, name_of(at.wire, device)), layout, at);
+        subject.kept_by(Keeper::new(journal, path))
+    }
+
     /// The journal of a device with this word in file names and this title, which holds nothing yet, and its file.
-    pub(super) fn journal(
+    fn journal(
         &self,
         (word, title): (&str, &str),
         layout: Layout,

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-use actucheck::adapter::{Permissions, Wire};
+use actucheck::adapter::{Permission, Permissions, Wire};
 use actucheck::blackbox;
 use actucheck::device::Tables;
 use actucheck::port::Place;
@@ -15,6 +15,7 @@ use actucheck_spec::Spec;
 use clap::Args;
 
 use super::super::device::open::{Found, Opening, name_of};
+use super::super::device::writing::{At, Writing};
 use super::super::shared::{Failure, milliseconds};
 
 /// What stands for no port: COMMAND is the device.
@@ -22,8 +23,9 @@ const NO_PORT: &str = "";
 
 /// Where a device is, and which one.
 #[derive(Debug, Args)]
+#[command(mut_arg("allow", |arg| arg.requires("device")), mut_arg("journal", |arg| arg.requires("device")))]
 pub(super) struct OnPort {
-    /// Fuzz a device, which is only read: firmware on this port, as `actucheck device` takes it; without PORT,
+    /// Fuzz a device: firmware on this port, as `actucheck device` takes it; without PORT,
     /// COMMAND is firmware that speaks raw bytes on its standard input and output
     #[arg(
         long, value_name = "PORT", num_args = 0..=1, default_missing_value = NO_PORT,
@@ -42,6 +44,8 @@ pub(super) struct OnPort {
     /// How many milliseconds an answer of the device is awaited
     #[arg(long, value_name = "MS", default_value = "500", requires = "device", value_parser = milliseconds)]
     answer_within: Duration,
+    #[command(flatten)]
+    writing: Writing,
     /// COMMAND is an adapter with the op `device`, as for a library's class of a device
     #[arg(long, requires = "device")]
     adapter: bool,
@@ -53,14 +57,14 @@ impl OnPort {
         self.device.is_some()
     }
 
-    /// Opens the port, and looks who is there. Nothing is ever written.
+    /// Opens the port, and looks who is there.
     pub(super) fn begin<'s>(
         &self,
         wire: Wire,
         command: &[String],
         spec: &'s Spec,
         interrupted: &Arc<AtomicBool>,
-    ) -> Result<(Subject, Target<'s>), Failure> {
+    ) -> Result<(Subject, Target<'s>, Permissions), Failure> {
         if !blackbox::has_requests(wire) {
             let message = format!("there are no conversations with devices on {wire} yet");
             return Err(Failure::usage(message));
@@ -74,6 +78,7 @@ impl OnPort {
             let message = "devices on this wire have no control table; leave out --table";
             return Err(Failure::usage(message));
         }
+        let allowed = self.allowed(wire)?;
         let place = self.place(command)?;
         let tables = self.table.as_deref().map(str::parse).transpose().map_err(Failure::usage)?;
         let mut tables: Tables = tables.unwrap_or_default();
@@ -85,17 +90,35 @@ impl OnPort {
             limit: self.answer_within,
             id: self.id,
         };
-        let Found { line, library, device, said, present, .. } =
+        let Found { line, library, device, said, present, baud } =
             opening.find(spec, &mut tables, interrupted)?;
         let firmware = said.firmware_version;
         let firmware = firmware.map_or_else(String::new, |version| format!("firmware {version}"));
         let name = format!("{}, ID {}", name_of(wire, device), self.id);
-        let subject = Subject::new(name, firmware, line, Permissions::READ);
+        let subject = Subject::new(name, firmware, line, allowed.clone());
         let subject = match library {
             Some(library) => subject.of_library(library),
             None => subject,
         };
-        Ok((subject, Target { id: self.id, device, neighbour: None, present }))
+        let at = At { wire, place: &place, baud, id: self.id, model: said.model_number };
+        let subject = self.writing.keep(subject, spec, device, &at);
+        Ok((subject, Target { id: self.id, device, neighbour: None, present }, allowed))
+    }
+
+    /// What requests may do: only what is written to registers of the RAM area is decided for any request.
+    fn allowed(&self, wire: Wire) -> Result<Permissions, Failure> {
+        let allowed = self.writing.allowed();
+        if !allowed.without(&[Permission::WriteRam].into()).only_read() {
+            return Err(Failure::usage(
+                "requests write registers of the RAM area at most; give no other --allow than write-ram",
+            ));
+        }
+        if !has_tables(wire) && !allowed.only_read() {
+            return Err(Failure::usage(
+                "requests to devices on this wire only read; leave out --allow",
+            ));
+        }
+        Ok(allowed)
     }
 
     /// The port, if it is on one.
@@ -136,6 +159,8 @@ impl OnPort {
         option("device", self.table.clone());
         option("id", (self.id != 1).then(|| self.id.to_string()));
         option("baud", self.baud.map(|baud| baud.to_string()));
+        let allowed = self.writing.allowed();
+        option("allow", (!allowed.only_read()).then(|| allowed.to_string()));
         option("replay", Some(found.display().to_string()));
         words
     }

@@ -19,7 +19,7 @@ use actucheck_spec::wire::{self, Packet};
 use super::Author;
 use super::check::Demand;
 use super::plan::Family;
-use crate::adapter::{Asked, Question, Reported, Wire};
+use crate::adapter::{Asked, Permissions, Question, Reported, Wire};
 use crate::bus;
 use crate::journal::Place;
 
@@ -86,8 +86,11 @@ struct Own {
 }
 
 /// Writes a question and what must come back, of requests that are each sent in pieces.
-type Conversation =
-    fn(Author<'_>, &Target<'_>, &[Vec<Vec<u8>>]) -> Option<(String, Question, Demand)>;
+type Conversation = fn(
+    Author<'_>,
+    (&Target<'_>, &Permissions),
+    &[Vec<Vec<u8>>],
+) -> Option<(String, Question, Demand)>;
 
 /// The packets by which registers are read and set back.
 #[derive(Clone, Copy, Debug)]
@@ -226,14 +229,14 @@ pub fn kept(wire: Wire, spec: &Spec) -> Option<Vec<Place>> {
 }
 
 /// The requirement that the last of these requests is about, the question that asks them all, and what must
-/// come back; each request is the pieces that are sent. `None` if one of them might change something, or if
-/// the documents leave unspecified what answers it.
+/// come back; each request is the pieces that are sent. `None` if one of them might change something that it may
+/// not, or if the documents leave unspecified what answers it.
 pub(crate) fn conversation(
     author: Author<'_>,
-    target: &Target<'_>,
+    device: (&Target<'_>, &Permissions),
     requests: &[Vec<Vec<u8>>],
 ) -> Option<(String, Question, Demand)> {
-    (own(author.wire)?.conversation?)(author, target, requests)
+    (own(author.wire)?.conversation?)(author, device, requests)
 }
 
 /// The ids of the basic checks that an answer rests on: that the device answers at all, and for each call

@@ -5,6 +5,7 @@ mod host;
 mod packets;
 mod requests;
 mod smaller;
+mod writes;
 
 use actucheck_spec::Spec;
 use actucheck_spec::model::Fault;

@@ -1,18 +1,21 @@
 //! Requests to a device that only read, right ones and damaged ones.
 
-use actucheck_spec::Spec;
 use actucheck_spec::wire::dynamixel2::reference::{BROADCAST, HEADER};
 use actucheck_spec::wire::dynamixel2::{Packet, WIRE};
 use proptest::collection::vec;
 use proptest::prelude::{BoxedStrategy, Just, Strategy, any};
 use proptest::prop_oneof;
 use proptest::sample::select;
+use proptest::strategy::Union;
 
 use super::packets::{address, length, packet_of};
+use super::writes::{reads_back, writes};
+use crate::adapter::{Permission, Permissions};
 use crate::blackbox::ask::Request;
 use crate::blackbox::probe::{Part, damages};
+use crate::suite::Author;
 use crate::suite::device::Target;
-use crate::suite::device::dynamixel2::UNDEFINED;
+use crate::suite::device::dynamixel2::{UNDEFINED, places};
 use crate::suite::random::data;
 
 /// How many requests a conversation has at most.
@@ -24,24 +27,46 @@ const READ: u8 = 0x02;
 const SYNC: [u8; 2] = [0x82, 0x8A];
 const BULK: u8 = 0x92;
 
-pub(super) fn requests(_spec: &Spec, target: &Target<'_>) -> BoxedStrategy<Vec<Request>> {
-    vec(request(target), 1..=MOST).boxed()
+pub(super) fn requests(
+    author: Author<'_>,
+    target: &Target<'_>,
+    allowed: &Permissions,
+) -> BoxedStrategy<Vec<Request>> {
+    let reads = vec(request(own(target), target), 1..=MOST);
+    let places = places(author, target);
+    if places.is_empty() || !allowed.has(Permission::WriteRam) {
+        return reads.boxed();
+    }
+    let of_place = |place| {
+        let packet = prop_oneof![4 => writes(target, place), 3 => reads_back(target, place), 1 => own(target)];
+        vec(request(packet.boxed(), target), 1..=MOST).boxed()
+    };
+    let writes = Union::new(places.into_iter().map(of_place));
+    prop_oneof![1 => reads, 3 => writes].boxed()
 }
 
-fn request(target: &Target<'_>) -> impl Strategy<Value = Request> + use<> {
-    let (id, absent) = (target.id, target.absent(WIRE));
-    let own = prop_oneof![
-        6 => to(Just(id).boxed(), target),
+/// What only reads from the device.
+fn own(target: &Target<'_>) -> BoxedStrategy<Packet> {
+    prop_oneof![
+        6 => to(Just(target.id).boxed(), target),
         2 => read_with_others(target),
         1 => Just(packet_of(BROADCAST, PING, Vec::new())),
-    ];
+    ]
+    .boxed()
+}
+
+fn request(
+    own: BoxedStrategy<Packet>,
+    target: &Target<'_>,
+) -> impl Strategy<Value = Request> + use<> {
+    let absent = target.absent(WIRE);
     // What nobody answers may come before it, without a pause.
     let silent = select(vec![absent, BROADCAST]).boxed();
     let before = prop_oneof![6 => Just(0..1), 1 => Just(1..3)];
     let silent = to(silent, target);
     let before = before.prop_flat_map(move |count| vec(part(silent.clone().boxed()), count));
     let other = to(select(vec![absent, 253, BROADCAST, 255]).boxed(), target);
-    let last = prop_oneof![8 => part(own.boxed()), 1 => part(other)];
+    let last = prop_oneof![8 => part(own), 1 => part(other)];
     let cuts = prop_oneof![7 => Just(Vec::new()), 1 => vec(any::<u16>(), 1..3)];
     (before, last, cuts).prop_map(|(mut parts, last, cuts)| {
         parts.push(last);

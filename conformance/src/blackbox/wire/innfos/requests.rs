@@ -1,6 +1,5 @@
 //! Datagrams to a board and its actuators that only read, right ones and damaged ones.
 
-use actucheck_spec::Spec;
 use actucheck_spec::wire::Direction;
 use actucheck_spec::wire::innfos::{Operation, Packet, WIRE};
 use proptest::collection::vec;
@@ -9,8 +8,10 @@ use proptest::prop_oneof;
 use proptest::sample::select;
 
 use super::byte;
+use crate::adapter::Permissions;
 use crate::blackbox::ask::Request;
 use crate::blackbox::probe::{Damage, Part, damages};
+use crate::suite::Author;
 use crate::suite::device::Target;
 
 /// How many requests a conversation has at most.
@@ -21,8 +22,12 @@ const BOARD: u8 = 0;
 const HANDSHAKE: u8 = 0x44;
 const QUERY: u8 = 0x02;
 
-pub(super) fn requests(spec: &Spec, target: &Target<'_>) -> BoxedStrategy<Vec<Request>> {
-    let rows = spec.wires.innfos.content.commands.iter();
+pub(super) fn requests(
+    author: Author<'_>,
+    target: &Target<'_>,
+    _: &Permissions,
+) -> BoxedStrategy<Vec<Request>> {
+    let rows = author.spec.wires.innfos.content.commands.iter();
     let reads = rows.filter(|row| row.operation == Operation::Read).map(|row| row.code);
     let reads: Vec<_> = reads.filter(|code| ![HANDSHAKE, QUERY].contains(code)).collect();
     vec(request(&reads, target), 1..=MOST).boxed()

@@ -1,7 +1,6 @@
 //! What can't be written: registers for reading, addresses without a register, and parts of registers.
 
-use actucheck_spec::model::{Access, Area};
-
+use super::changes::is_measured;
 use super::writable::{bytes, probe};
 use super::written::{Step, at};
 use super::{Talk, asked, code, error, instruction, named, word, write};
@@ -16,13 +15,7 @@ pub(super) fn checks(talk: &Talk<'_>) -> Vec<Check> {
     let Some(device) = talk.target.device else { return Vec::new() };
     let ram = || Permissions::from([Permission::WriteRam]);
     let mut checks = Vec::new();
-    // What a device measures it measures again, whatever was written.
-    let measured = device.registers.iter().filter(|register| {
-        register.access == Access::R
-            && register.area == Area::Ram
-            && !matches!(register.name.as_str(), "Backup Ready" | "Registered Instruction")
-    });
-    for register in measured {
+    for register in device.registers.iter().filter(|register| is_measured(register)) {
         let write = write(talk.id(), register.address, &bytes(register, 0));
         let id = named(&format!("access.{}/refused", word(&register.name)));
         checks.push(talk.demands(

@@ -19,6 +19,7 @@ mod access;
 mod addressee;
 mod alarm;
 mod backup;
+mod changes;
 mod damaged;
 mod effects;
 mod factory;
@@ -127,6 +128,7 @@ pub(super) const INSTRUCTIONS: Instructions = Instructions {
     held: |data| data,
 };
 
+pub(crate) use changes::{Place, is_measured, places};
 pub(crate) use refused::UNDEFINED;
 pub(super) use requests::conversation;
 

@@ -1,5 +1,5 @@
-//! What must come back after any requests that only read, as the documents say it of each of them. What they
-//! leave unspecified is not asked.
+//! What must come back after any requests that only read, or write where that is allowed, as the documents say it of
+//! each of them. What they leave unspecified is not asked.
 
 use std::collections::BTreeMap;
 
@@ -10,10 +10,11 @@ use actucheck_spec::wire::dynamixel2::reference::{
 };
 use actucheck_spec::wire::dynamixel2::{Packet, WIRE};
 
+use super::changes::{self, Write, is_harmless, is_written};
 use super::damaged::{crc_error, heard};
 use super::several::{self, Kind};
 use super::{BROADCAST, Talk, UNDEFINED, bytes_of, code, error, table};
-use crate::adapter::{Asked, Called, Pause, Permissions, Piece, Question};
+use crate::adapter::{Asked, Called, Pause, Permission, Permissions, Piece, Question};
 use crate::suite::Author;
 use crate::suite::check::Demand;
 use crate::suite::device::Target;
@@ -42,18 +43,28 @@ const BEGINS: &[u8] = HEADER.split_at(3).0;
 /// How many bytes a damaged packet may lack: Pings make up for them soon.
 const LACKS: usize = 300;
 
-/// Where registers that nothing changes were told: by address, the step and the place in its answer.
-type Held = BTreeMap<u16, (usize, usize)>;
+/// What registers hold that nothing else changes, by address.
+#[derive(Clone, Default)]
+pub(super) struct Held {
+    /// Where they were told: the step, and the place in its answer.
+    told: BTreeMap<u16, (usize, usize)>,
+    /// What was written.
+    pub(super) written: BTreeMap<u16, Vec<u8>>,
+    /// The requirements that say what came of the last request that was to write there.
+    pub(super) claims: BTreeMap<u16, &'static str>,
+    /// What waits for an Action.
+    pub(super) waits: Option<Write>,
+}
 
 /// What must come back after something, and the requirements that say so; the first that there is counts.
-struct Due {
-    names: Vec<String>,
-    row: Vec<Like>,
-    fast: Option<Fast>,
+pub(super) struct Due {
+    pub(super) names: Vec<String>,
+    pub(super) row: Vec<Like>,
+    pub(super) fast: Option<Fast>,
 }
 
 impl Due {
-    fn new(names: &str, row: Vec<Like>) -> Self {
+    pub(super) fn new(names: &str, row: Vec<Like>) -> Self {
         Self { names: names.split('|').map(str::to_owned).collect(), row, fast: None }
     }
 }
@@ -61,12 +72,12 @@ impl Due {
 /// See [`super::super::conversation`].
 pub(crate) fn conversation(
     author: Author<'_>,
-    target: &Target<'_>,
+    (target, allowed): (&Target<'_>, &Permissions),
     requests: &[Vec<Vec<u8>>],
 ) -> Option<(String, Question, Demand)> {
     let talk = Talk { author, target: target.clone() };
     let (mut steps, mut wanted, mut requirement) = (Vec::new(), Vec::new(), None);
-    let mut held = Held::new();
+    let mut held = Held::default();
     for (place, pieces) in requests.iter().enumerate() {
         let bytes = pieces.concat();
         if bytes.is_empty() || holds_unspecified(&bytes) {
@@ -84,20 +95,26 @@ pub(crate) fn conversation(
     }
     let pieces = steps.iter().flat_map(|step| &step.send);
     let all: Vec<u8> = pieces.flat_map(|piece| piece.bytes.0.clone()).collect();
-    if may_change(&all) {
+    let changes: Vec<_> = changing(&all).collect();
+    let needs: Permissions =
+        (!changes.is_empty()).then_some(Permission::WriteRam).into_iter().collect();
+    if !needs.without(allowed).only_read() || !changes.iter().all(|bytes| is_harmless(&talk, bytes))
+    {
         return None;
     }
-    let question = Question::Device { wire: WIRE, needs: Permissions::READ, steps };
+    let question = Question::Device { wire: WIRE, needs, steps };
     Some((requirement?, question, Demand::Answer(wanted)))
 }
 
 /// The requirements, the steps, and the rows that may answer the first of them.
 type Judged = (Vec<String>, Vec<Asked>, Vec<Vec<Like>>);
 
-/// Whether something in the bytes could be taken for an instruction that changes something.
-fn may_change(bytes: &[u8]) -> bool {
-    let mut headers = bytes.windows(PREFIX + 1).filter(|bytes| bytes.starts_with(BEGINS));
-    headers.any(|bytes| bytes.last().is_some_and(|code| CHANGING.contains(code)))
+/// What begins in the bytes and could be taken for an instruction that changes something.
+fn changing(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
+    let starts = (0..bytes.len()).filter_map(|from| bytes.get(from..));
+    starts.filter(|rest| {
+        rest.starts_with(BEGINS) && rest.get(PREFIX).is_some_and(|code| CHANGING.contains(code))
+    })
 }
 
 /// Packets, of which only the last one may be answered: no host may expect more at once.
@@ -116,7 +133,7 @@ fn answered(
     let is_clean = whole == bytes;
     let (last, before) = packets.split_last()?;
     for packet in before {
-        if !due(talk, packet, step, &mut Held::new())?.row.is_empty() {
+        if !due(talk, packet, step, held)?.row.is_empty() {
             return None;
         }
     }
@@ -130,6 +147,8 @@ fn answered(
         if fast.is_some() {
             return None;
         }
+        // What the answer tells is not looked at again: an error may be answered first.
+        *held = Held { told: held.told.clone(), ..told };
         if rows.iter().all(|row| !row.is_empty()) {
             names = vec!["receive.stream".to_owned()];
         }
@@ -220,6 +239,9 @@ fn due(talk: &Talk<'_>, packet: &Packet, step: usize, held: &mut Held) -> Option
         (code::PING, 0) | (code::READ, 4) => true,
         (undefined, _) => UNDEFINED.contains(&undefined),
     };
+    if CHANGING.contains(instruction) {
+        return changes::due(talk, packet, held);
+    }
     let silence = |names| is_known.then(|| Due::new(names, Vec::new()));
     match (*id, *instruction) {
         (id, code::PING) if id == talk.id() && is_known => Some(pinged(talk, step, held)),
@@ -273,13 +295,16 @@ fn told(talk: &Talk<'_>, register: &Register, place: (usize, usize), held: &mut 
     if let Some(part) = table::bits(talk, register) {
         return part;
     }
-    if register.area != Area::Eeprom {
+    if let Some(data) = held.written.get(&register.address) {
+        return Part::Bytes(data.clone().into());
+    }
+    if register.area != Area::Eeprom && !is_written(talk, register) {
         return Part::Any(size.into());
     }
-    if let Some((earlier, from)) = held.get(&register.address).copied() {
+    if let Some((earlier, from)) = held.told.get(&register.address).copied() {
         return Part::Same { step: earlier, from, count: size.into() };
     }
-    held.insert(register.address, place);
+    held.told.insert(register.address, place);
     Part::Any(size.into())
 }
 
@@ -311,10 +336,13 @@ fn read(
     if met.iter().any(|register| bounds(register).0 < begin || bounds(register).1 > end) {
         return None;
     }
+    let claims = held.claims.clone();
     let place = |register: &Register| (step, usize::from(register.address - address));
     let parts = met.iter().map(|register| told(talk, register, place(register), held));
     let parts = parts.collect();
-    Some(Due::new("read.status", vec![talk.says(error::NONE, parts)]))
+    let claim = met.iter().find_map(|register| claims.get(&register.address));
+    let names = claim.map_or("read.status".to_owned(), |claim| format!("{claim}|read.status"));
+    Some(Due::new(&names, vec![talk.says(error::NONE, parts)]))
 }
 
 /// The answer to a Read of an address without a register; a table that is not complete tells no such address.

@@ -30,7 +30,7 @@ type Due = (&'static str, Asked, Vec<Vec<Like>>);
 /// See [`super::super::conversation`].
 pub(in crate::suite::device) fn conversation(
     author: Author<'_>,
-    target: &Target<'_>,
+    (target, _): (&Target<'_>, &Permissions),
     requests: &[Vec<Vec<u8>>],
 ) -> Option<(String, Question, Demand)> {
     let talk = Talk { author, target: target.clone() };
