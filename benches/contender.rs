@@ -43,44 +43,87 @@ impl Contender {
 /// The codec's CRC-16/UMTS, and the limit.
 #[must_use]
 pub fn umts() -> Vec<Contender> {
-    vec![
-        Contender::new(OURS, crc::umts),
-        Contender::new(PORTABLE, |message| Engine::portable().umts(message)),
-        Contender::new(READ, read),
-    ]
+    contenders(crc::umts, Engine::umts)
 }
 
 /// The codec's CRC-16/MODBUS, and the limit.
 #[must_use]
 pub fn modbus() -> Vec<Contender> {
-    vec![
-        Contender::new(OURS, crc::modbus),
-        Contender::new(PORTABLE, |message| Engine::portable().modbus(message)),
-        Contender::new(READ, read),
-    ]
+    contenders(crc::modbus, Engine::modbus)
 }
 
-/// Reads all bytes as fast as this processor can.
-fn read(bytes: &[u8]) -> u16 {
+/// The codec as its users call it, with all of this processor's narrower registers, and what only
+/// reads with the same registers.
+fn contenders(
+    fastest: impl Fn(&[u8]) -> u16 + 'static,
+    with: impl Fn(Engine, &[u8]) -> u16 + Copy + 'static,
+) -> Vec<Contender> {
+    let most = Engine::new().bits();
+    let mut all = vec![
+        Contender::new(OURS, fastest),
+        Contender::new(PORTABLE, move |message| with(Engine::portable(), message)),
+        Contender::new(READ, move |message| read(most, message)),
+    ];
+    for engine in Engine::all().filter(|engine| engine.bits() < most) {
+        if let Some([ours, reads]) = narrower(engine.bits()) {
+            all.push(Contender::new(ours, move |message| with(engine, message)));
+            all.push(Contender::new(reads, move |message| read(engine.bits(), message)));
+        }
+    }
+    all
+}
+
+/// The names of the codec and of the limit with registers of so many bits, if they are contenders.
+#[must_use]
+pub const fn narrower(bits: u32) -> Option<[&'static str; 2]> {
+    match bits {
+        128 => Some(["actucheck, 128 bits", "read only, 128 bits"]),
+        256 => Some(["actucheck, 256 bits", "read only, 256 bits"]),
+        _ => None,
+    }
+}
+
+/// Whether the contender is another crate.
+#[must_use]
+pub fn is_peer(name: &str) -> bool {
+    !name.starts_with(OURS) && !name.starts_with(READ)
+}
+
+/// Reads all bytes as fast as this processor can with registers of so many bits.
+fn read(bits: u32, bytes: &[u8]) -> u16 {
     #[cfg(target_arch = "x86_64")]
-    if std::is_x86_feature_detected!("avx2") {
+    {
         #[target_feature(enable = "avx2")]
         fn wide(bytes: &[u8]) -> u16 {
-            sum(bytes)
+            sum::<{ 8 * 32 }, 32>(bytes)
         }
-        // SAFETY: AVX2 is there.
-        #[expect(unsafe_code, reason = "a limit that the codec could beat would be none")]
-        return unsafe { wide(bytes) };
+        #[target_feature(enable = "avx512f")]
+        fn widest(bytes: &[u8]) -> u16 {
+            sum::<{ 8 * 64 }, 64>(bytes)
+        }
+        if bits == 512 && std::is_x86_feature_detected!("avx512f") {
+            // SAFETY: AVX-512 is there.
+            #[expect(unsafe_code, reason = "a limit that the codec could beat would be none")]
+            return unsafe { widest(bytes) };
+        }
+        if bits == 256 && std::is_x86_feature_detected!("avx2") {
+            // SAFETY: AVX2 is there.
+            #[expect(unsafe_code, reason = "as above")]
+            return unsafe { wide(bytes) };
+        }
     }
-    sum(bytes)
+    sum::<{ 8 * 16 }, 16>(bytes)
 }
 
+/// Adds all words, in blocks of eight vectors: with fewer, each would wait for the previous one. The
+/// blocks of a long message are aligned, so that no load crosses a cache line.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "takes the vectors of the function that it is in")]
-fn sum(bytes: &[u8]) -> u16 {
-    // Eight vectors of 32 bytes: with fewer, each would wait for the previous one.
-    let (blocks, rest) = bytes.as_chunks::<256>();
-    let mut lanes = [0_u64; 32];
+fn sum<const BLOCK: usize, const LANES: usize>(bytes: &[u8]) -> u16 {
+    let before = if bytes.len() < 4096 { 0 } else { bytes.as_ptr().align_offset(64) };
+    let (before, bytes) = bytes.split_at_checked(before).unwrap_or((&[], bytes));
+    let (blocks, rest) = bytes.as_chunks::<BLOCK>();
+    let mut lanes = [0_u64; LANES];
     for block in blocks {
         let words = block.as_chunks().0;
         for (lane, word) in lanes.iter_mut().zip(words) {
@@ -91,5 +134,6 @@ fn sum(bytes: &[u8]) -> u16 {
     let words = words.iter().map(|word| u64::from_ne_bytes(*word));
     let word = lanes.into_iter().chain(words).fold(0, |sum, word| sum ^ word);
     let [low, high, ..] = word.to_ne_bytes();
-    u16::from_le_bytes([low, high]) ^ rest.iter().fold(0, |sum, byte| sum ^ u16::from(*byte))
+    let others = before.iter().chain(rest);
+    u16::from_le_bytes([low, high]) ^ others.fold(0, |sum, byte| sum ^ u16::from(*byte))
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::contender::{OURS, PORTABLE, READ};
+use crate::contender::{OURS, PORTABLE, READ, is_peer};
 use crate::goals::{GROWTH, OF_READING, READ_ANSWERED, SYNC_READ_CARRIED, goal};
 use crate::measured::Measured;
 
@@ -41,7 +41,7 @@ pub fn rows(all: &[Measured]) -> Vec<Row<'_>> {
     let row = |ours: &'_ Measured| {
         let ours_case = (&ours.group, &ours.case);
         let others = || all.iter().filter(move |other| (&other.group, &other.case) == ours_case);
-        let peers = others().filter(|other| ![OURS, PORTABLE, READ].contains(&other.who.as_str()));
+        let peers = others().filter(|other| is_peer(&other.who));
         let peer = peers.min_by(|a, b| a.per_unit().total_cmp(&b.per_unit()));
         let portable = others().find(|other| other.who == PORTABLE);
         (portable, peer, goal(&ours.group, &ours.case))

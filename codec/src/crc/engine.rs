@@ -53,6 +53,28 @@ impl Engine {
         Processor::all().map(Self)
     }
 
+    /// The size of the registers that it computes long messages in: 64, 128, 256 or 512 bits.
+    ///
+    /// ```
+    /// use actucheck_codec::crc::Engine;
+    ///
+    /// let sizes: Vec<_> = Engine::all().map(Engine::bits).collect();
+    /// assert!(sizes.is_sorted());
+    /// assert_eq!(Some(&Engine::new().bits()), sizes.last());
+    /// ```
+    #[must_use]
+    pub const fn bits(self) -> u32 {
+        match self.0 {
+            Processor::Portable => 64,
+            #[cfg(target_arch = "x86_64")]
+            Processor::Narrow(_) => 128,
+            #[cfg(target_arch = "x86_64")]
+            Processor::Wide(_) => 256,
+            #[cfg(target_arch = "x86_64")]
+            Processor::Widest(_) => 512,
+        }
+    }
+
     /// As [`crc::umts`](super::umts).
     #[must_use]
     #[inline]
@@ -89,6 +111,8 @@ impl Engine {
             Processor::Narrow(narrow) => narrow.update::<O>(state, bytes),
             #[cfg(target_arch = "x86_64")]
             Processor::Wide(wide) => wide.update::<O>(state, bytes),
+            #[cfg(target_arch = "x86_64")]
+            Processor::Widest(widest) => widest.update::<O>(state, bytes),
         }
     }
 }

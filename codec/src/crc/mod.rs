@@ -20,9 +20,13 @@
 
 pub(crate) mod compact;
 mod engine;
+#[cfg(any(test, target_arch = "x86_64"))]
+pub(crate) mod factors;
 pub(crate) mod fold;
 pub(crate) mod order;
 pub(crate) mod portable;
+#[cfg(any(test, target_arch = "x86_64"))]
+pub(crate) mod product;
 pub(crate) mod shift;
 pub(crate) mod short;
 #[cfg(test)]

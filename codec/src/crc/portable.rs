@@ -15,7 +15,7 @@
 #![expect(clippy::indexing_slicing, reason = "arrays of a fixed size, indices below it")]
 
 use super::compact;
-use super::fold;
+use super::fold::{Adds, BLOCK, GROUP, LEFT, Words, fold};
 use super::order::Order;
 use super::short;
 
@@ -40,13 +40,31 @@ pub(crate) fn update<O: Order>(state: u16, bytes: &[u8]) -> u16 {
     }
 }
 
-/// A message of more than 256 bytes: the part that is no multiple of 256 first, then the rest
-/// folded to 256 bytes.
+/// A message of more than 256 bytes: what is more than whole groups first, then the rest folded to
+/// 240 bytes.
 fn long<O: Order>(state: u16, bytes: &[u8]) -> u16 {
-    let (head, body) = bytes.split_at(bytes.len() % fold::BYTES);
-    let state = update::<O>(state, head);
-    let (blocks, _) = body.as_chunks();
-    finish32::<O>(&fold::fold::<O>(state, blocks))
+    const LEAST: usize = (1 + LEFT) * BLOCK;
+    let Some(more) = bytes.len().checked_sub(LEAST) else {
+        return state; // never: shorter messages go elsewhere
+    };
+    let (before, bytes) = bytes.split_at(more % (GROUP * BLOCK));
+    let state = update::<O>(state, before);
+    let (blocks, _) = bytes.as_chunks::<BLOCK>();
+    let Some(([first], blocks)) = blocks.split_first_chunk() else {
+        return state; // never
+    };
+    let Some((groups, last)) = blocks.split_last_chunk() else {
+        return state; // never
+    };
+    let mut first = Words.load(first);
+    first[0] ^= O::to_native(O::top(state));
+    let folded = fold(Words, first, groups.as_chunks().0, last);
+    // Zeros in front.
+    let mut words = [0; 2 * LEFT + 2];
+    for (word, native) in words[2..].iter_mut().zip(folded.left.as_flattened()) {
+        *word = O::from_native(*native);
+    }
+    finish32::<O>(&words) ^ folded.quotient::<O, _, BLOCK>(Words)
 }
 
 fn finish32<O: Order>(words: &[u64; 32]) -> u16 {

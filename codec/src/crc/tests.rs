@@ -21,7 +21,7 @@ pub(crate) fn umts_oracle(mut state: u16, bytes: &[u8]) -> u16 {
 }
 
 /// CRC-16/MODBUS by shifting one bit at a time, straight from the definition.
-fn modbus_oracle(mut state: u16, bytes: &[u8]) -> u16 {
+pub(super) fn modbus_oracle(mut state: u16, bytes: &[u8]) -> u16 {
     for byte in bytes {
         for bit in 0..8 {
             let out = state & 1 ^ u16::from(byte >> bit & 1);
@@ -35,7 +35,7 @@ fn modbus_oracle(mut state: u16, bytes: &[u8]) -> u16 {
 }
 
 /// Bytes without a pattern (`SplitMix64`).
-fn noise(seed: u64, length: usize) -> Vec<u8> {
+pub(super) fn noise(seed: u64, length: usize) -> Vec<u8> {
     let mut state = seed;
     let mut next = || {
         state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
@@ -48,7 +48,12 @@ fn noise(seed: u64, length: usize) -> Vec<u8> {
 
 #[track_caller]
 fn check(state: u16, bytes: &[u8]) {
-    let (umts, modbus) = (umts_oracle(state, bytes), modbus_oracle(state, bytes));
+    compare(state, bytes, umts_oracle(state, bytes), modbus_oracle(state, bytes));
+}
+
+/// Every back end against these CRCs.
+#[track_caller]
+fn compare(state: u16, bytes: &[u8], umts: u16, modbus: u16) {
     for engine in Engine::all() {
         let n = bytes.len();
         assert_eq!(
@@ -77,11 +82,13 @@ fn engines_are_all_here() {
     {
         expected += usize::from(std::is_x86_feature_detected!("pclmulqdq"));
         expected += usize::from(std::is_x86_feature_detected!("vpclmulqdq"));
+        expected += usize::from(std::is_x86_feature_detected!("avx512vbmi"));
     }
     #[cfg(all(target_arch = "x86_64", not(feature = "std")))]
     {
         expected += usize::from(cfg!(target_feature = "pclmulqdq"));
         expected += usize::from(cfg!(target_feature = "vpclmulqdq"));
+        expected += usize::from(cfg!(target_feature = "avx512vbmi"));
     }
     assert_eq!(Engine::all().count(), expected);
 }
@@ -110,10 +117,14 @@ fn printed_examples() {
 
 #[test]
 fn every_length() {
-    let bytes = noise(1, 1200);
-    for n in 0..=bytes.len() {
-        for state in [0, 0xFFFF, 0x8001, 0x1234] {
-            check(state, &bytes[..n]);
+    let bytes = noise(1, 4096);
+    for state in [0, 0xFFFF, 0x8001, 0x1234] {
+        let (mut umts, mut modbus) = (state, state);
+        compare(state, &[], umts, modbus);
+        for n in 1..=bytes.len() {
+            umts = umts_oracle(umts, &bytes[n - 1..n]);
+            modbus = modbus_oracle(modbus, &bytes[n - 1..n]);
+            compare(state, &bytes[..n], umts, modbus);
         }
     }
 }
@@ -123,7 +134,7 @@ fn every_alignment() {
     let bytes = noise(2, 4096 + 64);
     for n in [
         0, 1, 2, 3, 7, 8, 9, 15, 16, 17, 31, 32, 33, 63, 64, 65, 255, 256, 257, 511, 512, 513,
-        1023, 4096,
+        1023, 1024, 1025, 1535, 1601, 2047, 4096,
     ] {
         for offset in 0..64 {
             check(0x5A5A, &bytes[offset..offset + n]);
@@ -153,6 +164,16 @@ fn long() {
     let bytes = noise(3, 100_000);
     for n in [5_000, 8_191, 8_192, 65_535, 65_536, 99_999] {
         check(0xBEEF, &bytes[..n]);
+    }
+}
+
+/// From this length on, blocks are aligned in memory.
+#[test]
+fn long_at_every_alignment() {
+    let bytes = noise(5, product::ALIGNED + 256);
+    for offset in 0..=64 {
+        let n = product::ALIGNED - 1 + offset * 37 % 128;
+        check(0xBEEF, &bytes[offset..offset + n]);
     }
 }
 

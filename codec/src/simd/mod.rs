@@ -20,7 +20,7 @@ mod x86_64;
 use portable::Portable;
 pub(crate) use search::{header, patterns};
 #[cfg(target_arch = "x86_64")]
-use x86_64::{Narrow, Wide};
+use x86_64::{Narrow, Wide, Widest};
 
 /// Bytes of a window.
 pub(crate) const WINDOW: usize = 64;
@@ -119,6 +119,8 @@ pub(crate) enum Processor {
     Narrow(Narrow),
     #[cfg(target_arch = "x86_64")]
     Wide(Wide),
+    #[cfg(target_arch = "x86_64")]
+    Widest(Widest),
 }
 
 impl Processor {
@@ -127,20 +129,22 @@ impl Processor {
     pub(crate) fn new() -> Self {
         #[cfg(target_arch = "x86_64")]
         {
-            if let Some(wide) = Wide::new() {
-                return Self::Wide(wide);
-            }
-            if let Some(narrow) = Narrow::new() {
-                return Self::Narrow(narrow);
-            }
+            x86_64::fastest()
         }
-        Self::Portable
+        #[cfg(not(target_arch = "x86_64"))]
+        {
+            Self::Portable
+        }
     }
 
     /// All back ends that this machine supports, [`Processor::Portable`] first.
     pub(crate) fn all() -> impl Iterator<Item = Self> {
         #[cfg(target_arch = "x86_64")]
-        let special = [Narrow::new().map(Self::Narrow), Wide::new().map(Self::Wide)];
+        let special = [
+            Narrow::new().map(Self::Narrow),
+            Wide::new().map(Self::Wide),
+            Widest::new().map(Self::Widest),
+        ];
         #[cfg(not(target_arch = "x86_64"))]
         let special: [Option<Self>; 0] = [];
         [Self::Portable].into_iter().chain(special.into_iter().flatten())
@@ -155,6 +159,8 @@ impl Processor {
             Self::Narrow(narrow) => narrow.run(task),
             #[cfg(target_arch = "x86_64")]
             Self::Wide(wide) => wide.run(task),
+            #[cfg(target_arch = "x86_64")]
+            Self::Widest(widest) => widest.wide().run(task),
         }
     }
 }

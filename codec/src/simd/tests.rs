@@ -45,14 +45,20 @@ fn the_fastest_back_end_of_the_processor_is_taken() {
     let narrow = has!("pclmulqdq") && has!("ssse3");
     let bits = has!("popcnt") && has!("bmi1") && has!("bmi2");
     let wide = narrow && bits && has!("vpclmulqdq") && has!("avx2");
-    let expected = match (wide, narrow) {
-        (true, _) => "Wide",
-        (false, true) => "Narrow",
-        (false, false) => "Portable",
+    let widest = wide && has!("avx512f") && has!("avx512bw") && has!("avx512vbmi");
+    let (expected, of_windows) = match (widest, wide, narrow) {
+        (true, ..) => ("Widest", "Wide"), // windows need no more than 256 bits
+        (_, true, _) => ("Wide", "Wide"),
+        (.., true) => ("Narrow", "Narrow"),
+        _ => ("Portable", "Portable"),
     };
     let taken = run(Which);
-    assert!(taken.ends_with(&std::format!("::{expected}")), "{taken}, not {expected}");
-    let supported = 1 + usize::from(narrow) + usize::from(wide);
+    assert!(taken.ends_with(&std::format!("::{of_windows}")), "{taken}, not {of_windows}");
+    for _ in ["asked", "remembered"] {
+        let taken = std::format!("{:?}", Processor::new());
+        assert_eq!(taken.split('(').next(), Some(expected));
+    }
+    let supported = 1 + usize::from(narrow) + usize::from(wide) + usize::from(widest);
     assert_eq!(Processor::all().count(), supported);
 }
 

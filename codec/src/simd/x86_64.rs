@@ -1,29 +1,31 @@
-//! The back ends for x86-64, by carry-less multiplication.
+//! The back ends for x86-64, by carry-less multiplication in registers of 128, 256 and 512 bits.
 //!
-//! Each 64-bit word W of the message, i words from its end, is multiplied by
-//! x^(64 i + 16) mod P; the sum V of the products, less than 80 bits, has the same remainder as
-//! the message times x^16. One more product gives the quotient of V by P. As P is
-//! x^16 + x^15 + x^2 + 1, its 16 lowest bits q give the remainder without a product:
-//! V ^ q ^ q << 2 ^ q << 15.
+//! [`product`](crate::crc::product) has the sum V of the products of a message's words. One more
+//! product gives the quotient of V by P. As P is x^16 + x^15 + x^2 + 1, its 16 lowest bits q give
+//! the remainder without a product: V ^ q ^ q << 2 ^ q << 15.
 //!
 //! This is the only module of the crate with `unsafe`. It is needed for loads from a reference to
-//! an array, and for calls of functions that need processor features; a value of [`Narrow`] or
-//! [`Wide`] is the proof that the processor has them.
+//! an array, and for calls of functions that need processor features; a value of [`Narrow`],
+//! [`Wide`] or [`Widest`] is the proof that the processor has them.
 #![allow(unsafe_code)]
 
-mod constants;
 mod narrow;
 mod pieces;
 mod wide;
+mod widest;
 mod window;
 
-use core::arch::x86_64::{__m128i, __m256i, _mm_loadu_si128, _mm256_loadu_si256};
+use core::arch::x86_64::{
+    __m128i, __m256i, __m512i, _mm_loadu_si128, _mm256_loadu_si256, _mm512_loadu_si512,
+};
 
 #[cfg(feature = "std")]
 use core::sync::atomic::{AtomicU8, Ordering};
 
-use super::Task;
+use super::{Processor, Task};
+use crate::crc::fold::Adds;
 use crate::crc::order::Order;
+use crate::crc::product::Multiplies;
 
 /// Whether the processor has all of the features: detected at run time with `std`, otherwise those
 /// enabled for the build.
@@ -31,8 +33,7 @@ macro_rules! has {
     ($($feature:tt)*) => {{
         #[cfg(feature = "std")]
         {
-            static ANSWER: Answer = Answer::unknown();
-            ANSWER.get(|| true $(&& std::is_x86_feature_detected!($feature))*)
+            true $(&& std::is_x86_feature_detected!($feature))*
         }
         #[cfg(not(feature = "std"))]
         {
@@ -41,36 +42,64 @@ macro_rules! has {
     }};
 }
 
-/// Whether the processor has a set of features, remembered: a load and a compare, where asking
-/// for each feature would cost more than the CRC of a short packet.
+/// The fastest back end of this processor.
+#[cfg(not(feature = "std"))]
+pub(super) fn fastest() -> Processor {
+    detect()
+}
+
+/// The fastest back end of this processor, remembered: a load and a compare, where asking for each
+/// feature would cost more than the CRC of a short packet.
 #[cfg(feature = "std")]
-struct Answer(AtomicU8);
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "a call would cost more than the load")]
+pub(super) fn fastest() -> Processor {
+    // Only what was detected is remembered. Relaxed is enough: the answer is always the same.
+    let number = remembered::FASTEST.load(Ordering::Relaxed);
+    // Two comparisons are faster than a table of jumps.
+    if number >= remembered::WIDE {
+        let wide = Wide(());
+        let widest = number == remembered::WIDEST;
+        return if widest { Processor::Widest(Widest(wide)) } else { Processor::Wide(wide) };
+    }
+    match number {
+        remembered::NARROW => Processor::Narrow(Narrow(())),
+        remembered::PORTABLE => Processor::Portable,
+        _ => remembered::ask(),
+    }
+}
 
 #[cfg(feature = "std")]
-impl Answer {
-    const NO: u8 = 1;
-    const YES: u8 = 2;
+mod remembered {
+    use super::{AtomicU8, Ordering, Processor, detect};
 
-    const fn unknown() -> Self {
-        Self(AtomicU8::new(0))
-    }
-
-    // Relaxed is enough: the answer is always the same.
-    #[inline(always)]
-    #[expect(clippy::inline_always, reason = "a call would cost more than the load")]
-    fn get(&self, ask: impl FnOnce() -> bool) -> bool {
-        match self.0.load(Ordering::Relaxed) {
-            Self::YES => true,
-            Self::NO => false,
-            _ => self.set(ask()),
-        }
-    }
+    /// Unknown at first.
+    pub(super) static FASTEST: AtomicU8 = AtomicU8::new(0);
+    pub(super) const PORTABLE: u8 = 1;
+    pub(super) const NARROW: u8 = 2;
+    pub(super) const WIDE: u8 = 3;
+    pub(super) const WIDEST: u8 = 4;
 
     #[cold]
-    fn set(&self, answer: bool) -> bool {
-        self.0.store(if answer { Self::YES } else { Self::NO }, Ordering::Relaxed);
-        answer
+    pub(super) fn ask() -> Processor {
+        let fastest = detect();
+        let number = match fastest {
+            Processor::Portable => PORTABLE,
+            Processor::Narrow(_) => NARROW,
+            Processor::Wide(_) => WIDE,
+            Processor::Widest(_) => WIDEST,
+        };
+        FASTEST.store(number, Ordering::Relaxed);
+        fastest
     }
+}
+
+/// Asks the processor, or the build, from the fastest back end down.
+fn detect() -> Processor {
+    let widest = || Widest::new().map(Processor::Widest);
+    let wide = || Wide::new().map(Processor::Wide);
+    let narrow = || Narrow::new().map(Processor::Narrow);
+    widest().or_else(wide).or_else(narrow).unwrap_or(Processor::Portable)
 }
 
 /// Proof that the processor multiplies without carry in 128-bit registers.
@@ -85,10 +114,9 @@ impl Narrow {
 
     /// The state after `bytes`.
     #[inline]
-    #[expect(clippy::unused_self, reason = "its value is the proof")]
     pub(crate) fn update<O: Order>(self, state: u16, bytes: &[u8]) -> u16 {
-        // SAFETY: `new` alone makes a `Narrow`, having found the features that the function needs.
-        unsafe { narrow::update::<O>(state, bytes) }
+        // SAFETY: a `Narrow` is made only where the features that the function needs were found.
+        unsafe { narrow::update::<O>(self, state, bytes) }
     }
 
     /// Runs the task with these features.
@@ -98,7 +126,7 @@ impl Narrow {
         fn run<T: Task>(backend: Narrow, task: T) -> T::Output {
             task.run(backend)
         }
-        // SAFETY: `new` alone makes a `Narrow`, having found the features that the function needs.
+        // SAFETY: a `Narrow` is made only where the features that the function needs were found.
         unsafe { run(self, task) }
     }
 }
@@ -115,10 +143,9 @@ impl Wide {
 
     /// The state after `bytes`.
     #[inline]
-    #[expect(clippy::unused_self, reason = "its value is the proof")]
     pub(crate) fn update<O: Order>(self, state: u16, bytes: &[u8]) -> u16 {
-        // SAFETY: `new` alone makes a `Wide`, having found the features that the function needs.
-        unsafe { wide::update::<O>(state, bytes) }
+        // SAFETY: a `Wide` is made only where the features that the function needs were found.
+        unsafe { wide::update::<O>(self, state, bytes) }
     }
 
     /// Runs the task with these features.
@@ -128,10 +155,95 @@ impl Wide {
         fn run<T: Task>(backend: Wide, task: T) -> T::Output {
             task.run(backend)
         }
-        // SAFETY: `new` alone makes a `Wide`, having found the features that the function needs.
+        // SAFETY: a `Wide` is made only where the features that the function needs were found.
         unsafe { run(self, task) }
     }
 }
+
+/// Proof that the processor multiplies without carry in 512-bit registers, and in others.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Widest(Wide);
+
+impl Widest {
+    #[inline]
+    pub(super) fn new() -> Option<Self> {
+        let wide = Wide::new()?;
+        has!("avx512f" "avx512bw" "avx512vbmi").then_some(Self(wide))
+    }
+
+    /// The same for 256 bits, which is faster for short messages and windows.
+    #[inline]
+    pub(super) const fn wide(self) -> Wide {
+        self.0
+    }
+
+    /// The state after `bytes`.
+    #[inline]
+    pub(crate) fn update<O: Order>(self, state: u16, bytes: &[u8]) -> u16 {
+        if bytes.len() < widest::LEAST {
+            return self.wide().update::<O>(state, bytes);
+        }
+        // SAFETY: a `Widest` is made only where the features that the function needs were found.
+        unsafe { widest::update::<O>(self, state, bytes) }
+    }
+}
+
+/// Implements the operations on blocks for a back end, by its module's functions.
+macro_rules! unit {
+    ($proof:ident, $bytes:literal, $block:ident, $module:ident) => {
+        impl Adds<$bytes> for $proof {
+            type Block = $block;
+
+            #[inline(always)]
+            fn zero(self) -> $block {
+                // SAFETY: the proof is made only where the features that the function needs were found.
+                unsafe { $module::zero() }
+            }
+
+            #[inline(always)]
+            fn load(self, bytes: &[u8; $bytes]) -> $block {
+                // SAFETY: as above.
+                unsafe { $module::load(bytes) }
+            }
+
+            #[inline(always)]
+            fn add(self, a: $block, b: $block) -> $block {
+                // SAFETY: as above.
+                unsafe { $module::add(a, b) }
+            }
+
+            #[inline(always)]
+            fn odd(self, block: $block) -> bool {
+                // SAFETY: as above.
+                unsafe { $module::odd(block) }
+            }
+        }
+
+        impl Multiplies<$bytes> for $proof {
+            #[inline(always)]
+            fn head<O: Order>(self, state: u16, bytes: &[u8], used: usize) -> $block {
+                // SAFETY: as above.
+                unsafe { $module::head::<O>(state, bytes, used) }
+            }
+
+            #[inline(always)]
+            fn multiply<O: Order>(self, block: $block, factors: &[u8; $bytes]) -> $block {
+                // SAFETY: as above.
+                unsafe { $module::multiply($module::arrange::<O>(block), $module::load(factors)) }
+            }
+
+            #[inline(always)]
+            fn finish<O: Order>(self, sums: $block) -> u16 {
+                // SAFETY: as above.
+                unsafe { $module::finish::<O>(sums) }
+            }
+        }
+    };
+}
+
+unit!(Narrow, 16, __m128i, narrow);
+unit!(Wide, 32, __m256i, wide);
+unit!(Widest, 64, __m512i, widest);
 
 #[inline]
 fn load128(bytes: &[u8; 16]) -> __m128i {
@@ -145,4 +257,11 @@ fn load128(bytes: &[u8; 16]) -> __m128i {
 fn load256(bytes: &[u8; 32]) -> __m256i {
     // SAFETY: 32 bytes may be read from the reference, and the load asks for no alignment.
     unsafe { _mm256_loadu_si256(bytes.as_ptr().cast()) }
+}
+
+#[inline]
+#[target_feature(enable = "avx512f")]
+fn load512(bytes: &[u8; 64]) -> __m512i {
+    // SAFETY: 64 bytes may be read from the reference, and the load asks for no alignment.
+    unsafe { _mm512_loadu_si512(bytes.as_ptr().cast()) }
 }

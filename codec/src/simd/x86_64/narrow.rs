@@ -2,33 +2,38 @@
 #![expect(clippy::indexing_slicing, reason = "arrays of a fixed size, indices below it")]
 
 use core::arch::x86_64::{
-    __m128i, _mm_clmulepi64_si128, _mm_cvtsi32_si128, _mm_extract_epi16, _mm_set_epi8,
-    _mm_set_epi64x, _mm_setzero_si128, _mm_shuffle_epi8, _mm_xor_si128,
+    __m128i, _mm_clmulepi64_si128, _mm_cvtsi32_si128, _mm_cvtsi128_si64, _mm_extract_epi16,
+    _mm_set_epi8, _mm_set_epi64x, _mm_setzero_si128, _mm_shuffle_epi8, _mm_unpackhi_epi64,
+    _mm_xor_si128,
 };
 
-use super::constants::{BLOCKS, constants};
-use super::load128;
+use super::{Narrow, load128};
+use crate::crc::factors::{factors, inverse};
 use crate::crc::order::Order;
-use crate::crc::{compact, fold, short};
+use crate::crc::product;
+use crate::crc::{compact, short};
+
+/// From this many bytes on, folding is faster.
+const LONG: usize = 513;
 
 /// The state after `bytes`.
 #[target_feature(enable = "pclmulqdq,ssse3")]
-pub(super) fn update<O: Order>(state: u16, bytes: &[u8]) -> u16 {
-    match bytes.len() {
-        0..=16 => update_short::<O>(state, bytes),
-        17..=512 => update_medium::<O>(state, bytes),
-        _ => {
-            let (head, body) = bytes.split_at(bytes.len() % fold::BYTES);
-            let state = update::<O>(state, head);
-            let words = fold::fold::<O>(state, body.as_chunks().0);
-            let mut sum = _mm_setzero_si128();
-            let factors = &constants::<O>().factors[BLOCKS - 16..];
-            for (&[high, low], factor) in words.as_chunks().0.iter().zip(factors) {
-                sum = add(sum, multiply(pair::<O>(high, low), load128(factor)));
-            }
-            finish::<O>(sum)
-        }
+pub(super) fn update<O: Order>(narrow: Narrow, state: u16, bytes: &[u8]) -> u16 {
+    if bytes.len() <= 16 {
+        return update_short::<O>(state, bytes);
     }
+    if bytes.len() < LONG {
+        product::medium::<O, _, 16>(narrow, state, bytes)
+    } else {
+        long::<O>(narrow, state, bytes)
+    }
+}
+
+#[inline(never)]
+#[target_feature(enable = "pclmulqdq,ssse3")]
+fn long<O: Order>(narrow: Narrow, state: u16, bytes: &[u8]) -> u16 {
+    let (state, tail) = product::long::<O, _, 16>(narrow, state, bytes);
+    if tail.is_empty() { state } else { update_short::<O>(state, tail) }
 }
 
 /// At most 16 bytes, by general registers.
@@ -41,36 +46,26 @@ pub(super) fn update_short<O: Order>(state: u16, bytes: &[u8]) -> u16 {
         4..=8 => finish::<O>(pair::<O>(short::word::<O>(state, bytes), 0)),
         _ => {
             let (high, low) = short::pair::<O>(state, bytes);
-            let factors = &constants::<O>().factors[BLOCKS - 1];
+            let factors = last_factors::<O>();
             finish::<O>(multiply(pair::<O>(high, low), load128(factors)))
         }
     }
 }
 
-/// 17 to 512 bytes: a head of 1 to 16 bytes, then whole blocks.
+/// The factors of the last 16 bytes.
 #[inline]
-#[target_feature(enable = "pclmulqdq,ssse3")]
-fn update_medium<O: Order>(state: u16, bytes: &[u8]) -> u16 {
-    let (state, bytes) = match bytes {
-        // The head would be one byte and hold but one byte of the state: deal with it apart.
-        [first, rest @ ..] if rest.len() % 16 == 0 => (compact::step::<O>(state, *first), rest),
-        _ => (state, bytes),
+fn last_factors<O: Order>() -> &'static [u8; 16] {
+    factors::<O, 16>().last().unwrap_or(&[0; 16]) // there are some
+}
+
+/// As [`Multiplies::head`](product::Multiplies::head).
+#[inline]
+#[target_feature(enable = "ssse3")]
+pub(super) fn head<O: Order>(state: u16, bytes: &[u8], used: usize) -> __m128i {
+    let Some(first) = bytes.first_chunk() else {
+        return _mm_setzero_si128(); // never: shorter messages go elsewhere
     };
-    let used = (bytes.len() + 15) % 16 + 1;
-    let (_, body) = bytes.split_at_checked(used).unwrap_or_default();
-    let (blocks, _) = body.as_chunks();
-    let factors = &constants::<O>().factors;
-    let factors = factors.get((BLOCKS - 1).wrapping_sub(blocks.len())..);
-    let (Some(head), Some([factor, factors @ ..])) = (bytes.first_chunk(), factors) else {
-        return state; // never: other lengths go elsewhere
-    };
-    let head = add(load128(head), state_vector::<O>(state, 0));
-    let head = shift_up(head, 16 - used);
-    let mut sum = multiply(arrange::<O>(head), load128(factor));
-    for (block, factor) in blocks.iter().zip(factors) {
-        sum = add(sum, multiply(arrange::<O>(load128(block)), load128(factor)));
-    }
-    finish::<O>(sum)
+    shift_up(add(load128(first), state_vector::<O>(state, 0)), 16 - used)
 }
 
 /// `state` as the first two bytes in memory order, less the first `gone` of them.
@@ -101,6 +96,27 @@ pub(super) fn shift_up(bytes: __m128i, by: usize) -> __m128i {
         Some(indices) => _mm_shuffle_epi8(bytes, load128(indices)),
         None => _mm_setzero_si128(), // never
     }
+}
+
+#[inline]
+#[target_feature(enable = "sse2")]
+pub(super) fn zero() -> __m128i {
+    _mm_setzero_si128()
+}
+
+/// Whether the block has an odd number of ones.
+#[inline]
+#[target_feature(enable = "sse2")]
+pub(super) fn odd(block: __m128i) -> bool {
+    let halves = _mm_xor_si128(block, _mm_unpackhi_epi64(block, block));
+    _mm_cvtsi128_si64(halves).count_ones() % 2 == 1
+}
+
+/// The bytes as a block, in memory order.
+#[inline]
+#[target_feature(enable = "sse2")]
+pub(super) fn load(bytes: &[u8; 16]) -> __m128i {
+    load128(bytes)
 }
 
 /// A block in memory order as two words in a register.
@@ -144,7 +160,7 @@ pub(super) fn add(a: __m128i, b: __m128i) -> __m128i {
     reason = "16 bits were extracted"
 )]
 pub(super) fn finish<O: Order>(sum: __m128i) -> u16 {
-    let inverse = _mm_set_epi64x(0, constants::<O>().inverse.cast_signed());
+    let inverse = _mm_set_epi64x(0, inverse::<O>().cast_signed());
     // Half of the sum is above x^16; the quotient is what is above x^64 in that times the inverse.
     if O::REFLECTED {
         let product = _mm_clmulepi64_si128::<0x00>(sum, inverse);

@@ -18,7 +18,7 @@ use crate::crc::short;
 const BLOCK: usize = 16;
 const WORD: usize = 8;
 
-/// As [`constants`](super::constants) has them, but for a block at any place: the factors of one
+/// As [`factors`](crate::crc::factors) has them, but for a block at any place: the factors of one
 /// that ends n - 8 bytes before the end. Below eight, it has only zeros after the end. 1168 bytes.
 static FACTORS: [[u8; BLOCK]; WORD + WINDOW + 1] = {
     let mut factors = [[0; BLOCK]; WORD + WINDOW + 1];

@@ -8,8 +8,8 @@ use core::arch::x86_64::{
 };
 
 use super::super::{Backend, Looked, Pieces, Places, WINDOW, keep_last};
-use super::constants::{BLOCKS, constants};
 use super::{Narrow, Wide, load128, load256, narrow, wide};
+use crate::crc::factors::factors;
 use crate::crc::order::Msb;
 use crate::dynamixel2::{STUFFING_BYTE, STUFFING_PATTERN};
 
@@ -32,7 +32,7 @@ impl Backend for Narrow {
 
     #[inline(always)]
     fn ends_in_crc(self, window: &[u8; WINDOW], len: usize) -> bool {
-        // SAFETY: `new` alone makes a `Narrow`, having found the features that the function needs.
+        // SAFETY: a `Narrow` is made only where the features that the function needs were found.
         unsafe { ends_in_crc_narrow(window, len) }
     }
 
@@ -68,19 +68,19 @@ impl Backend for Wide {
 
     #[inline(always)]
     fn ends_in_crc(self, window: &[u8; WINDOW], len: usize) -> bool {
-        // SAFETY: `new` alone makes a `Wide`, having found the features that the function needs.
+        // SAFETY: a `Wide` is made only where the features that the function needs were found.
         unsafe { ends_in_crc_wide(window, len) }
     }
 
     #[inline(always)]
     fn places(self, window: &[u8; WINDOW]) -> Places {
-        // SAFETY: `new` alone makes a `Wide`, having found the features that the function needs.
+        // SAFETY: a `Wide` is made only where the features that the function needs were found.
         unsafe { places_wide(window) }
     }
 
     #[inline(always)]
     fn pairs(self, window: &[u8; WINDOW]) -> u64 {
-        // SAFETY: `new` alone makes a `Wide`, having found the features that the function needs.
+        // SAFETY: a `Wide` is made only where the features that the function needs were found.
         unsafe { pairs_wide(window) }
     }
 }
@@ -144,7 +144,8 @@ fn halves(window: &[u8; WINDOW]) -> [__m256i; 2] {
 #[target_feature(enable = "pclmulqdq,ssse3")]
 fn ends_in_crc_narrow(window: &[u8; WINDOW], len: usize) -> bool {
     let blocks = window.as_chunks().0.iter().zip(keep_last(len).as_chunks().0);
-    let factors = constants::<Msb>().factors.iter().skip(BLOCKS - WINDOW / 16);
+    let factors = factors::<Msb, 16>();
+    let factors = factors.iter().skip(factors.len() - WINDOW / 16);
     let mut sum = _mm_setzero_si128();
     for (index, ((block, keep), factor)) in blocks.zip(factors).enumerate() {
         let block = _mm_and_si128(load128(block), load128(keep));
@@ -159,7 +160,7 @@ fn ends_in_crc_narrow(window: &[u8; WINDOW], len: usize) -> bool {
 #[target_feature(enable = "vpclmulqdq,avx2,pclmulqdq,ssse3")]
 fn ends_in_crc_wide(window: &[u8; WINDOW], len: usize) -> bool {
     let ([low, high], [keep_low, keep_high]) = (halves(window), halves(keep_last(len)));
-    let Some([low_factors, high_factors]) = wide::factors::<Msb>().last_chunk() else {
+    let Some([low_factors, high_factors]) = factors::<Msb, 32>().last_chunk() else {
         return false; // never
     };
     let high = _mm256_shuffle_epi8(_mm256_and_si256(high, keep_high), last_order());

@@ -4,38 +4,52 @@
 //! reflected order make up for it: they are one power of x lower.
 #![expect(clippy::indexing_slicing, reason = "arrays of a fixed size, indices below it")]
 
-use crate::crc::order::Order;
-use crate::crc::shift::power_of_x;
+use super::fold::{GROUP, LEFT};
+use super::order::Order;
+use super::shift::power_of_x;
 
-/// What the multiplications need, for one bit order: 1 KiB.
-#[repr(C, align(32))]
-pub(super) struct Constants {
+/// What the multiplications need, for one bit order: 2 KiB.
+#[repr(C, align(64))]
+struct Constants {
     /// For each 16-byte block of a message, the last block last, the factors of its two words,
     /// as they lie in a register beside the block. They carry a factor x^48, which puts the
     /// quotient's part of the sum into one half of the register.
-    pub(super) factors: [[u8; 16]; BLOCKS],
+    factors: [[u8; 16]; BLOCKS],
     /// The 64 bits below the highest of the quotient of x^80 by P.
-    pub(super) inverse: u64,
+    inverse: u64,
 }
 
-/// The constants for the bit order.
+/// The factors of all blocks of `N` bytes, a power of two from 16 to 64, the last block last.
 #[inline]
-pub(super) fn constants<O: Order>() -> &'static Constants {
+pub(crate) fn factors<O: Order, const N: usize>() -> &'static [[u8; N]] {
+    constants::<O>().factors.as_flattened().as_chunks().0
+}
+
+/// The 64 bits below the highest of the quotient of x^80 by P.
+#[inline]
+pub(crate) fn inverse<O: Order>() -> u64 {
+    constants::<O>().inverse
+}
+
+#[inline]
+fn constants<O: Order>() -> &'static Constants {
     if O::REFLECTED { &LSB } else { &MSB }
 }
 
-/// How many blocks the factors are for.
-pub(super) const BLOCKS: usize = 64;
+/// How many blocks of 16 bytes the factors are for: 32 of 64 bytes, which is enough for what is left
+/// of a folded message, and for the blocks behind it that are no whole group.
+const BLOCKS: usize = 128;
+const _: () = assert!(4 * (LEFT + GROUP - 1) <= BLOCKS);
 
-static MSB: Constants = Constants { factors: factors(false), inverse: quotient_of_x80() };
+static MSB: Constants = Constants { factors: all_factors(false), inverse: quotient_of_x80() };
 
 static LSB: Constants = Constants {
-    factors: factors(true),
+    factors: all_factors(true),
     // The lowest bit goes, for the power of x; nothing that is used depends on it.
     inverse: (1 << 63 | quotient_of_x80() >> 1).reverse_bits(),
 };
 
-const fn factors(reflected: bool) -> [[u8; 16]; BLOCKS] {
+const fn all_factors(reflected: bool) -> [[u8; 16]; BLOCKS] {
     let mut factors = [[0; 16]; BLOCKS];
     let mut i = 0;
     while i < BLOCKS {
