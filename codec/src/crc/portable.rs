@@ -14,6 +14,8 @@
 //! n, the fewer factors: at n = 64 the quotient is the word.
 #![expect(clippy::indexing_slicing, reason = "arrays of a fixed size, indices below it")]
 
+use core::hint::black_box;
+
 use super::compact;
 use super::fold::{Adds, BLOCK, GROUP, LEFT, Words, fold};
 use super::order::Order;
@@ -59,9 +61,11 @@ fn long<O: Order>(state: u16, bytes: &[u8]) -> u16 {
     let mut first = Words.load(first);
     first[0] ^= O::to_native(O::top(state));
     let folded = fold(Words, first, groups.as_chunks().0, last);
+    // If the compiler knew that the words are swapped, it would fold in general registers.
+    let left = black_box(folded.left);
     // Zeros in front.
     let mut words = [0; 2 * LEFT + 2];
-    for (word, native) in words[2..].iter_mut().zip(folded.left.as_flattened()) {
+    for (word, native) in words[2..].iter_mut().zip(left.as_flattened()) {
         *word = O::from_native(*native);
     }
     finish32::<O>(&words) ^ folded.quotient::<O, _, BLOCK>(Words)
