@@ -22,6 +22,6 @@ pub(crate) type Scan = Missing;
 pub(crate) fn run(_: &Missing) -> Result<ExitCode, Failure> {
     let name = named(std::env::args().skip(1).take(1));
     Err(Failure::incomplete(format!(
-        "`{name}` needs pseudo-terminals, which this system has not: run it on Linux or macOS, or in WSL"
+        "`{name}` is built only where there are pseudo-terminals: run it on Linux or macOS, or in WSL"
     )))
 }

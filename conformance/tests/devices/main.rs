@@ -104,6 +104,9 @@ fn tests() -> ExitCode {
     for (name, wrong) in right::TESTS {
         trials.push(test(format!("right::{name}"), Box::new(wrong)));
     }
+    for (name, wrong) in right::everywhere() {
+        trials.push(test(format!("right::{name}"), wrong));
+    }
     for (name, wrong) in fuzzed::TESTS {
         trials.push(test(format!("fuzzed::{name}"), Box::new(wrong)));
     }

@@ -1,6 +1,7 @@
 //! Right devices, which no check may fail, at every kind of port.
 
 use std::collections::BTreeSet;
+use std::ffi::OsStr;
 use std::io::{BufRead as _, BufReader};
 use std::process::{Child, Command, Stdio};
 
@@ -18,7 +19,7 @@ use super::killing::run;
 pub(crate) type Test = (&'static str, fn() -> String);
 
 /// The tests. Each returns what is wrong.
-pub(crate) const TESTS: [Test; 23] = [
+pub(crate) const TESTS: [Test; 14] = [
     ("scan_of_a_socket", || scan(&["--tcp", "0"], "tcp://", "ID 2: JA40, model 5210, firmware 0")),
     ("scan_of_a_terminal", || {
         scan(&["--pty"], "", "ID 1 at 57600 bit/s: JA40, model 5210, firmware 0")
@@ -46,21 +47,12 @@ pub(crate) const TESTS: [Test; 23] = [
             80,
         )
     }),
-    ("innfos_udp", || board(&["--udp", "0"], "udp://")),
-    ("innfos_tcp", || board(&["--tcp", "0"], "tcp://")),
     ("innfos_silent_for_all", || {
         board(&["--udp", "0", "--readings", "broadcast=silent"], "udp://")
     }),
     ("response_time", response_time),
-    ("late", || port(&["--tcp", "0", "--fault", "late=3ms"], "tcp://")),
-    ("split", || port(&["--pty", "--fault", "split"], "")),
     ("with_an_alarm", || port(&["--tcp", "0", "--fault", "overheating#1"], "tcp://")),
-    ("innfos_late", || board(&["--udp", "0", "--fault", "late=3ms"], "udp://")),
-    ("innfos_split", || board(&["--tcp", "0", "--fault", "split"], "tcp://")),
     ("innfos_with_an_alarm", || board(&["--udp", "0", "--fault", "overheating#1"], "udp://")),
-    ("pseudo_terminal", || port(&["--pty"], "")),
-    ("tcp", || port(&["--tcp", "0"], "tcp://")),
-    ("udp", || port(&["--udp", "0"], "udp://")),
     ("echo", || port(&["--tcp", "0", "--echo"], "tcp://")),
     ("crc_error", || port(&["--tcp", "0", "--readings", "crc-error=answer"], "tcp://")),
 ];
@@ -68,6 +60,38 @@ pub(crate) const TESTS: [Test; 23] = [
 pub(crate) const SERVOS: [&str; 2] = ["ja40@1", "ja40@2"];
 pub(crate) const ACTUATORS: [&str; 2] = ["dd-6010@7", "dd-6010@6"];
 const INNFOS: [&str; 6] = ["--wire", "innfos", "--id", "6", "--neighbour", "7"];
+
+/// The ports of a virtual bus: its option, and how the address that it tells begins for a run.
+const PORTS: [(&str, &[&str], &str); 3] = [
+    ("pseudo_terminal", &["--pty"], ""),
+    ("tcp", &["--tcp", "0"], "tcp://"),
+    ("udp", &["--udp", "0"], "udp://"),
+];
+/// How answers come.
+const ANSWERS: [(&str, &[&str]); 2] =
+    [("at_once", &[]), ("late_and_split", &["--fault", "late=3ms", "--fault", "split"])];
+
+/// Each device at each port, with answers that come at once and those that come late and in pieces.
+pub(crate) fn everywhere() -> Vec<(String, Box<dyn Fn() -> String + Send>)> {
+    let servos = ["ja40", "ja-variant", "xm430-w210", "xl330-m288"];
+    let mut tests: Vec<(String, Box<dyn Fn() -> String + Send>)> = Vec::new();
+    for (port, options, before) in PORTS {
+        for (answers, fault) in ANSWERS {
+            let options = [options, fault].concat();
+            for device in servos {
+                let options = options.clone();
+                let name = format!("{device}::{port}::{answers}");
+                tests.push((name, Box::new(move || servo(device, &options, before))));
+            }
+            // A board has no line of its own.
+            if port != "pseudo_terminal" {
+                let name = format!("dd-6010::{port}::{answers}");
+                tests.push((name, Box::new(move || board(&options, before))));
+            }
+        }
+    }
+    tests
+}
 
 /// The checks that name no requirement of a device, or have an id that another has.
 pub(crate) fn requirements() -> String {
@@ -111,9 +135,14 @@ fn program(device: &str) -> String {
 
 /// A virtual bus behind a port.
 fn port(options: &[&str], before: &str) -> String {
-    let bus = Bus::start(&SERVOS, options);
+    servo("ja40", options, before)
+}
+
+/// A virtual bus with two of these devices behind a port.
+fn servo(device: &str, options: &[&str], before: &str) -> String {
+    let bus = Bus::start(&[1, 2].map(|id| format!("{device}@{id}")), options);
     let port = format!("{before}{}", bus.address);
-    judged(&[&port, "--device", "ja40", "--neighbour", "2"], 100)
+    judged(&[&port, "--device", device, "--neighbour", "2"], 100)
 }
 
 /// A virtual board behind a port.
@@ -175,7 +204,7 @@ pub(crate) struct Bus {
 }
 
 impl Bus {
-    pub(crate) fn start(devices: &[&str], options: &[&str]) -> Self {
+    pub(crate) fn start(devices: &[impl AsRef<OsStr>], options: &[&str]) -> Self {
         let mut command = Command::new(env!("CARGO_BIN_EXE_actucheck"));
         command.arg("bus").args(devices).args(options);
         let mut child = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
