@@ -1,6 +1,6 @@
-use actucheck::report::Report;
 use actucheck::report::compare::{Cell, Comparison, Standing};
 use actucheck::report::model::Header;
+use actucheck::report::{Format, Report};
 use actucheck::verdict::Verdict;
 
 use super::sample;
@@ -111,4 +111,38 @@ fn reports_without_a_common_wire_are_refused() {
         "unstuffed was checked on wire dynamixel2, right on wire innfos; \
          compare reports with a common wire"
     );
+}
+
+#[test]
+fn what_differs_in_how_long_answers_take_stands_side_by_side() {
+    let slow = sample::of_device();
+    let mut quick = sample::of_device();
+    let traffic = quick.summary.traffic.as_mut().unwrap();
+    let read = traffic.by_instruction.pop().unwrap();
+    traffic.by_instruction = vec![read];
+    traffic.by_instruction[0].spread.median_us = 250;
+    traffic.by_instruction[0].spread.most_us = 1_700;
+    let comparison = Comparison::of(slow, vec![quick, sample::small()]).unwrap();
+    let write = |format: Format| {
+        let mut text = Vec::new();
+        format.write_comparison(&comparison, &mut text).unwrap();
+        String::from_utf8(text).unwrap()
+    };
+    let lines = [
+        "Answers begin after: half of them, and the longest      1               2              3",
+        "    ping                                                0.52, 0.54 ms   -              -",
+        "    read                                                0.80, 20.00 ms  0.25, 1.70 ms  -",
+    ];
+    let text = write(Format::Text);
+    let shown: Vec<_> =
+        text.lines().skip_while(|line| !line.starts_with("Answers begin")).collect();
+    assert_eq!(shown[..3], lines, "{text}");
+    let page = write(Format::Markdown);
+    assert!(page.contains("| <code>read</code> | 0.80, 20.00 ms | 0.25, 1.70 ms | - |"), "{page}");
+    let page = write(Format::Html);
+    assert!(page.contains("0.25, 1.70 ms"), "{page}");
+    let again: Comparison = serde_json::from_str(&write(Format::Json)).unwrap();
+    assert_eq!(again, comparison);
+    let none = Comparison::of(sample::small(), vec![sample::right()]).unwrap();
+    assert!(none.response.is_empty());
 }

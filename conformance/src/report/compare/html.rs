@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use askama::Template;
 
 use super::model::{Cell, Comparison, Standing};
-use super::words::ASKED_DIFFERENTLY;
+use super::words::{self as compared, ASKED_DIFFERENTLY, TIMES};
 use crate::explain::diff::Segment;
 use crate::report::view::Evidence;
 use crate::report::words;

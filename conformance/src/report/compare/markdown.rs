@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use super::model::{Comparison, Standing};
-use super::words::{ASKED_DIFFERENTLY, cell};
+use super::words::{ASKED_DIFFERENTLY, TIMES, cell, time};
 use crate::report::markdown::{code, prose};
 use crate::report::model::Statement;
 use crate::report::words::{self, count, mark};
@@ -19,6 +19,7 @@ pub(super) fn write(comparison: &Comparison, out: &mut dyn Write) -> io::Result<
     matrix("Nobody gets it wrong, but they differ", comparison, Standing::Different, out)?;
     let alike = comparison.rows(Standing::Alike).count();
     writeln!(out, "\nAll alike: {}.", count(alike, "requirement"))?;
+    response(comparison, out)?;
     profile(comparison, out)
 }
 
@@ -52,6 +53,23 @@ fn head(first: &str, comparison: &Comparison, out: &mut dyn Write) -> io::Result
         write!(out, " {} {} |", prose(&one.who.name), prose(&one.who.version))?;
     }
     writeln!(out, "\n|---|{}", "---|".repeat(comparison.implementations.len()))
+}
+
+/// Writes how long answers took.
+fn response(comparison: &Comparison, out: &mut dyn Write) -> io::Result<()> {
+    if comparison.response.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "\n### {TIMES}\n")?;
+    head("instruction", comparison, out)?;
+    for row in &comparison.response {
+        write!(out, "| {} |", code(&row.instruction))?;
+        for own in &row.spreads {
+            write!(out, " {} |", time(own.as_ref()))?;
+        }
+        writeln!(out)?;
+    }
+    Ok(())
 }
 
 /// Writes only the questions with different answers.

@@ -12,7 +12,9 @@ use std::io::{self, Write};
 
 use anstream::adapter::strip_bytes;
 
-pub use model::{Answers, Cell, Comparison, Implementation, NoCommonWire, Row, Standing};
+pub use model::{
+    Answers, Cell, Comparison, Implementation, NoCommonWire, ResponseTimes, Row, Standing,
+};
 pub use regression::{Regression, Worse};
 pub use text::write as write_text;
 

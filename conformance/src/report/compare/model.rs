@@ -13,6 +13,7 @@ use crate::report::model::{
     CheckResult, Header, ProfileEntry, Report, RequirementResult, Statement, Stopped, Tally,
 };
 use crate::report::words;
+use crate::traffic::{Response, Spread};
 use crate::verdict::{Totals, Verdict};
 
 /// Version of the comparison's format. It changes when a field is removed or gets another meaning.
@@ -33,6 +34,9 @@ pub struct Comparison {
     pub requirements: Vec<Row>,
     /// The questions that the documents leave unspecified.
     pub profile: Vec<Answers>,
+    /// How long the answers of devices took, by instruction.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub response: Vec<ResponseTimes>,
 }
 
 /// An implementation and its run.
@@ -88,6 +92,15 @@ pub struct Answers {
     pub behaviours: Vec<Vec<Tally>>,
 }
 
+/// How long the answers of each implementation to an instruction took.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct ResponseTimes {
+    /// The instruction's name.
+    pub instruction: String,
+    /// The times; `null` if none was timed.
+    pub spreads: Vec<Option<Spread>>,
+}
+
 /// The category of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Standing {
@@ -134,6 +147,7 @@ impl Comparison {
             implementations: reports.iter().map(implementation).collect(),
             requirements: requirements(&reports),
             profile: profile(&reports),
+            response: response(&reports),
         })
     }
 
@@ -242,6 +256,19 @@ fn profile(reports: &[Report]) -> Vec<Answers> {
     };
     let key = |question: &ProfileEntry| (question.requirement.clone(), question.question.clone());
     united(lists, key).into_iter().filter_map(answers).collect()
+}
+
+fn response(reports: &[Report]) -> Vec<ResponseTimes> {
+    let lists = reports.iter().map(|report| {
+        let traffic = report.summary.traffic.as_ref();
+        traffic.map(|traffic| traffic.by_instruction.as_slice()).unwrap_or_default()
+    });
+    let times = |columns: Vec<Option<&Response>>| {
+        let instruction = columns.iter().flatten().next()?.instruction.clone();
+        let spreads = columns.iter().map(|times| times.map(|times| times.spread)).collect();
+        Some(ResponseTimes { instruction, spreads })
+    };
+    united(lists, |times| times.instruction.as_str()).into_iter().filter_map(times).collect()
 }
 
 /// Merges lists that have a common order. The result has one row per key, in that order as far as

@@ -4,8 +4,8 @@ use std::io::{self, Write};
 
 use anstyle::Style;
 
-use super::model::{Answers, Comparison, Row, Standing};
-use super::words::{ASKED_DIFFERENTLY, cell};
+use super::model::{Answers, Comparison, Standing};
+use super::words::{ASKED_DIFFERENTLY, TIMES, cell, time};
 use crate::report::model::Statement;
 use crate::report::text::{BOLD, DIM, counts, style};
 use crate::report::words;
@@ -20,6 +20,7 @@ pub fn write(comparison: &Comparison, out: &mut dyn Write) -> io::Result<()> {
     matrix("Nobody gets it wrong, but they differ", comparison, Standing::Different, out)?;
     let alike = comparison.rows(Standing::Alike).count();
     writeln!(out, "\n{BOLD}All alike{BOLD:#}: {}", words::count(alike, "requirement"))?;
+    response(comparison, out)?;
     profile(comparison, out)
 }
 
@@ -49,25 +50,44 @@ fn matrix(
         return Ok(());
     }
     let width = rows.iter().map(|row| row.id.len()).max().unwrap_or(0).max(title.len());
-    let widths = widths(comparison, &rows);
-    let heads = (1..=widths.len()).map(|number| (BOLD, number.to_string()));
+    let texts = rows.iter().map(|row| row.cells.iter().map(|own| cell(own.as_ref())).collect());
+    let texts: Vec<Vec<_>> = texts.collect();
+    let widths = widths(&texts);
     write!(out, "\n{BOLD}{title:width$}{BOLD:#}    ")?;
-    columns(heads, &widths, out)?;
+    columns(heads(&widths), &widths, out)?;
     let mut place = None;
-    for row in rows {
+    for (row, texts) in rows.into_iter().zip(texts) {
         let own = row.statement.as_ref().map(Statement::place);
         if own != place {
             writeln!(out, "  {DIM}{}{DIM:#}", own.as_deref().unwrap_or("The adapter protocol"))?;
             place = own;
         }
         write!(out, "    {:width$}", row.id)?;
-        let cells = row.cells.iter().map(|own| {
-            let style = own.as_ref().map(|own| style(own.verdict)).unwrap_or_default();
-            (style, cell(own.as_ref()))
-        });
-        columns(cells, &widths, out)?;
+        let styles = row.cells.iter().map(|own| own.as_ref().map(|own| style(own.verdict)));
+        columns(styles.map(Option::unwrap_or_default).zip(texts), &widths, out)?;
     }
     Ok(())
+}
+
+/// How long answers took, with one column per implementation.
+fn response(comparison: &Comparison, out: &mut dyn Write) -> io::Result<()> {
+    let rows = &comparison.response;
+    let Some(longest) = rows.iter().map(|row| row.instruction.len()).max() else { return Ok(()) };
+    let texts = rows.iter().map(|row| row.spreads.iter().map(|own| time(own.as_ref())).collect());
+    let texts: Vec<Vec<_>> = texts.collect();
+    let (width, widths) = (longest.max(TIMES.len()), widths(&texts));
+    write!(out, "\n{BOLD}{TIMES:width$}{BOLD:#}    ")?;
+    columns(heads(&widths), &widths, out)?;
+    for (row, texts) in rows.iter().zip(texts) {
+        write!(out, "    {:width$}", row.instruction)?;
+        columns(texts.into_iter().map(|text| (Style::new(), text)), &widths, out)?;
+    }
+    Ok(())
+}
+
+/// The numbers of the columns.
+fn heads(widths: &[usize]) -> impl Iterator<Item = (Style, String)> {
+    (1..=widths.len()).map(|number| (BOLD, number.to_string()))
 }
 
 /// The rest of a line: texts padded to their columns, without trailing blanks.
@@ -85,12 +105,13 @@ fn columns(
 }
 
 /// The width of each column.
-fn widths(comparison: &Comparison, rows: &[&Row]) -> Vec<usize> {
+fn widths(texts: &[Vec<String>]) -> Vec<usize> {
+    let columns = texts.iter().map(Vec::len).max().unwrap_or(0);
     let width = |column: usize| {
-        let cells = rows.iter().filter_map(|row| row.cells.get(column));
-        cells.map(|own| cell(own.as_ref()).len()).max().unwrap_or(0)
+        let texts = texts.iter().filter_map(|row| row.get(column));
+        texts.map(String::len).max().unwrap_or(0)
     };
-    (0..comparison.implementations.len()).map(width).collect()
+    (0..columns).map(width).collect()
 }
 
 /// Writes only the questions with different answers.
