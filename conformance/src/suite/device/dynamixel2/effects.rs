@@ -25,10 +25,11 @@ pub(super) fn checks(talk: &Talk<'_>) -> Vec<Check> {
         several,
         one_named,
         registered,
-        restarted,
-        reset,
+        // A restart may leave the shaft in its first turn, where nothing is seen of a Clear.
         cleared,
         cleared_position,
+        restarted,
+        reset,
         torque,
     ];
     all.into_iter().flat_map(|checks| checks(talk)).collect()
@@ -196,25 +197,33 @@ fn cleared_position(talk: &Talk<'_>) -> Vec<Check> {
     let Some(counts) = counts.filter(|_| !is_other && talk.knows("Clear")) else {
         return Vec::new();
     };
+    let lowest = u8::try_from(counts.trailing_zeros()).unwrap_or_default();
     let needed = [
         talk.given(firmware, "firmware 42 or newer", (0, 8), (CLEARS_SINCE..=255).collect()),
         talk.given(offset, "a Homing Offset of 0", (0, 32), vec![0]),
+        // Elsewhere nothing is seen of what Clear does.
+        talk.given(
+            position,
+            "a shaft that is not in its first turn",
+            (lowest, 8),
+            (1..=255).collect(),
+        ),
     ];
     let read = |part| (asked(talk.read(position.address, 4), 1), vec![vec![talk.done(part)]]);
     let clear = |params| talk.done_by(instruction(talk.id(), code::CLEAR, params));
-    let lowest = u8::try_from(counts.trailing_zeros()).unwrap_or_default();
     let within = Part::Bits { size: 4, has: Bits { lowest, width: 32 - lowest, one_of: vec![0] } };
     let needs = Permissions::from([Permission::Reboot]);
     let used = [clear(CLEAR.to_vec()), read(within)];
     let used = conversation(needed.iter().cloned().chain(used).collect());
-    let mut checks = shown(talk, &needs, &["clear.position"], &used);
     let [_, key @ ..] = CLEAR;
     let unused = instruction(talk.id(), code::CLEAR, [&[0x02][..], &key].concat());
     let any = Like { id: talk.id(), error: None, data: Some(Vec::new()) };
     let same = Part::Moved { step: needed.len(), by: 0, within: STILL };
     let steps = [read(Part::Any(4)), (asked(unused, 1), vec![vec![any]]), read(same)];
     let unused = conversation(needed.into_iter().chain(steps).collect());
-    checks.extend(shown(talk, &needs, &["clear.unused-options"], &unused));
+    // The first of them leaves the turns for the other.
+    let mut checks = shown(talk, &needs, &["clear.unused-options"], &unused);
+    checks.extend(shown(talk, &needs, &["clear.position"], &used));
     checks
 }
 
