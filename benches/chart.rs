@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::contender::{OURS, PORTABLE, READ};
+use crate::contender::{OURS, PORTABLE, is_peer};
 use crate::measured::Measured;
 
 const LEFT: f64 = 62.0;
@@ -99,7 +99,8 @@ impl Line<'_> {
 
 fn lines(all: &[Measured]) -> Vec<Line<'_>> {
     let mut lines: Vec<Line> = Vec::new();
-    for measured in all.iter().filter(|other| other.group == "umts" && other.who != READ) {
+    let drawn = |who: &str| is_peer(who) || [OURS, PORTABLE].contains(&who);
+    for measured in all.iter().filter(|other| other.group == "umts" && drawn(&other.who)) {
         let Ok(size) = measured.case.parse() else { continue };
         let x = along(size, SIZES, LEFT, RIGHT);
         let y = along(1.0 / measured.per_unit(), SPEEDS, BOTTOM, TOP);
