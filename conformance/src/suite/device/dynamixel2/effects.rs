@@ -25,9 +25,9 @@ pub(super) fn checks(talk: &Talk<'_>) -> Vec<Check> {
         several,
         one_named,
         registered,
-        // A restart may leave the shaft in its first turn, where nothing is seen of a Clear.
-        cleared,
+        // Later the shaft may be in its first turn, where nothing is seen of a Clear: it does that, or a restart.
         cleared_position,
+        cleared,
         restarted,
         reset,
         torque,
