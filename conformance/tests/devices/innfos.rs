@@ -217,7 +217,7 @@ pub(crate) const FAULTS: &[Fault] = &[
         |asked, answer| {
             static IS_LOW: AtomicBool = AtomicBool::new(false);
             if of_command(asked, 0x61) {
-                IS_LOW.store(asked[5..7] == [0x50, 0x00], Ordering::Relaxed);
+                IS_LOW.store(asked.get(5..7) == Some(&[0x50, 0x00]), Ordering::Relaxed);
             }
             if of_command(asked, 0xFF) && IS_LOW.swap(false, Ordering::Relaxed) {
                 of(answer, 0xFF, |reply| reply.data.0[1] = 8)
