@@ -81,7 +81,7 @@ fn tests() -> ExitCode {
     assert_eq!(names.len(), every().chain(bad::FAULTS).count(), "two faults have the same name");
     let mut arguments = Arguments::from_args();
     // Most of the time is waited.
-    arguments.test_threads.get_or_insert(8);
+    arguments.test_threads.get_or_insert(16);
     let test = |name: String, wrong: Box<dyn Fn() -> String + Send>| {
         Trial::test(name, move || {
             let tries: Vec<_> =
