@@ -74,7 +74,7 @@ fn response(comparison: &Comparison, out: &mut dyn Write) -> io::Result<()> {
 
 /// Writes only the questions with different answers.
 fn profile(comparison: &Comparison, out: &mut dyn Write) -> io::Result<()> {
-    let mut different = comparison.profile.iter().filter(|answers| !answers.alike()).peekable();
+    let mut different = comparison.answers(false).peekable();
     if different.peek().is_none() {
         return Ok(());
     }

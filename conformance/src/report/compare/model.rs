@@ -167,6 +167,11 @@ impl Comparison {
     pub fn rows(&self, standing: Standing) -> impl Iterator<Item = &Row> {
         self.requirements.iter().filter(move |row| row.standing() == standing)
     }
+
+    /// The questions that all implementations answer alike, or those that they do not.
+    pub fn answers(&self, alike: bool) -> impl Iterator<Item = &Answers> {
+        self.profile.iter().filter(move |answers| answers.alike() == alike)
+    }
 }
 
 impl Row {
