@@ -74,13 +74,18 @@ fn contenders(
 }
 
 /// The names of the codec and of the limit with registers of so many bits, if they are contenders.
-#[must_use]
-pub const fn narrower(bits: u32) -> Option<[&'static str; 2]> {
+const fn narrower(bits: u32) -> Option<[&'static str; 2]> {
     match bits {
         128 => Some(["actucheck, 128 bits", "read only, 128 bits"]),
         256 => Some(["actucheck, 256 bits", "read only, 256 bits"]),
         _ => None,
     }
+}
+
+/// Whether the contender computes in narrower registers than this processor has.
+#[must_use]
+pub fn is_narrower(name: &str) -> bool {
+    [128, 256].into_iter().filter_map(narrower).flatten().any(|other| other == name)
 }
 
 /// Whether the contender is another crate.

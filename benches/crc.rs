@@ -24,18 +24,9 @@ fn measure(criterion: &mut Criterion<CpuTime>, name: &str, contenders: &[Contend
         let messages = messages(&noise, size);
         let bytes = messages.iter().map(|message| message.len() as u64).sum();
         group.throughput(Throughput::Bytes(bytes));
-        let narrower = |name: &str| {
-            [128, 256]
-                .map(contender::narrower)
-                .iter()
-                .flatten()
-                .flatten()
-                .any(|other| *other == name)
-        };
-        for Contender { name, run } in contenders {
-            if size < 64 << 10 && narrower(name) {
-                continue;
-            }
+        // Short messages are computed in narrow registers anyway.
+        let is_drawn = |name: &str| size >= 64 << 10 || !contender::is_narrower(name);
+        for Contender { name, run } in contenders.iter().filter(|one| is_drawn(one.name)) {
             let id = BenchmarkId::new(*name, size);
             group.bench_function(id, |bencher| bencher.iter(|| run(black_box(&messages))));
         }
