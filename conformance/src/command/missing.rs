@@ -1,4 +1,4 @@
-//! What takes the place of a subcommand on a system that has not what it needs.
+//! What takes the place of a subcommand on a system that lacks what it needs.
 
 use std::ffi::OsString;
 use std::process::ExitCode;

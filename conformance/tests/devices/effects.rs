@@ -10,6 +10,7 @@ use super::fault::{Fault, answering, hearing, on};
 use super::rewrite::{changed, never_refuses, packet, unstuffed, with_code};
 
 const XM430: &str = "xm430-w210@1";
+/// One that has Clear, after two turns and a part of one.
 const TURNED: &str = "xm430-w210@1:firmware-version=42,present-position=10000";
 
 /// The faults. `found_by` is a check's id after `dynamixel2.device.`.

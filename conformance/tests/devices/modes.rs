@@ -63,13 +63,7 @@ pub(crate) const FAULTS: &[Fault] = &[
             "goal-below-a-limit",
             "answers a goal below a limit with Data Range Error",
             "limit.goal-position/below",
-            |asked, answer| {
-                if asked.ends_with_write(116, &999_u32.to_le_bytes()) {
-                    each(answer, |_, error, _| *error = 4)
-                } else {
-                    answer
-                }
-            },
+            |asked, answer| refuses(asked, answer, 116, &999_u32.to_le_bytes(), 4),
         ),
     ),
     answering(

@@ -6,13 +6,13 @@
 //! ```sh
 //! cargo test --workspace --test hosts                    # every test
 //! cargo test --workspace --test hosts -- no-drain        # those with this in their name
-//! cargo test -q -p actucheck --test hosts -- table        # the faults, as a table in Markdown
-//! cargo test -q -p actucheck --test hosts -- adapter none # the right host, as an adapter
-//! cargo test -q -p actucheck --test hosts -- adapter no-drain 50
+//! cargo test -q --workspace --test hosts -- table        # the faults, as a table in Markdown
+//! cargo test -q --workspace --test hosts -- adapter none # the right host, as an adapter
+//! cargo test -q --workspace --test hosts -- adapter no-drain 50
 //!                                   # one that waits 50 ms for an answer, and does not drain
-//! cargo test -q -p actucheck --test hosts -- adapter no-drain 50 memory
+//! cargo test -q --workspace --test hosts -- adapter no-drain 50 memory
 //!                                   # the same on a port in memory, where nobody waits
-//! cargo test -q -p actucheck --test hosts -- adapter none 50 udp
+//! cargo test -q --workspace --test hosts -- adapter none 50 udp
 //!                                   # the host on INNFOS
 //! ```
 

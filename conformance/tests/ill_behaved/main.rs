@@ -4,10 +4,10 @@
 //! This program is the adapter too, so that a test needs nothing built but itself:
 //!
 //! ```sh
-//! cargo test -p actucheck --test ill_behaved                     # every row
-//! cargo test -p actucheck --test ill_behaved -- setsid           # those with this in their name
-//! cargo test -p actucheck --test ill_behaved --release -- table  # what each took
-//! cargo run -- codec -- cargo test -q -p actucheck --test ill_behaved -- adapter hangs crc
+//! cargo test --workspace --test ill_behaved                     # every row
+//! cargo test --workspace --test ill_behaved -- setsid           # those with this in their name
+//! cargo test --workspace --test ill_behaved --release -- table  # what each took
+//! cargo run -- codec -- cargo test -q --workspace --test ill_behaved -- adapter hangs crc
 //! ```
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing, clippy::panic)] // tests may stop at a surprise

@@ -48,7 +48,7 @@ fn the_schemas_in_the_tree_are_fresh() {
             fs::write(&file, &text).unwrap();
         }
         let there = fs::read_to_string(&file).unwrap_or_default();
-        assert!(there == text, "{name}: ACCEPT=1 cargo test -p actucheck --test reports");
+        assert!(there == text, "{name}: ACCEPT=1 cargo test --workspace --test reports");
     }
 }
 

@@ -8,7 +8,6 @@ use actucheck::adapter::{Implementation, Settings, Wire};
 use actucheck::device::{NONE, Tables, of_model};
 use actucheck::port::Place;
 use actucheck::subject::device::{Line, Slave, SlaveError};
-
 use actucheck::suite::device::{Identity, has_tables, hello, hello_all, identity, reported};
 use actucheck_spec::{Spec, model};
 
