@@ -116,10 +116,10 @@ pub struct Asked {
     /// How often all is sent again if they do not come.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub again: u32,
-    /// It is sent again too until the answer holds this.
+    /// It is sent again too until the answer has no error and holds this.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub until: Option<Bits>,
-    /// Nothing more is sent if the answer does not hold this.
+    /// Nothing more is sent if the answer has an error, or does not hold this.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub only_if: Option<Bits>,
     /// What is sent is a Write of this number instead.

@@ -55,7 +55,8 @@ pub enum Part {
         /// How far it may be off: what is measured is never quite still.
         within: i64,
     },
-    /// Without this the check is not about the device: a number of so many bytes, which has some bits.
+    /// Without this the check is not about the device: an answer without an error, with a number of so many bytes,
+    /// which has some bits.
     Given {
         /// What the device needs, in words after "it needs".
         what: String,
@@ -111,6 +112,11 @@ impl Told {
     }
 }
 
+/// What came back in each step.
+fn all_told(wire: Wire, steps: &[Asked], heard: &[Heard]) -> Vec<Told> {
+    steps.iter().zip(heard).map(|(asked, heard)| Told::of(wire, asked, heard)).collect()
+}
+
 /// How many bytes of these a packet has: some may be written in several ways.
 fn size_in(wire: Wire, packet: &Packet, bytes: &[u8]) -> usize {
     let (frame, context) = (wire.encode(packet).unwrap_or_default(), wire.context(packet));
@@ -127,8 +133,7 @@ pub(super) fn judge(question: &Question, wanted: &[Wanted], heard: &[Heard]) -> 
     let Question::Device { wire, steps, .. } = question else {
         return (Verdict::NotRun, "the demand is not one on a device".to_owned());
     };
-    let told: Vec<_> =
-        steps.iter().zip(heard).map(|(asked, heard)| Told::of(*wire, asked, heard)).collect();
+    let told = all_told(*wire, steps, heard);
     for (place, (wanted, came)) in wanted.iter().zip(&told).enumerate() {
         if !wanted.is_met(came, &told) {
             let step =
@@ -152,8 +157,7 @@ pub(crate) fn symptom(
     heard: &[Heard],
 ) -> Option<&'static str> {
     let Question::Device { wire, steps, .. } = question else { return None };
-    let told: Vec<_> =
-        steps.iter().zip(heard).map(|(asked, heard)| Told::of(*wire, asked, heard)).collect();
+    let told = all_told(*wire, steps, heard);
     let (wanted, came) =
         wanted.iter().zip(&told).find(|(wanted, came)| !wanted.is_met(came, &told))?;
     if came.stray > 0 {
@@ -190,6 +194,7 @@ pub(super) fn behaviour(question: &Question, heard: &[Heard]) -> String {
     }
     let words = |answer: &Reported| match (answer.error, &answer.data) {
         (Some(error), _) if error > 0 => format!("answers error {error}"),
+        (_, Some(data)) if data.len() == 1 => "answers 1 byte".to_owned(),
         (_, Some(data)) if !data.is_empty() => format!("answers {} bytes", data.len()),
         _ => "answers without an error".to_owned(),
     };
@@ -213,10 +218,13 @@ impl Wanted {
 impl Wanted {
     /// What the device must be in for the check, and is not.
     fn lacks(&self, came: &Told) -> Option<&str> {
-        let data = came.answers.first()?.data.as_ref()?;
+        let answer = came.answers.first()?;
+        let (data, is_done) = (answer.data.as_ref()?, answer.error.unwrap_or_default() == 0);
         let parts = self.0.iter().flatten().filter_map(|like| like.data.as_ref()).flatten();
         parts.into_iter().find_map(|part| match part {
-            Part::Given { what, has, .. } => (!has.are_in(&data.0)).then_some(what.as_str()),
+            Part::Given { what, has, .. } => {
+                (!is_done || !has.are_in(&data.0)).then_some(what.as_str())
+            }
             _ => None,
         })
     }

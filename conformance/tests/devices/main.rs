@@ -93,6 +93,8 @@ fn tests() -> ExitCode {
         .map(|row| test(format!("killed::{}", row.name), Box::new(|| killing::wrong(row))))
         .collect();
     trials.push(test("checks::each_has_a_requirement".to_owned(), Box::new(right::requirements)));
+    let still = Box::new(right::torque_without_a_goal);
+    trials.push(test("checks::torque_moves_nothing".to_owned(), still));
     let covered = Box::new(covered::without_a_fault);
     trials.push(test("checks::each_must_finds_a_fault".to_owned(), covered));
     for (name, wrong) in interrupted::TESTS {

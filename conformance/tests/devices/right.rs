@@ -5,11 +5,13 @@ use std::ffi::OsStr;
 use std::io::{BufRead as _, BufReader};
 use std::process::{Child, Command, Stdio};
 
-use actucheck::adapter::Wire;
+use actucheck::adapter::{Question, Wire};
 use actucheck::suite;
 use actucheck::suite::device::Target;
 use actucheck_spec::Spec;
 use actucheck_spec::model::Role;
+use actucheck_spec::wire::dynamixel2::Packet;
+use actucheck_spec::wire::dynamixel2::reference::packets;
 
 use serde_json::Value;
 
@@ -120,6 +122,40 @@ pub(crate) fn requirements() -> String {
             }
         }
         assert!(ids.len() > 100, "{} checks of {}", ids.len(), device.device);
+    }
+    wrong.join("\n")
+}
+
+/// The checks that switch torque on without having set the goal to where the shaft is.
+pub(crate) fn torque_without_a_goal() -> String {
+    let spec = Spec::embedded().unwrap();
+    let (mut wrong, mut right) = (Vec::new(), 0);
+    for file in spec.devices.iter().filter(|file| file.content.register("Torque Enable").is_some())
+    {
+        let device = &file.content;
+        let torque = device.register("Torque Enable").unwrap().address;
+        let on = [&torque.to_le_bytes()[..], &[1]].concat();
+        let target = Target::alone(Some(device));
+        for check in suite::device_plan(&spec, &[device.wire], &target).checks() {
+            let Question::Device { steps, .. } = &check.question else { continue };
+            let mut is_here = false;
+            for step in steps {
+                is_here |=
+                    step.sum.as_ref().is_some_and(|sum| sum.by == 0) && step.only_if.is_some();
+                let bytes: Vec<u8> = step.send.iter().flat_map(|it| it.bytes.0.clone()).collect();
+                let writes = |packet: &Packet| matches!(packet, Packet::Instruction { instruction: 3, params, .. } if params.0 == on);
+                if packets(&bytes).iter().any(writes) {
+                    if is_here {
+                        right += 1;
+                    } else {
+                        wrong.push(format!("{} {}", device.device, check.id));
+                    }
+                }
+            }
+        }
+    }
+    if wrong.is_empty() && right == 0 {
+        return "no check switches torque on".to_owned();
     }
     wrong.join("\n")
 }

@@ -31,13 +31,14 @@ pub(super) fn step<'a>(
     Cow::Owned(Asked { send: piece.into_iter().collect(), awaits, ..step.clone() })
 }
 
-/// The data of the first answer in what came back.
+/// The data of the first answer in what came back, if it has no error.
 pub(super) fn data(wire: Wire, asked: &Asked, came: &[u8]) -> Option<HexBytes> {
     let packets = asked.packets(wire, came);
-    packets.iter().flat_map(|packet| device::reported(wire, packet)).next()?.data
+    let first = packets.iter().flat_map(|packet| device::reported(wire, packet)).next()?;
+    first.data.filter(|_| first.error.unwrap_or_default() == 0)
 }
 
-/// Whether the first answer holds these bits.
+/// Whether the first answer has no error, and holds these bits.
 pub(super) fn holds(wire: Wire, asked: &Asked, heard: &Heard, bits: &Bits) -> bool {
     data(wire, asked, &heard.received()).is_some_and(|data| bits.are_in(&data.0))
 }

@@ -3,15 +3,13 @@
 
 use super::writable::{bytes, probe};
 use super::written::Step;
-use super::{Talk, asked, error, instruction, named, write};
+use super::{Talk, UNDEFINED, asked, error, instruction, named, write};
 use crate::adapter::{Asked, Bits, Permission, Permissions};
 use crate::suite::check::Check;
 use crate::suite::wanted::Part;
 
 /// A Temperature Limit in °C.
 const COLD: i64 = 1;
-/// An instruction that no document defines.
-const UNDEFINED: u8 = 0x09;
 /// How often it is looked, at least 10 ms apart, whether the error is there.
 const LOOKS: u32 = 200;
 
@@ -58,7 +56,7 @@ fn raised(talk: &Talk<'_>) -> Option<Vec<Step>> {
 /// Answers with an error number and without one.
 fn alert(talk: &Talk<'_>) -> Option<[Step; 4]> {
     let (probe, measured) = (probe(talk)?, talk.register("Present Temperature")?);
-    let (id, register) = (talk.id(), probe.register);
+    let (id, register, [undefined, ..]) = (talk.id(), probe.register, UNDEFINED);
     let step = |packet, number, data: Vec<Part>| {
         let data = data.into_iter().chain([Part::Alert]).collect();
         (asked(packet, 1), vec![vec![talk.says(number, data)]])
@@ -70,6 +68,6 @@ fn alert(talk: &Talk<'_>) -> Option<[Step; 4]> {
         step(talk.read(register.address, size), error::NONE, any),
         step(write(id, register.address, &bytes(register, probe.other())), error::NONE, Vec::new()),
         step(refused, error::ACCESS, Vec::new()),
-        step(instruction(id, UNDEFINED, Vec::new()), error::INSTRUCTION, Vec::new()),
+        step(instruction(id, undefined, Vec::new()), error::INSTRUCTION, Vec::new()),
     ])
 }

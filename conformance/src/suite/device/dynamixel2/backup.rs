@@ -57,7 +57,7 @@ fn ready(talk: &Talk<'_>) -> Option<Check> {
 
 /// A register of the EEPROM area comes back.
 fn restored(talk: &Talk<'_>) -> Option<Check> {
-    let steps = there_and_back(talk, &[lasting(talk)?], &[]);
+    let steps = there_and_back(talk, &[lasting(talk)?], nothing)?;
     let rows = ["backup.restore", "backup.effect"];
     let needs = permissions(&[Permission::Eeprom]);
     Some(talk.demands(needs, named("backup.restore/eeprom"), &rows, steps))
@@ -69,7 +69,7 @@ fn contents(talk: &Talk<'_>) -> Option<Check> {
     let only = Permissions::from([Permission::Eeprom]);
     let all = writable(talk).into_iter().filter(|one| needs(talk, one.register) == only);
     let all: Vec<_> = all.filter(|one| one.register.name.ends_with("Limit")).take(MANY).collect();
-    let steps = there_and_back(talk, &all, &[]);
+    let steps = there_and_back(talk, &all, nothing)?;
     let needs = permissions(&[Permission::Eeprom]);
     Some(talk.demands(needs, named("backup.contents/eeprom"), &["backup.contents"], steps))
 }
@@ -81,7 +81,10 @@ fn locked(talk: &Talk<'_>) -> Option<Check> {
     let [on, off] = [1, 0].map(|value| talk.sets(torque.address, &bytes(torque, value)));
     let any = Like { id: talk.id(), error: None, data: Some(Vec::new()) };
     let store = (asked(packet(talk, STORE), 1), vec![vec![any]]);
-    let steps = there_and_back(talk, &[lasting(talk)?], &[on, store, off]);
+    let steps = there_and_back(talk, &[lasting(talk)?], |place| {
+        let still = talk.still(place)?.into_iter();
+        Some(still.chain([on.clone(), store.clone(), off.clone()]).collect())
+    })?;
     let needs = permissions(&[Permission::Eeprom, Permission::Motion]);
     Some(talk.demands(needs, named("backup.torque-on/nothing"), &["backup.torque-off"], steps))
 }
@@ -89,14 +92,24 @@ fn locked(talk: &Talk<'_>) -> Option<Check> {
 /// Whether a gain comes back too.
 fn gains(talk: &Talk<'_>) -> Option<Check> {
     talk.row(&["backup.restore.gains"])?;
-    let steps = there_and_back(talk, &[probe(talk)?], &[]);
+    let steps = there_and_back(talk, &[probe(talk)?], nothing)?;
     let needs = permissions(&[Permission::WriteRam]);
     Some(talk.demands(needs, named("backup.gains/restored"), &["backup.restore.gains"], steps))
 }
 
+/// Nothing is done before restoring.
+#[expect(clippy::unnecessary_wraps, reason = "others may not be possible")]
+const fn nothing(_: usize) -> Option<Vec<Step>> {
+    Some(Vec::new())
+}
+
 /// Stores what registers hold, writes two other values one after the other, of which one is not what they held,
-/// and restores each time.
-fn there_and_back(talk: &Talk<'_>, all: &[Writable<'_>], before_restoring: &[Step]) -> Vec<Step> {
+/// and restores each time. What is done before restoring depends on its place in the conversation.
+fn there_and_back(
+    talk: &Talk<'_>,
+    all: &[Writable<'_>],
+    before_restoring: impl Fn(usize) -> Option<Vec<Step>>,
+) -> Option<Vec<Step>> {
     let read = |one: &Writable<'_>, part| {
         let asked = asked(talk.read(one.register.address, one.register.kind.size()), 1);
         (asked, vec![vec![talk.says(error::NONE, vec![part])]])
@@ -107,12 +120,12 @@ fn there_and_back(talk: &Talk<'_>, all: &[Writable<'_>], before_restoring: &[Ste
         let set =
             |one: Writable<'_>| talk.sets(one.register.address, &bytes(one.register, value(&one)));
         steps.extend(all.iter().copied().map(set));
-        steps.extend(before_restoring.iter().cloned());
+        steps.extend(before_restoring(steps.len())?);
         steps.push(asks(talk, RESTORE));
         let same = |(step, one): (usize, &Writable<'_>)| {
             read(one, Part::Same { step, from: 0, count: one.size() })
         };
         steps.extend(all.iter().enumerate().map(same));
     }
-    steps
+    Some(steps)
 }

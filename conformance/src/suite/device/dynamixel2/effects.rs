@@ -230,12 +230,12 @@ fn cleared_position(talk: &Talk<'_>) -> Vec<Check> {
 /// Torque on and off, and what the register does not take.
 fn torque(talk: &Talk<'_>) -> Vec<Check> {
     let register = talk.target.device.and_then(|device| device.register("Torque Enable"));
-    let Some(register) = register else { return Vec::new() };
+    let Some((register, still)) = register.zip(talk.still(0)) else { return Vec::new() };
     let on_and_off = [1, 0].into_iter().flat_map(|value| {
         let data = bytes(register, value);
         [talk.sets(register.address, &data), talk.holds(register.address, data)]
     });
     let motion = Permissions::from([Permission::Motion]);
     let sentences = ["torque-enable.values|torque-enable.torque"];
-    shown(talk, &motion, &sentences, &conversation(on_and_off.collect()))
+    shown(talk, &motion, &sentences, &conversation(still.into_iter().chain(on_and_off).collect()))
 }

@@ -33,6 +33,7 @@ mod requests;
 mod restart;
 mod sentences;
 mod several;
+mod still;
 mod stuffed;
 mod table;
 mod writable;

@@ -177,6 +177,9 @@ impl<'t, 'a> Movement<'t, 'a> {
         for (register, value) in limits {
             movement.steps.push(talk.sets(register.address, &bytes(register, *value)));
         }
+        let told = movement.steps.len();
+        movement.steps.push(read(talk, "Present Position", vec![Part::Any(4)])?);
+        movement.steps.push(talk.goal_here(told)?);
         movement.steps.push(switch(talk, 1)?);
         movement.start = movement.steps.len();
         movement.steps.push(read(talk, "Present Position", vec![Part::Any(4)])?);

@@ -28,8 +28,7 @@ const CHANGING: [u8; 11] = [
     code::FACTORY_RESET,
     code::REBOOT,
     code::CLEAR,
-    // Control Table Backup.
-    0x20,
+    code::BACKUP,
     code::SYNC_WRITE,
     code::FAST_SYNC_WRITE,
     code::BULK_WRITE,

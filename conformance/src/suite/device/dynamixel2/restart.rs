@@ -120,6 +120,10 @@ pub(super) fn lock(talk: &Talk<'_>) -> Vec<Check> {
     let (Some(torque), Some(one), Some(probe)) = (torque, lasting(talk), probe(talk)) else {
         return Vec::new();
     };
+    // The shaft must not turn.
+    let is_torque = torque.name == "Torque Enable";
+    let still = if is_torque { talk.still(0).map(Vec::from) } else { Some(Vec::new()) };
+    let Some(still) = still else { return Vec::new() };
     let register = one.register;
     let size = register.kind.size();
     let (on, off) = (talk.sets(torque.address, &[1]), talk.sets(torque.address, &[0]));
@@ -127,11 +131,12 @@ pub(super) fn lock(talk: &Talk<'_>) -> Vec<Check> {
         asked(talk.read(register.address, size), 1),
         vec![vec![talk.done(Part::Any(size.into()))]],
     );
-    let same = Part::Same { step: 0, from: 0, count: size.into() };
+    let same = Part::Same { step: still.len(), from: 0, count: size.into() };
     let kept = (asked(talk.read(register.address, size), 1), vec![vec![talk.done(same)]]);
     let data: HexBytes = bytes(register, one.other()).into();
     let refused = talk.refused_with(write(talk.id(), register.address, &data.0), error::ACCESS);
-    let steps = vec![any, on.clone(), refused, kept, off.clone()];
+    let steps = [any, on.clone(), refused, kept, off.clone()];
+    let steps: Vec<_> = still.iter().cloned().chain(steps).collect();
     let locked = talk.demands(
         [Permission::Eeprom, Permission::Motion].into(),
         named("lock.eeprom/refused"),
@@ -147,12 +152,15 @@ pub(super) fn lock(talk: &Talk<'_>) -> Vec<Check> {
         [Permission::WriteRam, Permission::Motion].into(),
         named("lock.ram/kept"),
         &["write.effect"],
-        vec![
-            on,
-            talk.sets(probe.register.address, &open),
-            talk.holds(probe.register.address, open),
-            off,
-        ],
+        still
+            .into_iter()
+            .chain([
+                on,
+                talk.sets(probe.register.address, &open),
+                talk.holds(probe.register.address, open),
+                off,
+            ])
+            .collect(),
     );
     [locked, open].into_iter().chain(sentence).collect()
 }
