@@ -8,13 +8,15 @@ use actucheck_spec::wire::dynamixel2::Packet;
 use actucheck_spec::wire::dynamixel2::WIRE;
 use actucheck_spec::wire::dynamixel2::reference::packets;
 
-use super::change::is;
+use super::change::{each, is};
+use super::code::WRITE;
 use super::fault::{Fault, answering, hearing};
 use super::killing::{Run, run};
+use super::rewrite::Written as _;
 use super::right::{ACTUATORS, Bus, SERVOS, Test};
 
 /// The tests. Each returns what is wrong.
-pub(crate) const TESTS: [Test; 10] = [
+pub(crate) const TESTS: [Test; 11] = [
     ("no_such_port", || ended(&run(&["/dev/no-such-port"]), "there is no such port", 0)),
     ("no_serial_port", || ended(&run(&["/etc/hostname"]), "it is no serial device", 0)),
     ("nobody_listens", || {
@@ -34,6 +36,7 @@ pub(crate) const TESTS: [Test; 10] = [
         let arguments = [&bus.address, "--answer-within", "20"];
         ended(&run(&arguments), "nothing answers; is the device on", 0)
     }),
+    ("a_goal_that_is_refused", torque_stays_off),
     ("nothing_at_any_rate", || {
         let bus = Bus::start(&ACTUATORS, &["--pty"]);
         let mut scan = Command::new(env!("CARGO_BIN_EXE_actucheck"));
@@ -42,7 +45,7 @@ pub(crate) const TESTS: [Test; 10] = [
     }),
 ];
 
-/// Firmware that does not let a run come to its end.
+/// Firmware that does not let a run come to its end, or a check.
 pub(crate) const FAULTS: &[Fault] = &[
     hearing("port-vanishes", "ends in the middle", "", |heard| {
         if is(&heard, 0x40) {
@@ -73,7 +76,37 @@ pub(crate) const FAULTS: &[Fault] = &[
             [answer, request(1, 3, &[0x34, 2, 0])].concat()
         },
     ),
+    answering(
+        "goal-refused",
+        "refuses every goal, and ends when torque is on",
+        "",
+        |asked, answer| {
+            if asked.ends_with_write(512, &[1]) {
+                std::process::exit(0);
+            }
+            if asked.get(7..10) == Some(&[WRITE, 0x34, 2]) {
+                each(answer, |_, error, _| *error = 7)
+            } else {
+                answer
+            }
+        },
+    ),
 ];
+
+/// Torque is not switched on where the goal is not taken, and no check is failed for that.
+fn torque_stays_off() -> String {
+    let own = std::env::current_exe().unwrap();
+    let firmware = ["--", own.to_str().unwrap(), "firmware", "ja40@1", "goal-refused"];
+    let families = ["*.motion.*", "*.lock.*", "*.sentence.torque-*", "*.backup.torque-on/*"];
+    let select = families.map(|family| ["--select", family]).concat();
+    let run = run(&[&["--device", "ja40"][..], &select, &firmware].concat());
+    let skipped = run.verdicts.iter().filter(|(_, verdict)| verdict == "skip").count();
+    // The goal can't be set back either; if torque were on, it would be 4.
+    if run.status == Some(3) && skipped == run.verdicts.len() && skipped > 10 {
+        return String::new();
+    }
+    format!("{:?} {:?}\n{}", run.status, run.verdicts, run.text)
+}
 
 fn request(id: u8, instruction: u8, params: &[u8]) -> Vec<u8> {
     let packet = Packet::Instruction { id, instruction, params: params.to_vec().into() };
