@@ -184,6 +184,9 @@ pub enum Question {
         /// What it may do to the device.
         #[serde(default)]
         needs: Permissions,
+        /// Another device that is written to.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        neighbour: Option<u8>,
         /// What is sent, and how much is awaited.
         steps: Vec<Asked>,
     },

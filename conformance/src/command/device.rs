@@ -1,5 +1,6 @@
 //! `actucheck device`.
 
+mod neighbour;
 pub(crate) mod open;
 mod plan;
 mod restore;
@@ -14,6 +15,7 @@ use std::time::Duration;
 
 use actucheck::adapter::Wire;
 use actucheck::device::Tables;
+use actucheck::journal::Layout;
 use actucheck::port::Place;
 use actucheck::subject::device::{Device as Subject, Line};
 use actucheck::suite::check::Check;
@@ -37,7 +39,8 @@ Examples:
   actucheck device /dev/ttyUSB0 --baud 57600
       check the device with ID 1 on a serial port; its model is asked
   actucheck device /dev/ttyUSB0 --device ja40 --id 3 --neighbour 4
-      the device with ID 3, and with the one with ID 4 what several devices answer together
+      the device with ID 3, and with the one with ID 4 what several devices answer together; with --allow write-ram
+      also what one packet writes to both, after which both hold what they held
   actucheck device tcp://127.0.0.1:7777 --device my-servo.yaml --report html=report.html
       a device of your own behind a socket, with a page to read
   actucheck device udp://192.168.1.30:2000 --wire innfos --id 6
@@ -90,7 +93,8 @@ pub(crate) struct Device {
     /// The device's ID, or its address
     #[arg(long, value_name = "ID", default_value_t = 1)]
     id: u8,
-    /// Another device on the line, which is read together with it
+    /// Another device on the line, which is read together with it, and with --allow write-ram written to, if it
+    /// tells a model of which there is a control table
     #[arg(long, value_name = "ID")]
     neighbour: Option<u8>,
     /// The rate of a serial port in bit/s [default: that with which the device leaves the factory, or
@@ -205,7 +209,7 @@ impl Device {
         interrupted: &Arc<AtomicBool>,
     ) -> Result<(Subject, Planned<'a>), Failure> {
         let (wire, place, id) = (self.wire()?, self.place(), self.id);
-        let Found { line, library, device, said, present, baud } = Opening {
+        let Found { line, library, device, said, all, baud } = Opening {
             wire,
             place: &place,
             is_adapter: self.adapter,
@@ -214,10 +218,16 @@ impl Device {
             id,
         }
         .find(spec, &mut tables, interrupted)?;
-        if let Some(neighbour) = self.neighbour.filter(|id| !present.contains(id)) {
-            let message = format!("the neighbour with ID {neighbour} does not answer at {place}");
-            return Err(Failure::not_started(message));
-        }
+        let beside = |id: u8| {
+            let silent = || {
+                Failure::not_started(format!(
+                    "the neighbour with ID {id} does not answer at {place}"
+                ))
+            };
+            let model = all.get(&id).ok_or_else(silent)?.model_number;
+            Ok::<_, Failure>(neighbour::told(id, model, &mut tables, spec))
+        };
+        let neighbour = self.neighbour.map(beside).transpose()?;
         let name = name_of(wire, device);
         let firmware = said.firmware_version;
         let firmware = firmware.map_or_else(String::new, |version| format!("firmware {version}"));
@@ -227,9 +237,9 @@ impl Device {
             Some(library) => subject.of_library(library),
             None => subject,
         };
-        let at = At { wire, place: &place, baud, id, model: said.model_number };
+        let at = At { wire, place: &place, baud, id, model: said.model_number, neighbour };
         let subject = self.writing.keep(subject, spec, device, &at);
-        let target = Target { id, device, neighbour: self.neighbour, present };
+        let target = Target { id, device, neighbour, present: all.into_keys().collect() };
         let planned = match &self.replay {
             Some(path) => replayed(wire, saved::read(path).map_err(Failure::usage)?),
             None => planned(spec, wire, &target),
@@ -239,6 +249,14 @@ impl Device {
             let begins = timed.map_or(BEGINS, |times| Duration::from_micros(times.median_us));
             let effort = self.effort(spec, &target)?.timed(baud, begins);
             anstream::eprintln!("actucheck: {effort}");
+        }
+        let said = |plan: &Plan<'_>| neighbour::said(spec, wire, &target, plan, &allowed);
+        let said = match &self.replay {
+            Some(_) => said(&planned.plan),
+            None => said(&self.plan(spec, &target)?),
+        };
+        if let Some(said) = said {
+            anstream::eprintln!("actucheck: {said}");
         }
         Ok((subject, planned))
     }
@@ -268,20 +286,26 @@ impl Device {
         let target = Target { id: self.id, ..Target::alone(table_of(tables, self.id, spec)) };
         let target = Target { present: vec![self.id], ..target };
         let target = match self.neighbour {
-            Some(id) => target.with_neighbour(id),
+            Some(id) => {
+                let neighbour = neighbour::supposed(id, tables, spec);
+                target.with_neighbour(id, neighbour.device)
+            }
             None => target,
         };
-        let table = plan::table(&self.plan(spec, &target)?);
+        let (wire, plan) = (self.wire()?, self.plan(spec, &target)?);
+        let table = plan::table(&plan);
         let allowed = self.writing.allowed();
         let effort = self.effort(spec, &target)?;
-        let effort = if has_tables(self.wire()?) {
+        let effort = if has_tables(wire) {
             let baud = self.baud.or_else(|| factory_rate(target.device?)).unwrap_or(BAUD);
             effort.timed(baud, BEGINS)
         } else {
             // On such a wire no port has a rate.
             effort.sentence()
         };
-        shared::print(format!("{table}\nwith --allow {allowed}, {effort}\n").as_bytes())?;
+        let said = neighbour::said(spec, wire, &target, &plan, &allowed);
+        let said = said.map_or_else(String::new, |said| format!("{said}\n"));
+        shared::print(format!("{table}\nwith --allow {allowed}, {effort}\n{said}").as_bytes())?;
         Ok(ExitCode::SUCCESS)
     }
 
@@ -295,7 +319,9 @@ impl Device {
     /// What those of them send that are allowed.
     fn effort(&self, spec: &Spec, target: &Target<'_>) -> Result<Effort, Failure> {
         let layout = layout(spec, self.wire()?, target.device);
-        Ok(Effort::of(&self.plan(spec, target)?, &self.writing.allowed(), layout.as_ref()))
+        let beside = target.neighbour.and_then(|neighbour| neighbour.device).map(Layout::of);
+        let (plan, allowed) = (self.plan(spec, target)?, self.writing.allowed());
+        Ok(Effort::of(&plan, &allowed, layout.as_ref(), beside.as_ref()))
     }
 }
 

@@ -7,7 +7,7 @@ use std::path::Path;
 use serde::Deserialize;
 use thiserror::Error;
 
-use super::{Journal, Place, VERSION};
+use super::{Journal, Layout, OLDEST, Place, Snapshot, VERSION};
 use crate::input::{self, InputError};
 use crate::legible::{LONGEST_TEXT, legible};
 
@@ -43,7 +43,7 @@ pub enum JournalError {
     },
     /// It is one of another version.
     #[error(
-        "{path} is a journal of version {found}, this program reads {VERSION}; use the actucheck that wrote it"
+        "{path} is a journal of version {found}, this program reads {OLDEST} to {VERSION}; use the actucheck that wrote it"
     )]
     Version {
         /// The file.
@@ -103,12 +103,15 @@ impl Journal {
         };
         let parsed = |error: serde_json::Error| damaged(error.to_string());
         let Versioned { version } = serde_json::from_str(text).map_err(parsed)?;
-        if version != VERSION {
+        if !(OLDEST..=VERSION).contains(&version) {
             return Err(JournalError::Version { path: name(), found: version });
         }
         let mut journal: Self = serde_json::from_str(text).map_err(parsed)?;
         journal.complaint().map_or(Ok(()), |what| Err(damaged(what)))?;
         journal.device = legible(&journal.device, LONGEST_TEXT);
+        if let Some(neighbour) = &mut journal.neighbour {
+            neighbour.device = legible(&neighbour.device, LONGEST_TEXT);
+        }
         Ok(journal)
     }
 
@@ -123,7 +126,22 @@ impl Journal {
 
     /// What contradicts itself in it.
     fn complaint(&self) -> Option<String> {
-        let layout = &self.layout;
+        let neighbour = self.neighbour.as_ref();
+        if neighbour.is_some_and(|neighbour| neighbour.id == self.id) {
+            return Some("the neighbour is the device itself".to_owned());
+        }
+        let of_neighbour = || {
+            let neighbour = neighbour?;
+            neighbour.layout.complaint(&neighbour.held)
+        };
+        self.layout.complaint(&self.held).or_else(of_neighbour)
+    }
+}
+
+impl Layout {
+    /// What contradicts itself in it, or in what it says was held.
+    fn complaint(&self, held: &Snapshot) -> Option<String> {
+        let layout = self;
         let places = || {
             let pairs = layout.indirect.iter().flat_map(|(data, address)| [data, address]);
             let switch = layout.goals_switch.iter().map(|(place, _)| place);
@@ -138,7 +156,7 @@ impl Journal {
                 .chain(roles.into_iter().flatten())
         };
         let many = [layout.read.len(), layout.restored.len(), layout.indirect.len()];
-        if many.into_iter().any(|count| count > MOST) || self.held.0.len() > MOST {
+        if many.into_iter().any(|count| count > MOST) || held.0.len() > MOST {
             return Some(format!("it has more than {MOST} registers"));
         }
         let is_odd = |place: &&Place| !matches!(place.size, 1 | 2 | 4);
@@ -150,12 +168,12 @@ impl Journal {
             ));
         }
         let ends = layout.read.iter().map(|(address, length)| address.checked_add(*length));
-        let held = self.held.0.iter().map(|run| (run.address, run.data.0.len()));
+        let runs = held.0.iter().map(|run| (run.address, run.data.0.len()));
         let read = layout.read.iter().map(|(address, length)| (*address, usize::from(*length)));
-        if ends.into_iter().any(|end| end.is_none()) || !held.eq(read) {
+        if ends.into_iter().any(|end| end.is_none()) || !runs.eq(read) {
             return Some("what was read is not what it says".to_owned());
         }
-        let lost = places().find(|place| self.held.get(place).is_none())?;
+        let lost = places().find(|place| held.get(place).is_none())?;
         Some(format!("it does not have what {} held", legible(&lost.name, LONGEST_TEXT)))
     }
 }

@@ -17,10 +17,15 @@ use crate::adapter::Permissions;
 
 pub use self::file::JournalError;
 pub use self::layout::{Layout, Snapshot};
-pub use self::restore::{Ask, RestoreError, reached, restore, snapshot, stand_still};
+pub use self::restore::{
+    Ask, RestoreError, reached, restore, restore_device, snapshot, stand_still,
+};
 
-/// The version of the format. It changes when a field is removed or gets another meaning.
-pub const VERSION: u32 = 1;
+/// The version of the format. It changes when a field is removed or gets another meaning, and when who does not
+/// know a new field would leave a device unrestored.
+pub const VERSION: u32 = 2;
+/// The oldest version that is read. It has no neighbour.
+pub const OLDEST: u32 = 1;
 
 /// What a device held, and where it is.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -47,6 +52,27 @@ pub struct Journal {
     /// What the run was allowed to do.
     pub allowed: Permissions,
     /// Where the device's registers are, and which of them are restored.
+    pub layout: Layout,
+    /// What they held.
+    pub held: Snapshot,
+    /// Another device on the line that was written to.
+    #[serde(default)]
+    pub neighbour: Option<Neighbour>,
+}
+
+/// Another device on the line, and what it held. It is written to only while its torque is off, and nothing else
+/// than its RAM area.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Neighbour {
+    /// What it is, for people.
+    pub device: String,
+    /// Its model number, as it told it.
+    #[serde(default)]
+    pub model_number: Option<u16>,
+    /// Its ID.
+    pub id: u8,
+    /// Where its registers are, and which of them are restored.
     pub layout: Layout,
     /// What they held.
     pub held: Snapshot,

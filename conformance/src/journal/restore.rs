@@ -4,8 +4,8 @@ use actucheck_spec::model::HexBytes;
 use actucheck_spec::wire::{Packet, Wire};
 use thiserror::Error;
 
-use super::{Journal, Layout, Place, Run, Snapshot};
-use crate::adapter::{Permission, Reported};
+use super::{Journal, Layout, Neighbour, Place, Run, Snapshot};
+use crate::adapter::{Permission, Permissions, Reported};
 use crate::suite::device::{Instructions, hello, identity, instructions};
 
 /// How often the device is called until it answers: it may take a few packets for the rest of one that was
@@ -60,16 +60,30 @@ pub enum RestoreError {
     /// Its wire has no registers.
     #[error("devices on {0} have no registers that are kept; there is nothing to restore")]
     Wire(Wire),
+    /// The neighbour is not as it was.
+    #[error("its neighbour with ID {0}: {1}")]
+    Neighbour(u8, Box<Self>),
 }
 
-/// Gives a device back what it held, and looks whether it holds it. Only what differs is written. Returns how
-/// many registers that were.
+/// Gives a device and its neighbour back what they held, and looks whether they hold it. Only what differs is
+/// written. Returns how many registers that were.
+///
+/// # Errors
+/// If one of them can't be restored now. The neighbour is restored even if the device can't be.
+pub fn restore(journal: &Journal, ask: &mut dyn Ask) -> Result<usize, RestoreError> {
+    let device = restore_device(journal, ask);
+    let Some(neighbour) = &journal.neighbour else { return device };
+    let other = Way::to_neighbour(journal.wire, neighbour, ask).and_then(Way::go);
+    let told = |error| RestoreError::Neighbour(neighbour.id, Box::new(error));
+    Ok(device? + other.map_err(told)?)
+}
+
+/// The same for the device alone, after what did not write to its neighbour.
 ///
 /// # Errors
 /// If it can't be restored now.
-pub fn restore(journal: &Journal, ask: &mut dyn Ask) -> Result<usize, RestoreError> {
-    let way = Way::new(journal, ask)?;
-    way.go()
+pub fn restore_device(journal: &Journal, ask: &mut dyn Ask) -> Result<usize, RestoreError> {
+    Way::to_device(journal, ask)?.go()
 }
 
 /// Whether a device answers to an ID, after noise and restarts too. Returns its model number.
@@ -137,8 +151,15 @@ fn tried(id: u8, packet: &Packet, ask: &mut dyn Ask) -> Result<Option<Reported>,
     Ok(None)
 }
 
+/// The way back of one device.
 struct Way<'a> {
-    journal: &'a Journal,
+    wire: Wire,
+    id: u8,
+    model_number: Option<u16>,
+    /// What may have been done to it.
+    allowed: Permissions,
+    layout: &'a Layout,
+    held: &'a Snapshot,
     instructions: &'static Instructions,
     ask: &'a mut dyn Ask,
     /// The addresses of the registers that were written.
@@ -146,16 +167,47 @@ struct Way<'a> {
 }
 
 impl<'a> Way<'a> {
-    fn new(journal: &'a Journal, ask: &'a mut dyn Ask) -> Result<Self, RestoreError> {
-        let instructions = instructions(journal.wire).ok_or(RestoreError::Wire(journal.wire))?;
-        Ok(Self { journal, instructions, ask, written: Vec::new() })
+    fn to_device(journal: &'a Journal, ask: &'a mut dyn Ask) -> Result<Self, RestoreError> {
+        let Journal { wire, id, model_number, layout, held, .. } = journal;
+        Ok(Self {
+            wire: *wire,
+            id: *id,
+            model_number: *model_number,
+            allowed: journal.allowed.clone(),
+            layout,
+            held,
+            instructions: instructions(*wire).ok_or(RestoreError::Wire(*wire))?,
+            ask,
+            written: Vec::new(),
+        })
+    }
+
+    /// Nothing but its RAM area was ever written.
+    fn to_neighbour(
+        wire: Wire,
+        neighbour: &'a Neighbour,
+        ask: &'a mut dyn Ask,
+    ) -> Result<Self, RestoreError> {
+        let Neighbour { id, model_number, layout, held, .. } = neighbour;
+        Ok(Self {
+            wire,
+            id: *id,
+            model_number: *model_number,
+            allowed: [Permission::WriteRam].into(),
+            layout,
+            held,
+            instructions: instructions(wire).ok_or(RestoreError::Wire(wire))?,
+            ask,
+            written: Vec::new(),
+        })
     }
 
     fn go(mut self) -> Result<usize, RestoreError> {
-        let Journal { layout, held, allowed, .. } = self.journal;
+        let Self { layout, held, .. } = self;
         let mut now = self.arrive()?;
         if now.is_set(layout.torque.as_ref()) {
-            let is_ours = allowed.has(Permission::Motion) && !held.is_set(layout.torque.as_ref());
+            let is_ours =
+                self.allowed.has(Permission::Motion) && !held.is_set(layout.torque.as_ref());
             let torque = layout.torque.as_ref().filter(|_| is_ours).ok_or(RestoreError::Torque)?;
             self.write(torque, &vec![0; torque.size.into()])?;
             now = self.look()?;
@@ -167,15 +219,15 @@ impl<'a> Way<'a> {
             && !held.is_set(layout.registered.as_ref())
             && let Some(action) = self.instructions.action
         {
-            tried(self.journal.id, &action(self.journal.id), self.ask)?;
+            tried(self.id, &action(self.id), self.ask)?;
             now = self.look()?;
         }
         now = self.set_back(now)?;
         // Only when the limits are back does an alarm stay away.
-        let reboot = self.instructions.reboot.filter(|_| allowed.has(Permission::Reboot));
+        let reboot = self.instructions.reboot.filter(|_| self.allowed.has(Permission::Reboot));
         if let Some(reboot) = reboot.filter(|_| self.has_new_alarm(&now)) {
-            let packet = reboot(self.journal.id);
-            self.ask.ask(self.journal.id, &packet).map_err(RestoreError::Port)?;
+            let packet = reboot(self.id);
+            self.ask.ask(self.id, &packet).map_err(RestoreError::Port)?;
             now = self.arrive()?;
             self.set_back(now)?;
         }
@@ -186,7 +238,7 @@ impl<'a> Way<'a> {
 
     /// Writes what differs, until nothing does.
     fn set_back(&mut self, mut now: Snapshot) -> Result<Snapshot, RestoreError> {
-        let Journal { layout, held, .. } = self.journal;
+        let Self { layout, held, .. } = *self;
         for _ in 0..PASSES {
             let differing = layout.differing(held, &now);
             if differing.is_empty() {
@@ -207,9 +259,9 @@ impl<'a> Way<'a> {
 
     /// Reads the registers; if they can't be read, calls the device first, and lets it answer.
     fn arrive(&mut self) -> Result<Snapshot, RestoreError> {
-        let Journal { wire, id, model_number, layout, held, .. } = self.journal;
-        let found = reached(*wire, *id, self.ask)?;
-        if let (Some(found), Some(wanted)) = (found, *model_number)
+        let Self { wire, id, model_number, layout, held, .. } = *self;
+        let found = reached(wire, id, self.ask)?;
+        if let (Some(found), Some(wanted)) = (found, model_number)
             && found != wanted
         {
             return Err(RestoreError::OtherModel { found, wanted });
@@ -225,18 +277,18 @@ impl<'a> Way<'a> {
     }
 
     fn look(&mut self) -> Result<Snapshot, RestoreError> {
-        snapshot(self.journal.wire, self.journal.id, &self.journal.layout, self.ask)
+        snapshot(self.wire, self.id, self.layout, self.ask)
     }
 
     /// Writes a register. Whether it holds that then is looked at later: not every device answers.
     fn write(&mut self, place: &Place, data: &[u8]) -> Result<(), RestoreError> {
-        let packet = (self.instructions.write)(self.journal.id, place.address, data);
-        self.ask.ask(self.journal.id, &packet).map_err(RestoreError::Port)?;
+        let packet = (self.instructions.write)(self.id, place.address, data);
+        self.ask.ask(self.id, &packet).map_err(RestoreError::Port)?;
         Ok(())
     }
 
     fn has_new_alarm(&self, now: &Snapshot) -> bool {
-        let Journal { layout, held, .. } = self.journal;
+        let Self { layout, held, .. } = *self;
         let number = |snapshot: &Snapshot| {
             layout.alarms.as_ref().and_then(|alarms| snapshot.number(alarms)).unwrap_or_default()
         };

@@ -87,7 +87,7 @@ impl Subject for Device {
     }
 
     fn ask(&mut self, question: &Question) -> Answer {
-        let Question::Device { needs, steps, .. } = question else {
+        let Question::Device { needs, neighbour, steps, .. } = question else {
             return Answer::Skipped("a device has only its port".to_owned());
         };
         let missing = needs.without(&self.allowed);
@@ -105,12 +105,12 @@ impl Subject for Device {
             let Some(keeper) = keeper.as_mut() else {
                 return Answer::Skipped("nothing keeps what its registers hold".to_owned());
             };
-            if let Err(reason) = keeper.before(needs, &mut *line) {
+            if let Err(reason) = keeper.before(needs, *neighbour, &mut *line) {
                 return Answer::Skipped(reason);
             }
             let heard = line.converse(steps);
             if heard.is_ok() {
-                keeper.after(&mut *line);
+                keeper.after(*neighbour, &mut *line);
             }
             heard
         };

@@ -24,7 +24,7 @@ use actucheck_spec::model::{self, Citation, Level};
 use actucheck_spec::wire::{Context, Direction};
 
 use self::check::{Check, Demand};
-use self::device::Target;
+use self::device::{Neighbour, Target};
 use self::plan::Plan;
 use crate::adapter::{Limits, Output, Question, Wire};
 
@@ -105,12 +105,13 @@ pub fn every_device_plan<'a>(spec: &'a Spec, wires: &[Wire]) -> Plan<'a> {
     let devices = devices.filter(|device| wires.contains(&device.wire));
     let plan = |device: &'a model::Device| {
         // What nobody else may hear is asked of a device that is alone.
-        let target = Target { neighbour: Some(2), ..Target::alone(Some(device)) };
+        let neighbour = Some(Neighbour { id: 2, device: Some(device) });
+        let target = Target { neighbour, ..Target::alone(Some(device)) };
         device_plan(spec, &[device.wire], &target)
     };
     let others = wires.iter().filter(|wire| !device::has_tables(**wire));
-    let others =
-        others.map(|wire| device_plan(spec, &[*wire], &Target::alone(None).with_neighbour(2)));
+    let others = others
+        .map(|wire| device_plan(spec, &[*wire], &Target::alone(None).with_neighbour(2, None)));
     devices.map(plan).chain(others).fold(Plan::new(Vec::new()), Plan::and)
 }
 

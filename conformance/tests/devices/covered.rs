@@ -19,7 +19,7 @@ pub(crate) fn without_a_fault() -> String {
     let finds: BTreeSet<_> = every().map(Fault::check).collect();
     let mut found: BTreeMap<String, bool> = BTreeMap::new();
     for device in tables.chain([None]) {
-        let target = Target::alone(device).with_neighbour(2);
+        let target = Target::alone(device).with_neighbour(2, device);
         let wires = device.map_or_else(|| Wire::ALL.to_vec(), |device| vec![device.wire]);
         for check in suite::device_plan(&spec, &wires, &target).checks() {
             if check.level == Level::Must && !check.only_records() {

@@ -196,6 +196,7 @@ fn device(devices: &str, fault: &str, allowed: &Permissions, journal: PathBuf) -
         allowed: allowed.clone(),
         layout: Layout::of(table),
         held: Snapshot::default(),
+        neighbour: None,
     };
     device.kept_by(Keeper::new(journal_of, journal))
 }

@@ -1,31 +1,26 @@
 //! Runs that end at any packet, or are killed: the device is restored from the journal, bit for bit.
 
 use std::fs;
-use std::io::{self, ErrorKind};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 use std::thread::sleep;
 use std::time::Duration;
 
-use actucheck::adapter::{Permission, Question, Wire};
-use actucheck::bus::{QUIET, Sender, VirtualBus};
-use actucheck::journal::{Journal, Layout, Snapshot, VERSION, restore, snapshot};
-use actucheck::port::{Bytes, Place};
+use actucheck::journal::{Journal, Layout, OLDEST, VERSION, restore, snapshot};
 use actucheck::subject::Subject as _;
-use actucheck::subject::device::{Device, Keeper, Kept, Line};
-use actucheck::suite;
-use actucheck::suite::device::{Target, kept};
+use actucheck::subject::device::{Kept, Line};
 use actucheck_spec::Spec;
 use serde_json::Value;
 
+use super::bench::{Bench, folder};
 use super::right::Bus;
 
 /// A test by its name, which returns what is wrong.
 type Test = (&'static str, fn() -> String);
 
 /// The tests.
-pub(crate) const TESTS: [Test; 9] = [
+pub(crate) const TESTS: [Test; 13] = [
     ("ja40", || {
         ended("ja40", "velocity-i-gain=321,velocity-limit=1234,goal-velocity=100,goal-position=77")
     }),
@@ -36,6 +31,18 @@ pub(crate) const TESTS: [Test; 9] = [
     ("xl330", || {
         ended("xl330-m288", "led=1,velocity-limit=99,goal-velocity=50,profile-velocity=5")
     }),
+    ("ja40_and_its_neighbour", || {
+        with_neighbour("ja40", "position-p-gain=5", "goal-velocity=50,feedforward-1st-gain=7")
+    }),
+    ("xm430_and_its_neighbour", || {
+        with_neighbour(
+            "xm430-w210",
+            "position-p-gain=5",
+            "led=1,velocity-limit=98,goal-velocity=50",
+        )
+    }),
+    ("a_neighbour_with_torque", neighbour_with_torque),
+    ("an_old_journal", old_journal),
     ("innfos", || ended("dd-6010", "current-loop-p=0.5,speed-loop-output-lower-limit=-0.25")),
     ("killed", killed),
     ("torque", torque),
@@ -47,147 +54,8 @@ pub(crate) const TESTS: [Test; 9] = [
 const RUNS: usize = 250;
 /// Pieces that a check sends, with what keeps and restores the registers around it, and a few more.
 const PIECES: u64 = 70;
-/// What tells the time, of a shaft that was stopped on its way, or of a backup.
-const MEASURED: [&str; 5] =
-    ["Realtime Tick", "Moving Status", "Present Position", "Position Trajectory", "Backup Ready"];
 /// Bytes of a packet that is cut.
 const BYTES: u64 = 16;
-
-/// A virtual device, and how many pieces its port takes until it is gone.
-struct Virtual {
-    bus: VirtualBus,
-    now: Duration,
-    pieces: u64,
-    /// How many bytes of the last piece arrive.
-    cut: usize,
-    coming: Vec<u8>,
-}
-
-#[derive(Clone)]
-struct Memory(Arc<Mutex<Virtual>>);
-
-impl std::fmt::Debug for Memory {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str("Memory")
-    }
-}
-
-impl Bytes for Memory {
-    fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
-        let mut device = self.0.lock().unwrap();
-        if device.pieces == 0 {
-            return Err(ErrorKind::BrokenPipe.into());
-        }
-        device.pieces -= 1;
-        let whole = if device.pieces > 0 { bytes.len() } else { device.cut.min(bytes.len()) };
-        let now = device.now;
-        device.bus.send(&bytes[..whole], now);
-        Ok(())
-    }
-
-    fn receive(&mut self, buffer: &mut [u8], limit: Duration) -> io::Result<usize> {
-        let mut device = self.0.lock().unwrap();
-        let device = &mut *device;
-        device.now += Duration::from_millis(1);
-        device.coming.extend(device.bus.receive(device.now));
-        if device.coming.is_empty() && !limit.is_zero() {
-            device.now += limit;
-            if limit > QUIET {
-                device.bus.quiet(Sender::default(), device.now);
-            }
-            device.coming.extend(device.bus.receive(device.now));
-        }
-        let count = device.coming.len().min(buffer.len());
-        buffer[..count].copy_from_slice(&device.coming[..count]);
-        device.coming.drain(..count);
-        Ok(count)
-    }
-}
-
-/// A device in memory, and what is asked of it.
-struct Bench {
-    memory: Memory,
-    journal: Journal,
-    path: PathBuf,
-    questions: Vec<Question>,
-    measured: Vec<(u16, u16)>,
-}
-
-impl Bench {
-    /// A device of this name. One without a control table is an actuator.
-    fn new(spec: &Spec, name: &str, registers: &str, path: PathBuf) -> Self {
-        let bus = format!("{name}@1:{registers}").parse().unwrap();
-        let device = spec.device(name);
-        let wire = device.map_or_else(
-            || Wire::ALL.into_iter().find(|wire| wire.id() == "innfos").unwrap(),
-            |device| device.wire,
-        );
-        let values = || Layout::of_values(kept(wire, spec).unwrap());
-        let device_in_memory =
-            Virtual { bus, now: Duration::ZERO, pieces: u64::MAX, cut: 0, coming: Vec::new() };
-        let plan = suite::device_plan(spec, &[wire], &Target::alone(device));
-        let writes = |question: &Question| matches!(question, Question::Device { needs, .. } if !needs.only_read());
-        let questions = plan.checks().map(|check| check.question).filter(writes);
-        let journal = Journal {
-            version: VERSION,
-            date: String::new(),
-            wire,
-            device: name.to_owned(),
-            model_number: device.and_then(|device| device.model_number),
-            id: 1,
-            port: None,
-            baud: 57_600,
-            allowed: Permission::ALL.into(),
-            layout: device.map_or_else(values, Layout::of),
-            held: Snapshot::default(),
-        };
-        let measured = device.into_iter().flat_map(|device| &device.registers);
-        let measured = measured.filter(|register| MEASURED.contains(&register.name.as_str()));
-        let bench = Self {
-            memory: Memory(Arc::new(Mutex::new(device_in_memory))),
-            journal,
-            path,
-            questions: questions.collect(),
-            measured: measured.map(|one| (one.address, one.kind.size())).collect(),
-        };
-        // A board answers who has greeted it.
-        bench.line(u64::MAX, 0).greet(QUIET * 2).unwrap();
-        bench
-    }
-
-    /// A line to the device, whose port takes so many pieces, and so many bytes of the last.
-    fn line(&self, pieces: u64, cut: usize) -> Line {
-        let mut device = self.memory.0.lock().unwrap();
-        (device.pieces, device.cut) = (pieces, cut);
-        device.coming.clear();
-        let place = Place::Serial("memory".into());
-        let limit = QUIET * 2;
-        Line::on(self.journal.wire, &place, Box::new(self.memory.clone()), limit, Arc::default())
-    }
-
-    fn device(&self, line: Line) -> Device {
-        let device =
-            Device::new("a device".to_owned(), String::new(), line, Permission::ALL.into());
-        device.kept_by(Keeper::new(self.journal.clone(), self.path.clone()))
-    }
-
-    /// All that the device holds, but the time, where a shaft is, and whether there is a backup.
-    fn table(&self) -> Vec<u8> {
-        let Journal { wire, id, layout, .. } = &self.journal;
-        let mut line = self.line(u64::MAX, 0);
-        let table = snapshot(*wire, *id, layout, &mut line).unwrap();
-        let mut bytes = Vec::new();
-        for run in table.0 {
-            let (at, end) = (usize::from(run.address), usize::from(run.address) + run.data.0.len());
-            bytes.resize(bytes.len().max(end), 0);
-            bytes[at..end].copy_from_slice(&run.data.0);
-        }
-        for (address, size) in &self.measured {
-            bytes[usize::from(*address)..usize::from(address + size)].fill(0);
-        }
-        bytes
-    }
-}
 
 /// Numbers that are the same each time.
 struct Numbers(u64);
@@ -201,21 +69,26 @@ impl Numbers {
     }
 }
 
-/// A folder in memory, if there is one: what is written to a disk for good takes time.
-fn folder() -> tempfile::TempDir {
-    let memory = Path::new("/dev/shm");
-    if memory.is_dir() {
-        tempfile::tempdir_in(memory).unwrap()
-    } else {
-        tempfile::tempdir().unwrap()
-    }
-}
-
 fn ended(device: &str, registers: &str) -> String {
     let spec = Spec::embedded().unwrap();
     let folder = folder();
     let bench = Bench::new(&spec, device, registers, folder.path().join("journal"));
     assert!(bench.questions.len() > 30, "{} checks write", bench.questions.len());
+    ended_on(&bench)
+}
+
+/// The same for what is written to two devices at once.
+fn with_neighbour(device: &str, own: &str, beside: &str) -> String {
+    let spec = Spec::embedded().unwrap();
+    let folder = folder();
+    let path = folder.path().join("journal");
+    let bench = Bench::with_neighbour(&spec, device, (own, beside), path);
+    assert!(bench.questions.len() > 3, "{} checks write to both", bench.questions.len());
+    ended_on(&bench)
+}
+
+/// What a run leaves that ends at any packet.
+fn ended_on(bench: &Bench) -> String {
     let before = bench.table();
     let mut numbers = Numbers(0x9E37_79B9_7F4A_7C15);
     let (mut early, mut whole) = (0, 0);
@@ -368,6 +241,56 @@ fn restored_as_a_program() -> String {
     let said = String::from_utf8_lossy(&output.stdout);
     let is_right = output.status.success() && said.contains("3 registers were written");
     if is_right && !path.exists() { String::new() } else { format!("{output:?}") }
+}
+
+/// A neighbour with torque on is not written to, but the device is.
+fn neighbour_with_torque() -> String {
+    let spec = Spec::embedded().unwrap();
+    let folder = folder();
+    let path = folder.path().join("journal");
+    let bench =
+        Bench::with_neighbour(&spec, "ja40", ("position-p-gain=5", "torque-enable=1"), path);
+    let before = bench.table();
+    let mut subject = bench.device(bench.line(u64::MAX, 0));
+    for question in &bench.questions {
+        let answer = format!("{:?}", subject.ask(question));
+        if !answer.starts_with("Skipped")
+            || !answer.contains("its neighbour with ID 2: torque is on")
+        {
+            return format!("{question:?}: {answer}");
+        }
+    }
+    let alone = Bench::new(&spec, "ja40", "position-p-gain=5", PathBuf::new());
+    let written = format!("{:?}", subject.ask(&alone.questions[0]));
+    let end = subject.end();
+    if end != Some(Kept::Restored) || !written.starts_with("Ok") || bench.table() != before {
+        return format!("{written}, {end:?}, and a table may differ");
+    }
+    String::new()
+}
+
+/// What an earlier version wrote, without a neighbour, still restores its device.
+fn old_journal() -> String {
+    let spec = Spec::embedded().unwrap();
+    let folder = folder();
+    let bench = Bench::new(&spec, "ja40", "position-p-gain=5", folder.path().join("journal"));
+    let before = bench.table();
+    let mut subject = bench.device(bench.line(40, 0));
+    let answers: Vec<_> = bench.questions.iter().map(|question| subject.ask(question)).collect();
+    drop(subject);
+    let text = fs::read_to_string(&bench.path).unwrap();
+    let mut old: Value = serde_json::from_str(&text).unwrap();
+    old["version"] = OLDEST.into();
+    old.as_object_mut().unwrap().remove("neighbour").unwrap();
+    let journal = Journal::parse("old", &old.to_string()).unwrap();
+    let restored = restore(&journal, &mut bench.line(u64::MAX, 0));
+    if restored.is_err() || bench.table() != before {
+        return format!("{restored:?} after {answers:?}");
+    }
+    old["version"] = (VERSION + 1).into();
+    let newer = Journal::parse("new", &old.to_string()).unwrap_err().to_string();
+    let is_told = newer.contains("this program reads 1 to 2");
+    if is_told { String::new() } else { newer }
 }
 
 /// A device with torque on is not written to.

@@ -15,6 +15,7 @@
 mod alarm;
 mod backup;
 mod bad;
+mod bench;
 mod change;
 mod code;
 mod covered;
@@ -29,6 +30,7 @@ mod killing;
 mod modes;
 mod motion;
 mod packets;
+mod pair;
 mod rewrite;
 mod right;
 mod several;
@@ -65,6 +67,7 @@ fn every() -> impl Iterator<Item = &'static Fault> {
         packets::FAULTS,
         tables::FAULTS,
         several::FAULTS,
+        pair::FAULTS,
         writing::FAULTS,
         effects::FAULTS,
         modes::FAULTS,

@@ -21,7 +21,7 @@ use super::killing::run;
 pub(crate) type Test = (&'static str, fn() -> String);
 
 /// The tests. Each returns what is wrong.
-pub(crate) const TESTS: [Test; 14] = [
+pub(crate) const TESTS: [Test; 18] = [
     ("scan_of_a_socket", || scan(&["--tcp", "0"], "tcp://", "ID 2: JA40, model 5210, firmware 0")),
     ("scan_of_a_terminal", || {
         scan(&["--pty"], "", "ID 1 at 57600 bit/s: JA40, model 5210, firmware 0")
@@ -52,6 +52,10 @@ pub(crate) const TESTS: [Test; 14] = [
     ("innfos_silent_for_all", || {
         board(&["--udp", "0", "--readings", "broadcast=silent"], "udp://")
     }),
+    ("another_model_beside", || another_beside("xm430-w210@1 xl330-m288@2", "xm430-w210", 2)),
+    ("another_table_beside", || another_beside("ja40@1 xl330-m288@2", "ja40", 0)),
+    ("what_is_written_beside", written_beside),
+    ("an_unknown_model_beside", unknown_beside),
     ("response_time", response_time),
     ("with_an_alarm", || port(&["--tcp", "0", "--fault", "overheating#1"], "tcp://")),
     ("innfos_with_an_alarm", || board(&["--udp", "0", "--fault", "overheating#1"], "udp://")),
@@ -111,7 +115,7 @@ pub(crate) fn requirements() -> String {
     assert!(wires.iter().all(|wire| checked.contains(wire)), "{checked:?}");
     for file in &spec.devices {
         let device = &file.content;
-        let target = Target::alone(Some(device)).with_neighbour(2);
+        let target = Target::alone(Some(device)).with_neighbour(2, Some(device));
         let mut ids = BTreeSet::new();
         for check in suite::device_plan(&spec, &[device.wire], &target).checks() {
             let row = spec.requirement(&check.requirement);
@@ -186,6 +190,54 @@ fn board(options: &[&str], before: &str) -> String {
     let bus = Bus::start(&ACTUATORS, options);
     let port = format!("{before}{}", bus.address);
     judged(&[&[port.as_str()][..], &INNFOS].concat(), 80)
+}
+
+/// What is written to the neighbour is told before, also by the plan, and both are restored.
+fn written_beside() -> String {
+    let sentence = "the neighbour, a JA40 with ID 2, is written to as well while its torque is off, and restored: \
+                    Feedforward 1st Gain";
+    let mut plan = Command::new(env!("CARGO_BIN_EXE_actucheck"));
+    plan.args(["device", "--device", "ja40", "--neighbour", "2", "--dry-run", "--allow"]);
+    let planned = |allowed: &str| {
+        let output = Command::new(plan.get_program()).args(plan.get_args()).arg(allowed).output();
+        String::from_utf8_lossy(&output.unwrap().stdout).contains(sentence)
+    };
+    let checks = ["--select", "*.first-of-two/data", "--device", "ja40", "--neighbour", "2", "--"];
+    let run = run(&[&checks[..], &[&own(), "firmware", "ja40@1 ja40@2", "none"]].concat());
+    let is_told = run.text.contains(sentence) && run.text.contains("holds what it held before");
+    let is_planned = planned("write-ram") && !planned("read");
+    let is_right = run.status == Some(0) && run.verdicts.len() == 2;
+    if is_told && is_planned && is_right {
+        String::new()
+    } else {
+        format!("{is_planned}, {}", run.text)
+    }
+}
+
+/// A neighbour of another model, whatever was chosen for all: of what one packet writes to both, so many instructions
+/// are checked in both orders.
+fn another_beside(devices: &str, device: &str, count: usize) -> String {
+    let checks = ["--select", "*.{several,sentence,written}.*", "--neighbour", "2", "--device"];
+    let run = run(&[&checks[..], &[device, "--", &own(), "firmware", devices, "none"]].concat());
+    let wrong: Vec<_> = run.verdicts.iter().filter(|(_, verdict)| verdict == "fail").collect();
+    let is_of_both = |id: &str| id.contains(".written.") && id.ends_with("-of-two/data");
+    let of_both = run.verdicts.iter().filter(|(id, verdict)| is_of_both(id) && verdict == "pass");
+    let is_right = run.status == Some(0) && of_both.count() == count * 2;
+    if is_right { String::new() } else { format!("{wrong:?}\n{}", run.text) }
+}
+
+/// A neighbour of a model without a control table is not written to, and that is told.
+fn unknown_beside() -> String {
+    let checks = ["--select", "*.basic.ping/answer", "--device", "ja40", "--neighbour", "2", "--"];
+    let firmware = [&own(), "firmware", "ja40@1 ja40@2", "model-high-byte-first"];
+    let run = run(&[&checks[..], &firmware].concat());
+    let is_told = run.text.contains("the neighbour with ID 2 is not written to");
+    if run.status == Some(0) && is_told { String::new() } else { run.text }
+}
+
+/// This program, which is the firmware too.
+fn own() -> String {
+    std::env::current_exe().unwrap().to_str().unwrap().to_owned()
 }
 
 /// What is sent is counted, and how long answers take is told by instruction: no less than a line makes it.

@@ -30,12 +30,14 @@ expected_failures:
   flaky: true
 "#;
 
-const JOURNAL: &str = r#"{"version":1,"date":"2026-01-02T03:04:05Z","wire":"dynamixel2","device":"d",
+const JOURNAL: &str = r#"{"version":2,"date":"2026-01-02T03:04:05Z","wire":"dynamixel2","device":"d",
 "model_number":5210,"id":1,"baud":57600,"allowed":["write-ram","motion"],
 "layout":{"read":[[64,1],[512,3]],"restored":[{"name":"Led","address":513,"size":2}],
 "torque":{"name":"Torque Enable","address":512,"size":1},
 "goals_switch":[{"name":"Drive Mode","address":64,"size":1},8]},
-"held":[{"address":64,"data":"00"},{"address":512,"data":"000102"}]}"#;
+"held":[{"address":64,"data":"00"},{"address":512,"data":"000102"}],
+"neighbour":{"device":"n","id":2,"layout":{"read":[[64,1]],"restored":[{"name":"Led","address":64,"size":1}]},
+"held":[{"address":64,"data":"00"}]}}"#;
 
 static SPEC: LazyLock<Spec> = LazyLock::new(|| Spec::embedded().unwrap());
 
@@ -131,7 +133,9 @@ fn journal(text: &str) {
     let again = Journal::parse("journal", &written);
     assert_eq!(again.unwrap_or_else(|error| panic!("{error}\n{written}")), journal);
     // Only a journal of which nothing has to be written is restored on such a device.
-    let is_blank = journal.held.0.iter().all(|run| run.data.0.iter().all(|byte| *byte == 0));
+    let of_neighbour = journal.neighbour.iter().flat_map(|neighbour| &neighbour.held.0);
+    let mut held = journal.held.0.iter().chain(of_neighbour);
+    let is_blank = held.all(|run| run.data.0.iter().all(|byte| *byte == 0));
     if is_blank {
         restore(&journal, &mut Stubborn).unwrap();
     } else {

@@ -1,5 +1,6 @@
 //! Opens the line to a device, wherever it is.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
@@ -36,8 +37,8 @@ pub(crate) struct Found<'s> {
     pub(crate) device: Option<&'s model::Device>,
     /// What it says of itself.
     pub(crate) said: Identity,
-    /// The IDs of all devices on the line, by rising ID.
-    pub(crate) present: Vec<u8>,
+    /// What each device on the line says of itself, by rising ID.
+    pub(crate) all: BTreeMap<u8, Identity>,
     /// The rate of a serial port.
     pub(crate) baud: u32,
 }
@@ -85,15 +86,15 @@ impl Opening<'_> {
             (None, Some(packet)) => ask(packet, MORE, usize::MAX)?,
             (None, None) => Vec::new(),
         };
-        let mut present: Vec<u8> = [id].into_iter().chain(others.iter().map(|it| it.id)).collect();
-        present.sort_unstable();
-        present.dedup();
         let said = identity(wire, &found);
+        let mut all: BTreeMap<_, _> =
+            others.iter().map(|answer| (answer.id, identity(wire, answer))).collect();
+        all.insert(id, said);
         if let Some(model) = said.model_number {
             tables.learn(id, model);
         }
         let device = table_of(tables, id, spec);
-        Ok(Found { line, library, device, said, present, baud })
+        Ok(Found { line, library, device, said, all, baud })
     }
 
     fn nothing_answers(&self, baud: u32) -> Failure {

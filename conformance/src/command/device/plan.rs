@@ -31,11 +31,19 @@ pub(super) struct Effort {
 }
 
 impl Effort {
-    /// The checks of a plan that this is allowed for, and the looks at all registers that come with writing.
-    pub(super) fn of(plan: &Plan<'_>, allowed: &Permissions, layout: Option<&Layout>) -> Self {
+    /// The checks of a plan that this is allowed for, and the looks at all registers of the device and its neighbour
+    /// that come with writing.
+    pub(super) fn of(
+        plan: &Plan<'_>,
+        allowed: &Permissions,
+        layout: Option<&Layout>,
+        beside: Option<&Layout>,
+    ) -> Self {
         let mut effort = Self::default();
         for check in plan.checks() {
-            let Question::Device { needs, steps, .. } = &check.question else { continue };
+            let Question::Device { needs, neighbour, steps, .. } = &check.question else {
+                continue;
+            };
             if !needs.without(allowed).only_read() {
                 continue;
             }
@@ -45,6 +53,9 @@ impl Effort {
             }
             if let Some(layout) = layout.filter(|_| !needs.only_read()) {
                 // One shows what differs from before, another that nothing does any more.
+                effort.looks(layout, 2);
+            }
+            if let Some(layout) = beside.filter(|_| neighbour.is_some()) {
                 effort.looks(layout, 2);
             }
         }

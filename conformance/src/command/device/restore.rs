@@ -95,12 +95,11 @@ pub(super) fn run(options: &Restore) -> Result<ExitCode, Failure> {
         1 => "holds what it held before: 1 register was written".to_owned(),
         many => format!("holds what it held before: {many} registers were written"),
     };
-    let text = format!(
-        "{} with ID {} {what}; {} is removed\n",
-        journal.device,
-        journal.id,
-        path.display()
-    );
+    let beside = journal.neighbour.as_ref().map_or_else(String::new, |neighbour| {
+        format!(", with its neighbour {} with ID {},", neighbour.device, neighbour.id)
+    });
+    let (device, id, path) = (&journal.device, journal.id, path.display());
+    let text = format!("{device} with ID {id}{beside} {what}; {path} is removed\n");
     shared::print(text.as_bytes())?;
     Ok(ExitCode::SUCCESS)
 }

@@ -4,11 +4,11 @@ use std::path::PathBuf;
 use std::time::SystemTime;
 
 use actucheck::adapter::{Permission, Permissions, Wire};
-use actucheck::journal::{Journal, Layout, Snapshot, VERSION};
+use actucheck::journal::{self, Journal, Layout, Snapshot, VERSION};
 use actucheck::names::as_word;
 use actucheck::port::Place;
 use actucheck::subject::device::{Device, Keeper, Kept};
-use actucheck::suite::device::kept;
+use actucheck::suite::device::{Neighbour, kept};
 use actucheck_spec::{Spec, model};
 use chrono::{DateTime, SecondsFormat, Utc};
 use clap::Args;
@@ -37,11 +37,26 @@ pub(crate) struct At<'a> {
     pub(crate) id: u8,
     /// The model number that it told.
     pub(crate) model: Option<u16>,
+    /// Another device that may be written to.
+    pub(crate) neighbour: Option<Neighbour<'a>>,
 }
 
 /// What is kept of a device while it is written to.
 pub(super) fn layout(spec: &Spec, wire: Wire, device: Option<&model::Device>) -> Option<Layout> {
     device.map(Layout::of).or_else(|| kept(wire, spec).map(Layout::of_values))
+}
+
+/// What is kept of its neighbour, if that is written to.
+fn beside(wire: Wire, neighbour: Neighbour<'_>) -> Option<journal::Neighbour> {
+    let Neighbour { id, device } = neighbour;
+    let device = device?;
+    Some(journal::Neighbour {
+        device: name_of(wire, Some(device)).to_owned(),
+        model_number: device.model_number,
+        id,
+        layout: Layout::of(device),
+        held: Snapshot::default(),
+    })
 }
 
 /// Sets a device back that was written to, and tells that.
@@ -111,7 +126,9 @@ impl Writing {
         layout: Layout,
         at: &At<'_>,
     ) -> (Journal, PathBuf) {
-        let At { wire, place, baud, id, model } = at;
+        let At { wire, place, baud, id, model, neighbour } = at;
+        let is_allowed = self.allowed().has(Permission::WriteRam);
+        let neighbour = neighbour.filter(|_| is_allowed);
         let now: DateTime<Utc> = SystemTime::now().into();
         let path = self.journal.clone().unwrap_or_else(|| {
             let (name, time) = (as_word(word), now.format("%Y%m%dT%H%M%SZ"));
@@ -129,6 +146,7 @@ impl Writing {
             allowed: self.allowed(),
             layout,
             held: Snapshot::default(),
+            neighbour: neighbour.and_then(|neighbour| beside(*wire, neighbour)),
         };
         (journal, path)
     }

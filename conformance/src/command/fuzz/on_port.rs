@@ -90,7 +90,7 @@ impl OnPort {
             limit: self.answer_within,
             id: self.id,
         };
-        let Found { line, library, device, said, present, baud } =
+        let Found { line, library, device, said, all, baud } =
             opening.find(spec, &mut tables, interrupted)?;
         let firmware = said.firmware_version;
         let firmware = firmware.map_or_else(String::new, |version| format!("firmware {version}"));
@@ -100,9 +100,11 @@ impl OnPort {
             Some(library) => subject.of_library(library),
             None => subject,
         };
-        let at = At { wire, place: &place, baud, id: self.id, model: said.model_number };
+        let (id, model) = (self.id, said.model_number);
+        let at = At { wire, place: &place, baud, id, model, neighbour: None };
         let subject = self.writing.keep(subject, spec, device, &at);
-        Ok((subject, Target { id: self.id, device, neighbour: None, present }, allowed))
+        let present = all.into_keys().collect();
+        Ok((subject, Target { id, device, neighbour: None, present }, allowed))
     }
 
     /// What requests may do: only what is written to registers of the RAM area is decided for any request.

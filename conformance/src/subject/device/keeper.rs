@@ -4,18 +4,23 @@ use std::path::PathBuf;
 
 use super::Line;
 use crate::adapter::{Permission, Permissions, Reported};
-use crate::journal::{Ask, Journal, JournalError, Snapshot, restore, snapshot, stand_still};
+use crate::journal::{
+    Ask, Journal, JournalError, Layout, Neighbour, Snapshot, restore, restore_device, snapshot,
+    stand_still,
+};
 use crate::suite::device::reported;
-use actucheck_spec::wire::Packet;
+use actucheck_spec::wire::{Packet, Wire};
 
-/// Keeps the registers of a device: writes them to a journal before the first write, sets them back after
-/// each check that writes, and removes the journal when the device is as it was.
+/// Keeps the registers of a device and its neighbour: writes them to a journal before the first write, sets them
+/// back after each check that writes, and removes the journal when all is as it was.
 #[derive(Debug)]
 pub struct Keeper {
     /// The journal, without what the registers hold.
     journal: Journal,
     path: PathBuf,
     state: State,
+    /// Why the neighbour may not be written to, though the device may.
+    left_out: Option<String>,
 }
 
 #[derive(Debug)]
@@ -43,22 +48,32 @@ impl Keeper {
     /// Keeps a device; `journal` says which, and `path` is where the file will be.
     #[must_use]
     pub const fn new(journal: Journal, path: PathBuf) -> Self {
-        Self { journal, path, state: State::Untouched }
+        Self { journal, path, state: State::Untouched, left_out: None }
     }
 
-    /// Before a check that writes: the journal is on the disk after that.
+    /// Before a check that writes, to this neighbour too: the journal is on the disk after that.
     ///
     /// # Errors
-    /// Why nothing may be written.
-    pub(super) fn before(&mut self, needs: &Permissions, line: &mut dyn Ask) -> Result<(), String> {
+    /// Why it may not write.
+    pub(super) fn before(
+        &mut self,
+        needs: &Permissions,
+        neighbour: Option<u8>,
+        line: &mut dyn Ask,
+    ) -> Result<(), String> {
         if matches!(self.state, State::Untouched) {
             self.state = match self.begin(line) {
                 Ok(()) => State::Kept,
                 Err(reason) => State::Barred(reason),
             };
         }
+        let kept = self.journal.neighbour.as_ref().map(|kept| kept.id);
         match &self.state {
             State::Barred(reason) | State::Lost(reason) => Err(reason.clone()),
+            State::Untouched | State::Kept if neighbour.is_some() && neighbour != kept => {
+                let nobody = || "nothing keeps what its neighbour holds".to_owned();
+                Err(self.left_out.clone().unwrap_or_else(nobody))
+            }
             State::Untouched | State::Kept if needs.has(Permission::Motion) => {
                 stand_still(&self.journal, line).map_err(|error| error.to_string())
             }
@@ -69,13 +84,23 @@ impl Keeper {
     fn begin(&mut self, line: &mut dyn Ask) -> Result<(), String> {
         let Journal { wire, id, layout, .. } = &self.journal;
         let held = snapshot(*wire, *id, layout, line).map_err(|error| error.to_string())?;
-        barred(&self.journal, &held).map_or(Ok(()), Err)?;
+        barred(layout, &held).map_or(Ok(()), Err)?;
         self.journal.held = held;
+        if let Some(mut neighbour) = self.journal.neighbour.take() {
+            match hold(self.journal.wire, &mut neighbour, line) {
+                Ok(()) => self.journal.neighbour = Some(neighbour),
+                Err(reason) => {
+                    self.left_out =
+                        Some(format!("its neighbour with ID {}: {reason}", neighbour.id));
+                }
+            }
+        }
         self.journal.write(&self.path).map_err(|error| error.to_string())
     }
 
-    /// After a check that writes: the device holds what it held before.
-    pub(super) fn after(&mut self, line: &mut dyn Ask) {
+    /// After a check that writes, to the neighbour too or not: what was written to holds what it held before.
+    pub(super) fn after(&mut self, neighbour: Option<u8>, line: &mut dyn Ask) {
+        let restore = if neighbour.is_some() { restore } else { restore_device };
         if let Err(error) = restore(&self.journal, line) {
             self.state = State::Lost(format!("the device is not restored: {error}"));
         }
@@ -106,20 +131,30 @@ impl Keeper {
     }
 }
 
+/// Reads what a neighbour holds.
+///
+/// # Errors
+/// Why it may not be written to.
+fn hold(wire: Wire, neighbour: &mut Neighbour, line: &mut dyn Ask) -> Result<(), String> {
+    let Neighbour { id, layout, held, .. } = neighbour;
+    *held = snapshot(wire, *id, layout, line).map_err(|error| error.to_string())?;
+    barred(layout, held).map_or(Ok(()), Err)
+}
+
 /// Why a device that holds this may not be written to.
-fn barred(journal: &Journal, held: &Snapshot) -> Option<String> {
-    if held.is_set(journal.layout.torque.as_ref()) {
+fn barred(layout: &Layout, held: &Snapshot) -> Option<String> {
+    if held.is_set(layout.torque.as_ref()) {
         return Some(
             "torque is on, and what the device carries may fall or move: support it, switch torque off, \
              and run again"
                 .to_owned(),
         );
     }
-    let switch = journal.layout.goals_switch.as_ref();
+    let switch = layout.goals_switch.as_ref();
     if switch.is_some_and(|(place, mask)| held.number(place).unwrap_or_default() & mask != 0) {
         return Some("Drive Mode lets a goal that is written switch torque on: clear that bit, and run again".to_owned());
     }
-    if held.is_set(journal.layout.registered.as_ref()) {
+    if held.is_set(layout.registered.as_ref()) {
         return Some("a Reg Write waits for its Action: send the Action or restart the device, and run again".to_owned());
     }
     None

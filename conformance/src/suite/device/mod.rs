@@ -30,10 +30,19 @@ pub struct Target<'a> {
     pub id: u8,
     /// Its control table, if it is known.
     pub device: Option<&'a model::Device>,
-    /// Another device on the line that may be asked too, with its ID.
-    pub neighbour: Option<u8>,
+    /// Another device on the line that may be asked too.
+    pub neighbour: Option<Neighbour<'a>>,
     /// The IDs of all devices on the line, by rising ID.
     pub present: Vec<u8>,
+}
+
+/// Another device on the line of the one that is checked.
+#[derive(Clone, Copy, Debug)]
+pub struct Neighbour<'a> {
+    /// Its ID or its address.
+    pub id: u8,
+    /// Its control table, if it may be written to: it told the model number that the table has.
+    pub device: Option<&'a model::Device>,
 }
 
 impl<'a> Target<'a> {
@@ -49,10 +58,10 @@ impl<'a> Target<'a> {
         ids(wire).find(is_absent).unwrap_or(*ids(wire).end())
     }
 
-    /// The same device with its neighbour.
+    /// The same device with its neighbour, and the control table of that if it may be written to.
     #[must_use]
-    pub fn with_neighbour(mut self, id: u8) -> Self {
-        self.neighbour = Some(id);
+    pub fn with_neighbour(mut self, id: u8, device: Option<&'a model::Device>) -> Self {
+        self.neighbour = Some(Neighbour { id, device });
         if let Err(place) = self.present.binary_search(&id) {
             self.present.insert(place, id);
         }
@@ -83,7 +92,12 @@ struct Own {
     kept: Option<fn(&Spec) -> Vec<Place>>,
     /// What any requests that only read must come to.
     conversation: Option<Conversation>,
+    /// The registers of the neighbour that checks write to, if some do.
+    written_beside: Option<WrittenBeside>,
 }
+
+/// The registers of the neighbour that checks write to.
+type WrittenBeside = for<'a> fn(Author<'a>, &Target<'a>) -> Vec<&'a model::Register>;
 
 /// Writes a question and what must come back, of requests that are each sent in pieces.
 type Conversation = fn(
@@ -130,6 +144,7 @@ static WIRES: [Own; 2] = [
         instructions: Some(dynamixel2::INSTRUCTIONS),
         kept: None,
         conversation: Some(dynamixel2::conversation),
+        written_beside: Some(dynamixel2::written_beside),
     },
     Own {
         wire: wire::innfos::WIRE,
@@ -143,6 +158,7 @@ static WIRES: [Own; 2] = [
         instructions: Some(innfos::INSTRUCTIONS),
         kept: Some(innfos::kept),
         conversation: Some(innfos::conversation),
+        written_beside: None,
     },
 ];
 
@@ -226,6 +242,17 @@ pub fn instructions(wire: Wire) -> Option<&'static Instructions> {
 #[must_use]
 pub fn kept(wire: Wire, spec: &Spec) -> Option<Vec<Place>> {
     own(wire)?.kept.map(|kept| kept(spec))
+}
+
+/// The registers of a device's neighbour that checks write to, where that is allowed.
+#[must_use]
+pub fn written_beside<'a>(
+    spec: &'a Spec,
+    wire: Wire,
+    target: &Target<'a>,
+) -> Vec<&'a model::Register> {
+    let written = own(wire).and_then(|own| own.written_beside);
+    written.map_or_else(Vec::new, |written| written(Author { spec, wire }, target))
 }
 
 /// The requirement that the last of these requests is about, the question that asks them all, and what must

@@ -85,11 +85,12 @@ fn several(talk: &Talk<'_>) -> Vec<Check> {
     checks
 }
 
-/// The order of the answers to a Fast Sync Write that both devices refuse, so that nobody has to keep what the
-/// neighbour holds.
+/// The order of the answers to a Fast Sync Write that both devices refuse, so that the neighbour may be one that is
+/// not written to.
 fn one_named(talk: &Talk<'_>) -> Vec<Check> {
     let register = talk.target.device.and_then(|device| device.register("Present Temperature"));
-    let neighbour = talk.target.neighbour.filter(|_| talk.knows("Fast Sync Write"));
+    let instruction = "Fast Sync Write";
+    let neighbour = talk.neighbour_with(instruction).filter(|_| talk.knows(instruction));
     let (Some(register), Some(neighbour)) = (register, neighbour) else { return Vec::new() };
     let size = usize::from(register.kind.size());
     let steps = [[talk.id(), neighbour], [neighbour, talk.id()]].map(|ids| {
@@ -98,7 +99,7 @@ fn one_named(talk: &Talk<'_>) -> Vec<Check> {
             to_several(code::FAST_SYNC_WRITE, register.address, &ids.map(|id| (id, &data[..])));
         let fast = Some(Fast { length: 0, ids: ids.to_vec() });
         let refused = |id| Like { id, error: Some(error::ACCESS), data: Some(Vec::new()) };
-        (Asked { fast, ..asked(packet, 2) }, vec![ids.map(refused).to_vec()])
+        (Asked { fast, ..asked(packet, 1) }, vec![ids.map(refused).to_vec()])
     });
     let ram = Permissions::from([Permission::WriteRam]);
     shown(talk, &ram, &["fast-sync-write.order"], &conversation(steps.into()))

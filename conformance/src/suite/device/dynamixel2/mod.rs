@@ -8,7 +8,8 @@
 //! - sentence: what sentences say of packets in general, of instructions that change something, and of modes;
 //! - level: which instructions are answered;
 //! - several: instructions that read from several devices;
-//! - written, registered, stuffed: what is written is held, whoever else is meant, and whatever its bytes are;
+//! - written, registered, stuffed: what is written is held, whoever else is meant or written to, and whatever its
+//!   bytes are;
 //! - range, limit, access, length: what can't be written;
 //! - restart: what a restart or a reset leaves, and what torque locks;
 //! - alarm: what a hardware error shows in a register and in every answer;
@@ -28,6 +29,7 @@ mod level;
 mod limits;
 mod modes;
 mod motion;
+mod pair;
 mod refused;
 mod requests;
 mod restart;
@@ -39,13 +41,13 @@ mod table;
 mod writable;
 mod written;
 
-use actucheck_spec::model::{Citation, HexBytes, Role};
+use actucheck_spec::model::{Citation, Device, HexBytes, Role};
 use actucheck_spec::wire;
 use actucheck_spec::wire::dynamixel2::reference::{BROADCAST, frame};
 use actucheck_spec::wire::dynamixel2::{Packet, WIRE};
 
 use super::steps::{asked, bytes_of, packet_then, then};
-use super::{Identity, Instructions, Target, basic};
+use super::{Identity, Instructions, Neighbour, Target, basic};
 use crate::adapter::{Asked, Permissions, Question, Reported};
 use crate::suite::Author;
 use crate::suite::check::{Check, Demand};
@@ -104,7 +106,9 @@ pub(super) fn families<'a>(author: Author<'a>, target: &Target<'a>) -> Vec<Famil
             own.into_iter().flat_map(|checks| checks(talk)).collect()
         }),
         family("level", level::checks),
-        family("written", |talk| [written::kept(talk), written::several(talk)].concat()),
+        family("written", |talk| {
+            [written::kept(talk), written::several(talk), pair::checks(talk)].concat()
+        }),
         family("registered", written::registered),
         family("stuffed", stuffed::checks),
         family("range", limits::ranges),
@@ -130,6 +134,7 @@ pub(super) const INSTRUCTIONS: Instructions = Instructions {
 };
 
 pub(crate) use changes::{Place, is_measured, places};
+pub(super) use pair::written_beside;
 pub(crate) use refused::UNDEFINED;
 pub(super) use requests::conversation;
 
@@ -224,7 +229,7 @@ impl Talk<'_> {
         steps: Vec<Asked>,
         demand: Demand,
     ) -> Check {
-        let question = Question::Device { wire: WIRE, needs, steps };
+        let question = Question::Device { wire: WIRE, needs, neighbour: None, steps };
         // A test checks that there is one for every check.
         let requirement = self.row(requirements).unwrap_or_default();
         self.author.check(id, &requirement, question, demand)
@@ -255,6 +260,13 @@ impl Talk<'_> {
     fn knows(&self, instruction: &str) -> bool {
         let device = self.target.device;
         device.is_some_and(|device| device.instructions.iter().any(|name| name == instruction))
+    }
+
+    /// The neighbour, unless it is known that it has not this instruction.
+    fn neighbour_with(&self, instruction: &str) -> Option<u8> {
+        let Neighbour { id, device } = self.target.neighbour?;
+        let has = |device: &Device| device.instructions.iter().any(|name| name == instruction);
+        device.is_none_or(has).then_some(id)
     }
 
     /// The ID of the device.

@@ -101,7 +101,7 @@ pub(crate) fn conversation(
     {
         return None;
     }
-    let question = Question::Device { wire: WIRE, needs, steps };
+    let question = Question::Device { wire: WIRE, needs, neighbour: None, steps };
     Some((requirement?, question, Demand::Answer(wanted)))
 }
 

@@ -150,7 +150,7 @@ fn of_kind(talk: &Talk<'_>, kind: Kind, range: (u16, u16)) -> Vec<Check> {
     );
     let mut checks = vec![silence, missing, own_id, as_read];
     checks.extend(many.into_iter().flatten());
-    let Some(neighbour) = talk.target.neighbour else { return checks };
+    let Some(neighbour) = talk.neighbour_with(kind.name()) else { return checks };
     for (name, ids) in [("first", [id, neighbour]), ("second", [neighbour, id])] {
         checks.push(talk.check(
             named(&format!("several.{word}.{name}-of-two/order")),

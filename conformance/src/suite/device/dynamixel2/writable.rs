@@ -72,11 +72,16 @@ pub(super) fn writable<'a>(talk: &Talk<'a>) -> Vec<Writable<'a>> {
 
 /// A register of the RAM area that does nothing by itself while torque is off, with many values.
 pub(super) fn probe<'a>(talk: &Talk<'a>) -> Option<Writable<'a>> {
+    probes(talk).next()
+}
+
+/// All such registers.
+pub(super) fn probes<'a>(talk: &Talk<'a>) -> impl Iterator<Item = Writable<'a>> + use<'a> {
     let is_gain = |one: &Writable<'_>| {
         one.register.area == Area::Ram && one.size() == 2 && one.register.initial.is_some()
     };
     // The last one is no time, which may have a meaning of its own at 0.
-    writable(talk).into_iter().rev().find(is_gain)
+    writable(talk).into_iter().rev().filter(is_gain)
 }
 
 /// A register of the EEPROM area that bounds something, and raises no alarm.

@@ -5,7 +5,7 @@ use actucheck_spec::wire::innfos::WIRE;
 use super::{ALL, FLAGS, Talk, answer, asked, bytes_of, code, request};
 use crate::adapter::Bits;
 use crate::suite::check::Check;
-use crate::suite::device::basic;
+use crate::suite::device::{Neighbour, basic};
 use crate::suite::wanted::{Like, Part};
 
 /// The most actuators whose answers are awaited in any order.
@@ -110,7 +110,7 @@ pub(super) fn addressees(talk: &Talk<'_>) -> Vec<Check> {
     let own =
         talk.record("addressee.handshake/answer", "innfos.transport.handshake", step, question);
     let mut checks: Vec<_> = others.into_iter().chain([for_all, own]).collect();
-    let Some(neighbour) = talk.target.neighbour else { return checks };
+    let Some(Neighbour { id: neighbour, .. }) = talk.target.neighbour else { return checks };
     let step = || asked(request(neighbour, code::MODE), 1);
     let mode = answer(neighbour, code::MODE, vec![Part::Any(1)]);
     checks.push(talk.check(

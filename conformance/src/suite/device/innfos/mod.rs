@@ -176,7 +176,7 @@ impl Talk<'_> {
         steps: Vec<Asked>,
         demand: Demand,
     ) -> Check {
-        let question = Question::Device { wire: WIRE, needs, steps };
+        let question = Question::Device { wire: WIRE, needs, neighbour: None, steps };
         self.author.check(format!("innfos.device.{name}"), requirement, question, demand)
     }
 

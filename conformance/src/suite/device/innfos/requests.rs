@@ -48,7 +48,8 @@ pub(in crate::suite::device) fn conversation(
         steps.push(asked);
         wanted.push(Wanted(rows));
     }
-    let question = Question::Device { wire: WIRE, needs: Permissions::READ, steps };
+    let question =
+        Question::Device { wire: WIRE, needs: Permissions::READ, neighbour: None, steps };
     Some((requirement?.to_owned(), question, Demand::Answer(wanted)))
 }
 
