@@ -1,5 +1,7 @@
 //! What a device must answer, and the judgement of what came back.
 
+mod profile;
+
 use std::fmt;
 
 use actucheck_spec::model::HexBytes;
@@ -7,8 +9,10 @@ use actucheck_spec::wire::{Packet, Wire};
 use serde::{Deserialize, Serialize};
 
 use super::device;
-use crate::adapter::{Asked, Bits, Heard, Pause, Question, Reported};
+use crate::adapter::{Asked, Bits, Heard, Question, Reported};
 use crate::verdict::Verdict;
+
+pub(super) use self::profile::behaviour;
 
 /// What must come back in a step: one of these rows of answers, and nothing else.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -179,30 +183,6 @@ pub(crate) fn symptom(
     let rows = wanted.0.iter().filter(|row| row.len() == came.answers.len());
     let is_right = rows.into_iter().any(is_error);
     Some(if is_right { "answers with other data" } else { "answers with another error" })
-}
-
-/// What a device does in the first step, in a few words.
-pub(super) fn behaviour(question: &Question, heard: &[Heard]) -> String {
-    let Question::Device { wire, steps, .. } = question else { return String::new() };
-    let (Some(asked), Some(heard)) = (steps.first(), heard.first()) else { return String::new() };
-    let mut told = Told::of(*wire, asked, heard);
-    // The last piece asks only whether the device is still there.
-    if asked.send.iter().skip(1).any(|piece| piece.after == Pause::Answer)
-        && told.answers.pop().is_none()
-    {
-        return "hears nothing more".to_owned();
-    }
-    let words = |answer: &Reported| match (answer.error, &answer.data) {
-        (Some(error), _) if error > 0 => format!("answers error {error}"),
-        (_, Some(data)) if data.len() == 1 => "answers 1 byte".to_owned(),
-        (_, Some(data)) if !data.is_empty() => format!("answers {} bytes", data.len()),
-        _ => "answers without an error".to_owned(),
-    };
-    let mut all: Vec<_> = told.answers.iter().map(words).collect();
-    if told.stray > 0 {
-        all.push("sends what is no packet".to_owned());
-    }
-    if all.is_empty() { "stays silent".to_owned() } else { all.join(", then ") }
 }
 
 impl Wanted {

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use actucheck::bus::{Sender, VirtualBus};
 
 use super::fault::Fault;
-use super::{bad, every};
+use super::{bad, every, profile};
 
 /// How often it is looked whether an answer is there.
 const LOOK: Duration = Duration::from_millis(1);
@@ -24,7 +24,8 @@ pub(crate) struct Firmware {
 impl Firmware {
     /// Devices with a fault, or with `none`.
     pub(crate) fn new(devices: &str, fault: &str) -> Self {
-        let row = every().chain(bad::FAULTS).find(|row| row.name == fault);
+        let mut all = every().chain(bad::FAULTS).chain(profile::FAULTS);
+        let row = all.find(|row| row.name == fault);
         assert!(row.is_some() || fault == "none", "`{fault}` is no fault");
         Self { bus: devices.parse().unwrap(), fault: row, begun: Instant::now() }
     }

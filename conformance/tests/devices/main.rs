@@ -31,6 +31,7 @@ mod modes;
 mod motion;
 mod packets;
 mod pair;
+mod profile;
 mod rewrite;
 mod right;
 mod several;
@@ -80,8 +81,13 @@ fn every() -> impl Iterator<Item = &'static Fault> {
 }
 
 fn tests() -> ExitCode {
-    let names: BTreeSet<_> = every().chain(bad::FAULTS).map(|row| row.name).collect();
-    assert_eq!(names.len(), every().chain(bad::FAULTS).count(), "two faults have the same name");
+    let names: BTreeSet<_> =
+        every().chain(bad::FAULTS).chain(profile::FAULTS).map(|row| row.name).collect();
+    assert_eq!(
+        names.len(),
+        every().chain(bad::FAULTS).chain(profile::FAULTS).count(),
+        "two faults have the same name"
+    );
     let mut arguments = Arguments::from_args();
     // Most of the time is waited.
     arguments.test_threads.get_or_insert(16);
@@ -114,6 +120,9 @@ fn tests() -> ExitCode {
     }
     for (name, wrong) in fuzzed::TESTS {
         trials.push(test(format!("fuzzed::{name}"), Box::new(wrong)));
+    }
+    for (name, wrong) in profile::TESTS {
+        trials.push(test(format!("profile::{name}"), Box::new(wrong)));
     }
     for (name, wrong) in bad::TESTS {
         trials.push(test(format!("bad::{name}"), Box::new(wrong)));

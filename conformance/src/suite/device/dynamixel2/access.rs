@@ -1,12 +1,20 @@
-//! What can't be written: registers for reading, addresses without a register, and parts of registers.
+//! What can't be written: registers for reading, addresses without a register, and parts of registers; and several
+//! registers at once.
 
 use super::changes::is_measured;
-use super::writable::{bytes, probe};
+use super::writable::{Writable, bytes, probe, probes};
 use super::written::{Step, at};
 use super::{Talk, asked, code, error, instruction, named, word, write};
 use crate::adapter::{Permission, Permissions};
 use crate::suite::check::{Check, Demand};
 use crate::suite::wanted::Part;
+
+/// What marks a place in several registers is a multiple of it.
+const MARK: i64 = 0x0101;
+/// The most registers that are written at once.
+const MOST: usize = 32;
+/// The mark of the last of so many.
+const LARGEST: i64 = MARK * 32;
 
 /// Rows on what is for reading only.
 const READ_ONLY: [&str; 2] = ["status-packet.error.write-access", "table.read-only"];
@@ -44,6 +52,46 @@ pub(super) fn checks(talk: &Talk<'_>) -> Vec<Check> {
         checks.push(talk.demands(ram(), id, &READ_ONLY[..1], vec![step]));
     }
     checks
+}
+
+/// Writes of two neighbouring registers, and of as many as there are. Documents show how one is written, and nowhere
+/// say whether several may be, so it is recorded.
+pub(super) fn of_several(talk: &Talk<'_>) -> Vec<Check> {
+    let Some(run) = longest_run(talk) else { return Vec::new() };
+    let check = |name: &str, run: &[Writable<'_>]| {
+        let address = run.first()?.register.address;
+        let data: Vec<u8> =
+            run.iter().enumerate().flat_map(|(place, one)| mark(one, place)).collect();
+        let length = u16::try_from(data.len()).ok()?;
+        let write = write(talk.id(), address, &data);
+        let steps = vec![talk.packet_then_ping(write), asked(talk.read(address, length), 1)];
+        let id = named(&format!("length.{name}/answer"));
+        let ram = Permissions::from([Permission::WriteRam]);
+        let question = format!("What does a Write of {} registers do?", run.len());
+        let demand = Demand::record(&question, []);
+        Some(talk.asks_with(ram, id, &["write.parameters"], steps, demand))
+    };
+    let two = run.get(..2).and_then(|two| check("two-registers", two));
+    let all = Some(&run).filter(|run| run.len() > 2).and_then(|run| check("most-registers", run));
+    two.into_iter().chain(all).collect()
+}
+
+/// The most harmless registers that have no address between them, of those that take every mark.
+fn longest_run<'a>(talk: &Talk<'a>) -> Option<Vec<Writable<'a>>> {
+    let mut registers: Vec<_> =
+        probes(talk).filter(|one| one.min <= 0 && one.max >= LARGEST).collect();
+    registers.sort_by_key(|one| one.register.address);
+    let runs = registers.chunk_by(|one, next| {
+        one.register.address + one.register.kind.size() == next.register.address
+    });
+    let longest = runs.max_by_key(|run| run.len())?;
+    Some(longest.iter().take(MOST).copied().collect())
+}
+
+/// Bytes that tell this place from others, and from what a device holds.
+fn mark(one: &Writable<'_>, place: usize) -> Vec<u8> {
+    let place = i64::try_from(place).unwrap_or_default();
+    bytes(one.register, MARK * (place + 1))
 }
 
 /// Writes that are shorter or longer than a register.

@@ -10,7 +10,7 @@
 //! - several: instructions that read from several devices;
 //! - written, registered, stuffed: what is written is held, whoever else is meant or written to, and whatever its
 //!   bytes are;
-//! - range, limit, access, length: what can't be written;
+//! - range, limit, access, length: what can't be written, and what is recorded of how much can;
 //! - restart: what a restart or a reset leaves, and what torque locks;
 //! - alarm: what a hardware error shows in a register and in every answer;
 //! - backup: what Control Table Backup stores and restores;
@@ -114,7 +114,7 @@ pub(super) fn families<'a>(author: Author<'a>, target: &Target<'a>) -> Vec<Famil
         family("range", limits::ranges),
         family("limit", |talk| [limits::limited(talk), modes::limited(talk)].concat()),
         family("access", access::checks),
-        family("length", access::lengths),
+        family("length", |talk| [access::lengths(talk), access::of_several(talk)].concat()),
         family("restart", restart::reboot),
         family("reset", |talk| [restart::reset(talk), factory::checks(talk)].concat()),
         family("lock", restart::lock),
