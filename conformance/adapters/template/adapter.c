@@ -97,6 +97,28 @@ void memory_end(const char *format, ...);
  *
  * and {"open", open_port}, {"exchange", exchange}, {"close", close_port} at the head of OPS. */
 
+/* A library of a device, which takes bytes and answers them, has the op `device` and the role
+ * `device`, and is checked by `actucheck device --adapter`, for example:
+ *
+ *     static void device(const char *request)
+ *     {
+ *         unsigned char answer[4096];
+ *         size_t count, size;
+ *         unsigned char *data = bytes(field(request, "bytes"), &count);
+ *         char *text;
+ *         if (data == NULL) {
+ *             rejected("parameter", "bad request: bytes");
+ *             return;
+ *         }
+ *         size = my_servo_hear(data, count, number(field(request, "after_ms")), answer);
+ *         text = hex(answer, size);
+ *         ok("{\"bytes\":\"%s\"}", text);
+ *         free(text);
+ *         free(data);
+ *     }
+ *
+ * and {"device", device} at the head of OPS. */
+
 static const struct op {
     const char *name;
     void (*answer)(const char *request);
@@ -422,7 +444,7 @@ static void say_hello(void)
 {
     const char *const *role;
     const struct op *op;
-    printf("{\"id\":%ld,\"ok\":{\"protocol\":3,\"implementation\":%s", id, IMPLEMENTATION);
+    printf("{\"id\":%ld,\"ok\":{\"protocol\":4,\"implementation\":%s", id, IMPLEMENTATION);
     printf(",\"roles\":[");
     for (role = ROLES; *role != NULL; role++)
         printf("%s\"%s\"", role == ROLES ? "" : ",", *role);
@@ -443,9 +465,12 @@ static int plays(const char *request)
     int builds = encodes || message != NULL || field(request, "value") != NULL;
     int is_request = encodes ? is(kind, "instruction") || is(kind, "request")
                              : is(direction, "request");
-    if (!encodes && direction == NULL)
+    const char *who = is_request == builds ? "host" : "device";
+    if (is(field(request, "op"), "device"))
+        who = "device";
+    else if (!encodes && direction == NULL)
         return 1;
-    while (*role != NULL && strcmp(*role, is_request == builds ? "host" : "device") != 0)
+    while (*role != NULL && strcmp(*role, who) != 0)
         role++;
     return *role != NULL;
 }

@@ -112,6 +112,20 @@ std::string quoted(const std::string &text);
 //     }
 //
 // and {"open", open_port}, {"call", call}, {"close", close_port} in OPS.
+
+// A library with a class of a device, which takes bytes and answers them, has the op `device` and the
+// role `device`, and is checked by `actucheck device --adapter`, for example:
+//
+//     my_library::Servo servo(1);
+//
+//     std::string device(const Json &request)
+//     {
+//         const Bytes bytes = request["bytes"].bytes();
+//         const Bytes answer = servo.hear(bytes, request["after_ms"].number());
+//         return "{\"bytes\":" + quoted(hex(answer)) + "}";
+//     }
+//
+// and {"device", device} in OPS.
 using Op = std::function<std::string(const Json &)>;
 const std::map<std::string, Op> OPS = {};
 
@@ -142,7 +156,7 @@ std::string hello()
     std::vector<std::string> ops;
     for (const auto &op : OPS)
         ops.push_back(op.first);
-    return R"({"protocol":3,"implementation":)" + IMPLEMENTATION + R"(,"roles":)" + listed(ROLES) +
+    return R"({"protocol":4,"implementation":)" + IMPLEMENTATION + R"(,"roles":)" + listed(ROLES) +
            R"(,"wires":)" + listed(WIRES) + R"(,"ops":)" + listed(ops) + R"(,"limits":)" + LIMITS +
            "}";
 }
@@ -150,6 +164,8 @@ std::string hello()
 // The role that does this; empty if both do.
 std::string role(const Json &request)
 {
+    if (request["op"].text() == "device")
+        return "device";
     const bool encodes = request["op"].text() == "encode";
     const bool builds = encodes || request.has("value") || request.has("message");
     const Json &of = request.has("message") ? request["message"] : request;

@@ -119,10 +119,22 @@ class Memory {
 //     }
 //
 //     const OPS = { open, exchange, close };
+
+// A library with a class of a device, which takes bytes and answers them, has the op `device` and the
+// role `device`, and is checked by `actucheck device --adapter`, for example:
+//
+//     const servo = new myLibrary.Servo(1);
+//
+//     function device(request) {
+//         const answer = servo.hear(Buffer.from(request.bytes, "hex"), request.after_ms);
+//         return { bytes: answer.toString("hex") };
+//     }
+//
+//     const OPS = { device };
 const OPS = {};
 
 const HELLO = {
-    protocol: 3,
+    protocol: 4,
     implementation: { name: "my_library", version: "0", language: "JavaScript" },
     // A host builds requests and reads replies, a device the reverse; name both if it does both.
     roles: ["host"],
@@ -134,6 +146,9 @@ const HELLO = {
 
 /** The role that does this; null if both do. */
 function role(request) {
+    if (request.op === "device") {
+        return "device";
+    }
     let direction = (request.message ?? request).direction;
     if (request.op === "encode") {
         const isRequest = ["instruction", "request"].includes(request.packet.kind);

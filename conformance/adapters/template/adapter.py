@@ -54,10 +54,21 @@ class Skipped(Exception):
 #         return {"devices": [{"id": call["device"], "data": data.hex()}]}
 #
 #     OPS = {"open": open_port, "call": call, "close": close}
+
+# A library with a class of a device, which takes bytes and answers them, has the op `device` and the role
+# `device`, and is checked by `actucheck device --adapter`, for example:
+#
+#     servo = my_library.Servo(1)
+#
+#     def device(request):
+#         answer = servo.hear(bytes.fromhex(request["bytes"]), request["after_ms"])
+#         return {"bytes": answer.hex()}
+#
+#     OPS = {"device": device}
 OPS = {}
 
 HELLO = {
-    "protocol": 3,
+    "protocol": 4,
     "implementation": {"name": "my_library", "version": "0", "language": "Python"},
     # A host builds requests and reads replies, a device the reverse; name both if it does both.
     "roles": ["host"],
@@ -72,6 +83,8 @@ def role(request):
     """The role that does this; None if both do."""
     if request["op"] in ("open", "call", "close"):
         return "host"
+    if request["op"] == "device":
+        return "device"
     direction = request.get("message", request).get("direction")
     if request["op"] == "encode":
         is_request = request["packet"]["kind"] in ("instruction", "request")

@@ -58,6 +58,23 @@ use std::panic::{catch_unwind, AssertUnwindSafe};
 //     }
 //
 // and ("open", open), ("call", call), ("close", close) in OPS.
+
+// A library with a type of a device, which takes bytes and answers them, has the op `device` and the
+// role `device`, and is checked by `actucheck device --adapter`, for example:
+//
+//     use std::cell::RefCell;
+//
+//     thread_local! {
+//         static SERVO: RefCell<my_library::Servo> = RefCell::new(my_library::Servo::new(1));
+//     }
+//
+//     fn device(request: &Json) -> Answer {
+//         let (bytes, after_ms) = (request.bytes("bytes")?, request.number("after_ms")?);
+//         let answer = SERVO.with(|servo| servo.borrow_mut().hear(&bytes, after_ms));
+//         Ok(format!("{{\"bytes\":\"{}\"}}", hex(&answer)))
+//     }
+//
+// and ("device", device) in OPS.
 const OPS: &[(&str, Op)] = &[];
 
 const IMPLEMENTATION: &str = r#"{"name":"my_library","version":"0","language":"Rust"}"#;
@@ -134,13 +151,16 @@ fn hello() -> String {
     let ops: Vec<&str> = OPS.iter().map(|(name, _)| *name).collect();
     let (roles, wires, ops) = (listed(ROLES), listed(WIRES), listed(&ops));
     format!(
-        "{{\"protocol\":3,\"implementation\":{IMPLEMENTATION},\"roles\":{roles},\"wires\":{wires},\
+        "{{\"protocol\":4,\"implementation\":{IMPLEMENTATION},\"roles\":{roles},\"wires\":{wires},\
          \"ops\":{ops},\"limits\":{LIMITS}}}"
     )
 }
 
 /// The role that does this; `None` if both do.
 fn role(request: &Json) -> Result<Option<&'static str>, No> {
+    if request.text("op")? == "device" {
+        return Ok(Some("device"));
+    }
     let encodes = request.text("op")? == "encode";
     let message = request.get("message");
     let builds = encodes || message.is_some() || request.get("value").is_some();

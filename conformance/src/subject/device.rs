@@ -8,7 +8,7 @@ mod other_host;
 mod record;
 mod slave;
 
-use std::io::ErrorKind;
+use std::io::{Error, ErrorKind};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use actucheck_spec::model::Role;
@@ -109,7 +109,8 @@ impl Subject for Device {
                 return Answer::Skipped(reason);
             }
             let heard = line.converse(steps);
-            if heard.is_ok() {
+            // A library that failed has its device still.
+            if heard.as_ref().err().is_none_or(is_library) {
                 keeper.after(*neighbour, &mut *line);
             }
             heard
@@ -117,10 +118,7 @@ impl Subject for Device {
         match heard {
             _ if line.is_interrupted() => Answer::NotAsked("interrupted".to_owned()),
             Ok(heard) => Answer::Ok(Output::Line(heard)),
-            // The library of a device that is behind an adapter.
-            Err(error) if error.kind() == ErrorKind::InvalidData => {
-                Answer::Crashed(error.to_string())
-            }
+            Err(error) if is_library(&error) => Answer::Crashed(error.to_string()),
             Err(error) => {
                 let gone = PortError::new(&line.place, error).to_string();
                 line.gone = Some(gone.clone());
@@ -137,4 +135,9 @@ impl Subject for Device {
     fn another(&self) -> Option<Box<dyn Subject + Send>> {
         Some(Box::new(self.clone()))
     }
+}
+
+/// Whether the library of a device that is behind an adapter has failed.
+fn is_library(error: &Error) -> bool {
+    error.kind() == ErrorKind::InvalidData
 }

@@ -1,4 +1,5 @@
-//! The libraries in the templates' comments: CRC-16/UMTS bit by bit, and a Read of one register.
+//! The libraries in the templates' comments: CRC-16/UMTS bit by bit, a Read of one register, and a device that
+//! answers its Ping, also one that comes in parts, if there is no long pause in it.
 
 pub(super) const PYTHON_LIBRARY: &str = r#"
 import os
@@ -24,6 +25,18 @@ class my_library:
                     raise my_library.Timeout("no answer")
                 answer += os.read(self.file, 64)
             return answer[9:-2]
+
+    class Servo:
+        def __init__(self, number):
+            assert number == 1
+            self.begun = b""
+
+        def hear(self, data, after_ms):
+            self.begun = data if after_ms > 50 else self.begun + data
+            if not self.begun.endswith(bytes.fromhex("fffffd0001030001194e")):
+                return b""
+            self.begun = b""
+            return bytes.fromhex("fffffd000107005500060426655d")
 
     def crc(data):
         crc = 0
@@ -79,6 +92,27 @@ static int my_library_read(long device, long address, long length, unsigned char
 
 "#;
 
+pub(super) const C_SERVO_LIBRARY: &str = r#"
+static size_t my_servo_hear(const unsigned char *data, size_t count, long after_ms,
+                            unsigned char *answer)
+{
+    static const unsigned char PING[] = "\xff\xff\xfd\x00\x01\x03\x00\x01\x19\x4e";
+    static const unsigned char PONG[] = "\xff\xff\xfd\x00\x01\x07\x00\x55\x00\x06\x04\x26\x65\x5d";
+    static size_t begun;
+    size_t i;
+    if (after_ms > 50)
+        begun = 0;
+    for (i = 0; i < count; i++)
+        begun = data[i] == PING[begun] ? begun + 1 : data[i] == 0xff;
+    if (begun < sizeof PING - 1)
+        return 0;
+    begun = 0;
+    memcpy(answer, PONG, sizeof PONG - 1);
+    return sizeof PONG - 1;
+}
+
+"#;
+
 pub(super) const CPP_LIBRARY: &str = r#"
 #include <fcntl.h>
 #include <poll.h>
@@ -111,6 +145,26 @@ public:
 
 private:
     int file;
+};
+
+class Servo {
+public:
+    explicit Servo(int) {}
+
+    Bytes hear(const Bytes &bytes, long after_ms)
+    {
+        if (after_ms > 50)
+            begun.clear();
+        begun.insert(begun.end(), bytes.begin(), bytes.end());
+        const Bytes ping = {0xff, 0xff, 0xfd, 0, 1, 3, 0, 1, 0x19, 0x4e};
+        if (begun.size() < ping.size() || !std::equal(ping.begin(), ping.end(), begun.end() - 10))
+            return {};
+        begun.clear();
+        return {0xff, 0xff, 0xfd, 0, 1, 7, 0, 0x55, 0, 6, 4, 0x26, 0x65, 0x5d};
+    }
+
+private:
+    Bytes begun;
 };
 
 unsigned crc(const Bytes &bytes)
@@ -146,6 +200,28 @@ mod my_library {
         }
     }
 
+    pub struct Servo {
+        begun: Vec<u8>,
+    }
+
+    impl Servo {
+        pub fn new(_id: u8) -> Self {
+            Self { begun: Vec::new() }
+        }
+
+        pub fn hear(&mut self, bytes: &[u8], after_ms: i64) -> Vec<u8> {
+            if after_ms > 50 {
+                self.begun.clear();
+            }
+            self.begun.extend(bytes);
+            if !self.begun.ends_with(b"\xff\xff\xfd\x00\x01\x03\x00\x01\x19\x4e") {
+                return Vec::new();
+            }
+            self.begun.clear();
+            b"\xff\xff\xfd\x00\x01\x07\x00\x55\x00\x06\x04\x26\x65\x5d".to_vec()
+        }
+    }
+
     pub fn crc(bytes: &[u8]) -> u16 {
         bytes.iter().fold(0, |crc, byte| {
             (0..8).fold(crc ^ u16::from(*byte) << 8, |crc, _| {
@@ -174,6 +250,18 @@ const myLibrary = {
                 answer = Buffer.concat([answer, more]);
             }
             return answer.subarray(9, -2);
+        }
+    },
+    Servo: class {
+        begun = Buffer.alloc(0);
+
+        hear(bytes, afterMs) {
+            this.begun = Buffer.concat([afterMs > 50 ? Buffer.alloc(0) : this.begun, bytes]);
+            if (!this.begun.toString("hex").endsWith("fffffd0001030001194e")) {
+                return Buffer.alloc(0);
+            }
+            this.begun = Buffer.alloc(0);
+            return Buffer.from("fffffd000107005500060426655d", "hex");
         }
     },
     crc(bytes) {

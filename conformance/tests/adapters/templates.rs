@@ -4,7 +4,8 @@ use std::path::Path;
 use std::process::Command;
 
 use super::libraries::{
-    C_HOST_LIBRARY, C_LIBRARY, CPP_LIBRARY, JAVASCRIPT_LIBRARY, PYTHON_LIBRARY, RUST_LIBRARY,
+    C_HOST_LIBRARY, C_LIBRARY, C_SERVO_LIBRARY, CPP_LIBRARY, JAVASCRIPT_LIBRARY, PYTHON_LIBRARY,
+    RUST_LIBRARY,
 };
 
 #[test]
@@ -24,13 +25,17 @@ fn the_one_in_cpp_gets_a_verdict() {
     compile(&template);
     skips_everything(&command);
 
-    let [crc, host] = examples(&template, "//     ");
-    let filled = [CPP_LIBRARY, &crc, &host, "\nusing Op"].concat();
+    let [crc, host, device] = examples(&template, "//     ");
+    let filled = [CPP_LIBRARY, &crc, &host, &device, "\nusing Op"].concat();
     let text = template.replace("\nusing Op", &filled);
     let ops = r#"{{"crc", crc}, {"open", open_port}, {"call", call}, {"close", close_port}}"#;
-    compile(&text.replace("OPS = {}", &format!("OPS = {ops}")));
+    let filled = text.replace("OPS = {}", &format!("OPS = {ops}"));
+    compile(&filled);
     knows_the_crc(&command);
     reads(&command);
+    let text = text.replace("OPS = {}", r#"OPS = {{"device", device}}"#);
+    compile(&text.replace(r#"ROLES = {"host"}"#, r#"ROLES = {"device"}"#));
+    answers(&command);
 }
 
 #[test]
@@ -48,13 +53,19 @@ fn the_one_in_rust_gets_a_verdict() {
     compile(&template);
     skips_everything(&command);
 
-    let [crc, host] = examples(&template, "//     ");
-    let filled = [RUST_LIBRARY, &crc, &host, "\nconst OPS"].concat();
-    let text = template.replace("\nconst OPS", &filled);
+    let [crc, host, device] = examples(&template, "//     ");
+    let fill = |code: &str, ops: &str| {
+        let filled = [RUST_LIBRARY, code, "\nconst OPS"].concat();
+        let text = template.replace("\nconst OPS", &filled);
+        text.replace("= &[];", &format!("= &{ops};"))
+    };
     let ops = r#"[("crc", crc), ("open", open), ("call", call), ("close", close)]"#;
-    compile(&text.replace("= &[];", &format!("= &{ops};")));
+    compile(&fill(&[crc, host].concat(), ops));
     knows_the_crc(&command);
     reads(&command);
+    let text = fill(&device, r#"[("device", device)]"#);
+    compile(&text.replace(r#"= &["host"];"#, r#"= &["device"];"#));
+    answers(&command);
 }
 
 #[test]
@@ -72,13 +83,18 @@ fn the_one_in_javascript_gets_a_verdict() {
 
     let fill = |example: &str| {
         let filled = [JAVASCRIPT_LIBRARY, example].concat();
-        std::fs::write(&path, template.replace("const OPS = {};\n", &filled)).unwrap();
+        let text = template.replace("const OPS = {};\n", &filled);
+        let is_device = example.contains("function device");
+        let roles = if is_device { r#"roles: ["device"]"# } else { r#"roles: ["host"]"# };
+        std::fs::write(&path, text.replace(r#"roles: ["host"]"#, roles)).unwrap();
     };
-    let [crc, host] = examples(&template, "//     ");
+    let [crc, host, device] = examples(&template, "//     ");
     fill(&crc);
     knows_the_crc(&command);
     fill(&host);
     reads(&command);
+    fill(&device);
+    answers(&command);
 }
 
 #[test]
@@ -96,13 +112,18 @@ fn the_one_in_python_gets_a_verdict() {
 
     let fill = |example: &str| {
         let filled = [PYTHON_LIBRARY, example].concat();
-        std::fs::write(&path, template.replace("OPS = {}\n", &filled)).unwrap();
+        let text = template.replace("OPS = {}\n", &filled);
+        let is_device = example.contains("def device");
+        let roles = if is_device { r#""roles": ["device"]"# } else { r#""roles": ["host"]"# };
+        std::fs::write(&path, text.replace(r#""roles": ["host"]"#, roles)).unwrap();
     };
-    let [crc, host] = examples(&template, "#     ");
+    let [crc, host, device] = examples(&template, "#     ");
     fill(&crc);
     knows_the_crc(&command);
     fill(&host);
     reads(&command);
+    fill(&device);
+    answers(&command);
 }
 
 #[test]
@@ -123,14 +144,20 @@ fn the_one_in_c_gets_a_verdict() {
     compile(&template);
     skips_everything(&command);
 
-    let [crc, host] = examples(&template, " *     ");
-    let filled = [C_LIBRARY, C_HOST_LIBRARY, &crc, &host, "\nstatic const struct op"].concat();
-    let text = template.replace("\nstatic const struct op", &filled);
+    let [crc, host, device] = examples(&template, " *     ");
+    let fill = |code: &[&str], ops: &str| {
+        let filled = [&code.concat(), "\nstatic const struct op"].concat();
+        let text = template.replace("\nstatic const struct op", &filled);
+        text.replace("OPS[] = {", &format!("OPS[] = {{\n    {ops}"))
+    };
     let ops =
         r#"{"crc", crc}, {"open", open_port}, {"exchange", exchange}, {"close", close_port},"#;
-    compile(&text.replace("OPS[] = {", &format!("OPS[] = {{\n    {ops}")));
+    compile(&fill(&[C_LIBRARY, C_HOST_LIBRARY, &crc, &host], ops));
     knows_the_crc(&command);
     reads(&command);
+    let text = fill(&[C_SERVO_LIBRARY, &device], r#"{"device", device},"#);
+    compile(&text.replace(r#"ROLES[] = {"host","#, r#"ROLES[] = {"device","#));
+    answers(&command);
 }
 
 /// Whether a program is installed.
@@ -161,8 +188,8 @@ pub(super) fn template(language: &str) -> String {
     text
 }
 
-/// What the comments of the template show: an op of a codec, and those of a host.
-fn examples(template: &str, margin: &str) -> [String; 2] {
+/// What the comments of the template show: an op of a codec, those of a host, and that of a device.
+fn examples(template: &str, margin: &str) -> [String; 3] {
     let after = |part: &str| {
         let lines = part.lines().skip(1).take_while(|line| line.starts_with(margin.trim_end()));
         let code: Vec<_> =
@@ -195,6 +222,16 @@ fn reads(command: &[&str]) {
     let (status, text) = actucheck(&[&checks[..], &["--"], command].concat());
     assert_eq!(status, 0, "{text}");
     assert!(matches!(last_line(&text)[..], ["passed", "3", "pass"]), "{text}");
+}
+
+/// It answers as a device, also a packet that comes in parts.
+fn answers(command: &[&str]) {
+    well(command);
+    let checks = ["--select", "*.device.basic.ping/answer", "--select", "*.byte-by-byte/heard"];
+    let (status, text) =
+        actucheck(&[&["device", "--adapter"][..], &checks, &["--"], command].concat());
+    assert_eq!(status, 0, "{text}");
+    assert!(matches!(last_line(&text)[..], ["passed", "2", "pass"]), "{text}");
 }
 
 /// The words of the last line.

@@ -3,11 +3,14 @@
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)] // tests may stop at a surprise
 #![cfg(unix)]
 
+use std::fs;
 use std::process::{Command, Output};
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 const SLAVE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/slave/slave.py");
+const KEEPING: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/slave/keeping.py");
+const TABLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/slave/servo.yaml");
 const KIT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/adapters/kit/python");
 
 /// Runs the program on the adapter, which is wrong in this way.
@@ -83,4 +86,36 @@ fn the_check_of_adapters_has_a_point_for_it() {
     assert!(said.contains("answers bytes as a device on dynamixel2"), "{said}");
     let raising = run(&["adapter", "check"], "raises");
     assert_eq!(raising.status.code(), Some(0), "a library's exception is no fault of the adapter");
+}
+
+/// Checks a device that is written to: the exit status, the report, and what is said. Whatever came of it, it holds at its end what it held.
+fn written(wrong: &str, options: &[&str]) -> (Option<i32>, Value, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let [table, journal] = ["table", "journal"].map(|name| folder.path().join(name));
+    let mut command = Command::new(env!("CARGO_BIN_EXE_actucheck"));
+    command.env("PYTHONPATH", KIT).args(["device", "--device", TABLE, "--allow", "write-ram"]);
+    command.args(["--adapter", "--report", "json=-", "--journal"]).arg(&journal).args(options);
+    let output = command.args(["--", "python3", KEEPING, wrong]).arg(&table).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(said.contains("the device holds what it held before") && !journal.exists(), "{said}");
+    let held: Value = serde_json::from_slice(&fs::read(table).unwrap()).unwrap();
+    let before = json!({"0": 0x7777, "6": 3, "7": 1, "64": 0, "65": 1, "76": 1234, "78": 4321});
+    assert_eq!(held, before, "{wrong} is not restored");
+    (output.status.code(), serde_json::from_slice(&output.stdout).unwrap(), said)
+}
+
+#[test]
+fn one_that_is_written_to_is_restored() {
+    let (status, report, said) = written("right", &[]);
+    assert_eq!(status, Some(0), "{report}\n{said}");
+    let some = ["--select", "*.written.*", "--select", "*.range.*"];
+    let (status, report, said) = written("right", &some);
+    assert!(status == Some(0) && report["totals"]["pass"].as_u64().unwrap() >= 6, "{report}{said}");
+    let (status, report, _) = written("clamps", &["--select", "*.written.p-gain/kept"]);
+    assert_eq!((status, &report["totals"]["fail"]), (Some(1), &json!(1)), "{report}");
+    // Its library fails in the middle of a check; the next one begins with what it held.
+    let both = ["--select", "*.written.led/kept", "--select", "*.range.*"];
+    let (status, report, _) = written("raises-at-0", &both);
+    assert_eq!((status, &report["totals"]["crash"]), (Some(1), &json!(1)), "{report}");
+    assert!(report["totals"]["pass"].as_u64().unwrap() > 0, "{report}");
 }

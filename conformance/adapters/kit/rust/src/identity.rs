@@ -29,7 +29,7 @@ impl Identity {
             limits.into_iter().filter_map(|(name, limit)| Some((name.to_owned(), limit?.into())));
         let limits: Map<String, Value> = limits.collect();
         json!({
-            "protocol": 3,
+            "protocol": 4,
             "implementation": {
                 "name": self.name,
                 "version": self.version,

@@ -10,6 +10,7 @@ mod memory;
 mod packet;
 mod port;
 mod serve;
+mod slave;
 
 use std::fmt::Display;
 
@@ -19,11 +20,12 @@ pub use memory::Memory;
 pub use packet::{Block, Call, Device, Fast, Packet};
 pub use port::{Port, Reported};
 pub use serve::serve;
+pub use slave::Slave;
 
 /// A library under test, on the wire `dynamixel2`.
 ///
 /// Ops that an adapter does not implement are skipped; [`Identity::ops`] names those that it
-/// implements. All but those of [`Port`] are independent of each other. A panic is reported as the
+/// implements. All but those of [`Port`] and [`Slave`] are independent of each other. A panic is reported as the
 /// error class `internal`.
 pub trait Library {
     /// The library with an open port, for the ops `open`, `call`, `exchange` and `close`.
@@ -61,6 +63,15 @@ pub trait Library {
     /// # Errors
     /// If the library does not read streams, or not this one.
     fn stream(_chunks: &[Hex]) -> Result<Vec<Packet>, Refusal> {
+        Err(Refusal::no_function())
+    }
+
+    /// A device of the library, for the op `device`. It is made once, when the first bytes come for it, and lives as
+    /// long as the adapter.
+    ///
+    /// # Errors
+    /// If the library has none.
+    fn slave() -> Result<Box<dyn Slave>, Refusal> {
         Err(Refusal::no_function())
     }
 }
