@@ -78,7 +78,7 @@ impl OnPort {
             let message = "devices on this wire have no control table; leave out --table";
             return Err(Failure::usage(message));
         }
-        let allowed = self.allowed(wire)?;
+        let allowed = self.allowed()?;
         let place = self.place(command)?;
         let tables = self.table.as_deref().map(str::parse).transpose().map_err(Failure::usage)?;
         let mut tables: Tables = tables.unwrap_or_default();
@@ -107,17 +107,13 @@ impl OnPort {
         Ok((subject, Target { id, device, neighbour: None, present }, allowed))
     }
 
-    /// What requests may do: only what is written to registers of the RAM area is decided for any request.
-    fn allowed(&self, wire: Wire) -> Result<Permissions, Failure> {
+    /// What requests may do: only what is written to registers of the RAM area, or to an actuator's values, is decided for
+    /// any request.
+    fn allowed(&self) -> Result<Permissions, Failure> {
         let allowed = self.writing.allowed();
         if !allowed.without(&[Permission::WriteRam].into()).only_read() {
             return Err(Failure::usage(
-                "requests write registers of the RAM area at most; give no other --allow than write-ram",
-            ));
-        }
-        if !has_tables(wire) && !allowed.only_read() {
-            return Err(Failure::usage(
-                "requests to devices on this wire only read; leave out --allow",
+                "requests write registers of the RAM area at most, or an actuator's values; give no other --allow than write-ram",
             ));
         }
         Ok(allowed)

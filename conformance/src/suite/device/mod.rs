@@ -5,7 +5,7 @@
 //! must, and only its answer may be there. All bytes come from the reference model.
 
 pub(crate) mod dynamixel2;
-mod innfos;
+pub(crate) mod innfos;
 mod steps;
 
 use std::borrow::Cow;

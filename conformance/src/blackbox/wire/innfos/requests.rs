@@ -1,4 +1,5 @@
-//! Datagrams to a board and its actuators that only read, right ones and damaged ones.
+//! Datagrams to a board and its actuators that only read, right ones and damaged ones, and some that write where that is
+//! allowed.
 
 use actucheck_spec::wire::Direction;
 use actucheck_spec::wire::innfos::{Operation, Packet, WIRE};
@@ -6,13 +7,15 @@ use proptest::collection::vec;
 use proptest::prelude::{BoxedStrategy, Just, Strategy};
 use proptest::prop_oneof;
 use proptest::sample::select;
+use proptest::strategy::Union;
 
 use super::byte;
-use crate::adapter::Permissions;
+use crate::adapter::{Permission, Permissions};
 use crate::blackbox::ask::Request;
 use crate::blackbox::probe::{Damage, Part, damages};
 use crate::suite::Author;
 use crate::suite::device::Target;
+use crate::suite::device::innfos::{Place, places};
 
 /// How many requests a conversation has at most.
 const MOST: usize = 6;
@@ -25,12 +28,40 @@ const QUERY: u8 = 0x02;
 pub(super) fn requests(
     author: Author<'_>,
     target: &Target<'_>,
-    _: &Permissions,
+    allowed: &Permissions,
 ) -> BoxedStrategy<Vec<Request>> {
     let rows = author.spec.wires.innfos.content.commands.iter();
     let reads = rows.filter(|row| row.operation == Operation::Read).map(|row| row.code);
     let reads: Vec<_> = reads.filter(|code| ![HANDSHAKE, QUERY].contains(code)).collect();
-    vec(request(&reads, target), 1..=MOST).boxed()
+    let only_read = vec(request(&reads, target), 1..=MOST);
+    let places = places(author.spec);
+    if places.is_empty() || !allowed.has(Permission::WriteRam) {
+        return only_read.boxed();
+    }
+    let of_place = |place: Place| {
+        let reads_back = Just(packet(target.id, place.read, Vec::new())).prop_map(whole);
+        let one =
+            prop_oneof![4 => writes(target, place), 3 => reads_back, 1 => request(&reads, target)];
+        vec(one, 1..=MOST).boxed()
+    };
+    prop_oneof![1 => only_read, 3 => Union::new(places.into_iter().map(of_place))].boxed()
+}
+
+/// A write of a value, mostly to the actuator.
+fn writes(target: &Target<'_>, place: Place) -> impl Strategy<Value = Request> + use<> {
+    let to = prop_oneof![10 => Just(target.id), 1 => Just(target.absent(WIRE))];
+    let ends = select(vec![place.min, place.max]);
+    let value = if place.has_others {
+        prop_oneof![1 => ends, 2 => place.min..=place.max].boxed()
+    } else {
+        ends.boxed()
+    };
+    (to, value).prop_map(move |(id, value)| whole(packet(id, place.write, place.bytes(value))))
+}
+
+fn whole(packet: Packet) -> Request {
+    let part = Part { noise: Vec::new(), packet: packet.into(), damage: Vec::new() };
+    Request { parts: vec![part], cuts: Vec::new() }
 }
 
 fn request(reads: &[u8], target: &Target<'_>) -> impl Strategy<Value = Request> + use<> {

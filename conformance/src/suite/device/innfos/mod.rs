@@ -9,6 +9,7 @@
 //! - unknown: commands and data that the document does not have.
 
 mod board;
+mod changes;
 mod frames;
 mod reads;
 mod requests;
@@ -84,6 +85,7 @@ pub(super) const INSTRUCTIONS: Instructions = Instructions {
     held: |data| data.get(1..).unwrap_or_default(),
 };
 
+pub(crate) use self::changes::{Place, places};
 pub(super) use self::requests::conversation;
 pub(super) use self::writes::kept;
 

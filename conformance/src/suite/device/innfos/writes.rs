@@ -11,7 +11,7 @@ use crate::suite::check::Check;
 use crate::suite::wanted::{Like, Part};
 
 /// The power of the motor, and its mode, which no check of values writes.
-const POWER: &str = "Power state";
+pub(super) const POWER: &str = "Power state";
 const MODE: &str = "Mode";
 /// Above every temperature at which a board works: 80.5 and 100.0 °C, low bits of both bytes among them.
 const TWO_BYTES: [[u8; 2]; 2] = [[0x50, 0x80], [0x64, 0x00]];
@@ -27,7 +27,7 @@ const ENERGIES: [[u8; 4]; 2] = [[0x00, 0x00, 0x0B, 0xC1], [0x00, 0x00, 0x17, 0x8
 type Step = (Asked, Vec<Vec<Like>>);
 
 /// The commands that write a value, and those that read it.
-fn pairs(spec: &Spec) -> impl Iterator<Item = (&Command, &Command)> {
+pub(super) fn pairs(spec: &Spec) -> impl Iterator<Item = (&Command, &Command)> {
     let commands = &spec.wires.innfos.content.commands;
     let writes = commands.iter().filter(|row| {
         row.operation == Operation::Write && row.request > 0 && !row.reply.is_empty()
@@ -84,15 +84,17 @@ pub(super) fn commands(talk: &Talk<'_>) -> Vec<Check> {
 }
 
 /// Nothing works while there is an alarm.
-fn no_alarm(talk: &Talk<'_>) -> Step {
+pub(super) fn no_alarm(talk: &Talk<'_>) -> Step {
     let what = "an actuator without an alarm".to_owned();
     // The command comes before the two bytes of the alarms.
-    let none = Part::Given { what, size: 3, has: Bits { lowest: 8, width: 16, one_of: vec![0] } };
+    let has = Bits { lowest: 8, width: 16, one_of: vec![0] };
+    let none = Part::Given { what, size: 3, has: has.clone() };
     let answer = Like { id: talk.id(), error: None, data: Some(vec![none]) };
-    (asked(talk.ask(code::ALARMS), 1), vec![vec![answer]])
+    let step = Asked { only_if: Some(has), ..asked(talk.ask(code::ALARMS), 1) };
+    (step, vec![vec![answer]])
 }
 
-fn done(talk: &Talk<'_>, command: u8) -> Like {
+pub(super) fn done(talk: &Talk<'_>, command: u8) -> Like {
     talk.answer(command, vec![Part::Bytes(vec![super::YES].into())])
 }
 
@@ -106,11 +108,12 @@ fn tells(talk: &Talk<'_>, read: &Command, value: &[u8]) -> Step {
     (asked(talk.ask(read.code), 1), vec![vec![answer]])
 }
 
-/// Two values of a command, there and back.
-fn of_pair(talk: &Talk<'_>, write: &Command, read: &Command) -> Option<Check> {
+/// Two values of a command, and the requirement that says that they are told again; `None` of one whose values do
+/// something.
+pub(super) fn values(write: &Command) -> Option<(&'static str, Vec<Vec<u8>>)> {
     let is_lower = write.name.contains("lower");
     let is_gain = write.name.ends_with(" P") || write.name.ends_with(" I");
-    let (requirement, values) = match write.format? {
+    Some(match write.format? {
         Format::Flag => ("innfos.write.result", vec![vec![1], vec![0]]),
         Format::Iq8 => ("innfos.value.iq8", TWO_BYTES.map(Vec::from).into()),
         Format::Scaled => ("innfos.write.sizes", ENERGIES.map(Vec::from).into()),
@@ -121,7 +124,12 @@ fn of_pair(talk: &Talk<'_>, write: &Command, read: &Command) -> Option<Check> {
             (row, if is_lower { NEGATIVE } else { POSITIVE }.map(Vec::from).into())
         }
         Format::Mode | Format::Alarms | Format::Mac => return None,
-    };
+    })
+}
+
+/// Two values of a command, there and back.
+fn of_pair(talk: &Talk<'_>, write: &Command, read: &Command) -> Option<Check> {
+    let (requirement, values) = values(write)?;
     let both = values.iter().flat_map(|value| [sets(talk, write, value), tells(talk, read, value)]);
     let steps = [no_alarm(talk)].into_iter().chain(both).collect();
     let ram = Permissions::from([Permission::WriteRam]);
