@@ -202,7 +202,12 @@ fn fuzzed(devices: &str, fault: &str, allowed: &Permissions) -> (Fuzzed, Option<
     let folder = tempfile::tempdir().unwrap();
     let device = device(devices, fault, allowed, folder.path().join("journal"));
     let mut asked: [Box<dyn Subject + Send>; 1] = [Box::new(device.clone())];
-    let fuzzed = fuzz(&spec, &options, &mut asked, &|_, _| ControlFlow::Continue(()));
+    // Of a fault one finding is enough.
+    let watch = |_, found| {
+        let is_over = fault != "none" && found > 0;
+        if is_over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
+    let fuzzed = fuzz(&spec, &options, &mut asked, &watch);
     (fuzzed, device.end())
 }
 
@@ -300,11 +305,11 @@ fn faults(names: &[&str], allowed: &Permissions) -> String {
     let wrong = names.iter().map(|name| {
         let row = every().find(|row| row.name == *name).unwrap();
         let found = fuzzed(row.devices, name, allowed).0.findings;
-        let most = found.iter().map(|finding| requests(&finding.check.question)).max();
+        let first = found.first().map(|finding| requests(&finding.check.question));
         let few = if allowed.only_read() { 1..=2 } else { 1..=3 };
-        match most {
+        match first {
             Some(count) if few.contains(&count) => String::new(),
-            most => format!("{name}: {most:?} requests\n"),
+            first => format!("{name}: {first:?} requests\n"),
         }
     });
     wrong.collect()

@@ -23,18 +23,22 @@ use super::super::right::Bus;
 use super::{SEED, device, ram};
 
 /// Faults that requests which write can show, and those that only read can't.
-pub(super) const FOUND: [&str; 21] = [
+pub(super) const FOUND: [&str; 25] = [
     "action-of-nothing",
     "broadcast-write-ignored",
     "bulk-write-ignored",
     "fast-sync-write-crc",
+    "fast-sync-write-low-byte",
     "gain-high-byte-lost",
     "range-clamped",
     "read-only-without-error",
     "reg-write-at-once",
+    "short-is-filled",
     "short-without-error",
     "sync-write-first-only",
+    "sync-write-for-all",
     "sync-write-ignored",
+    "sync-write-last-only",
     "write-echoes-data",
     "writes-for-others",
     // Actuators.

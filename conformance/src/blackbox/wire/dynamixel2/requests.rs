@@ -9,7 +9,7 @@ use proptest::sample::select;
 use proptest::strategy::Union;
 
 use super::packets::{address, length, packet_of};
-use super::writes::{reads_back, writes};
+use super::writes::{between, reads_back, writes};
 use crate::adapter::{Permission, Permissions};
 use crate::blackbox::ask::Request;
 use crate::blackbox::probe::{Part, damages};
@@ -39,7 +39,9 @@ pub(super) fn requests(
     }
     let of_place = |place| {
         let packet = prop_oneof![4 => writes(target, place), 3 => reads_back(target, place), 1 => own(target)];
-        vec(request(packet.boxed(), target), 1..=MOST).boxed()
+        let any = vec(request(packet.boxed(), target), 1..=MOST);
+        let between = between(target, place).prop_map(|three| three.map(whole).to_vec());
+        prop_oneof![1 => any, 2 => between].boxed()
     };
     let writes = Union::new(places.into_iter().map(of_place));
     prop_oneof![1 => reads, 3 => writes].boxed()
@@ -53,6 +55,12 @@ fn own(target: &Target<'_>) -> BoxedStrategy<Packet> {
         1 => Just(packet_of(BROADCAST, PING, Vec::new())),
     ]
     .boxed()
+}
+
+/// A packet as it is.
+fn whole(packet: Packet) -> Request {
+    let part = Part { noise: Vec::new(), packet: packet.into(), damage: Vec::new() };
+    Request { parts: vec![part], cuts: Vec::new() }
 }
 
 fn request(
