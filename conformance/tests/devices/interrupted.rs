@@ -20,7 +20,7 @@ use super::right::Bus;
 type Test = (&'static str, fn() -> String);
 
 /// The tests.
-pub(crate) const TESTS: [Test; 13] = [
+pub(crate) const TESTS: [Test; 14] = [
     ("ja40", || {
         ended("ja40", "velocity-i-gain=321,velocity-limit=1234,goal-velocity=100,goal-position=77")
     }),
@@ -45,6 +45,7 @@ pub(crate) const TESTS: [Test; 13] = [
     ("an_old_journal", old_journal),
     ("innfos", || ended("dd-6010", "current-loop-p=0.5,speed-loop-output-lower-limit=-0.25")),
     ("killed", killed),
+    ("killed_with_its_neighbour", killed_with_its_neighbour),
     ("torque", torque),
     ("by_a_signal", by_a_signal),
     ("restored_as_a_program", restored_as_a_program),
@@ -170,6 +171,46 @@ fn killed() -> String {
     } else {
         format!("{again:?}")
     }
+}
+
+/// The same while it writes to two devices: the command restores both, and says so.
+fn killed_with_its_neighbour() -> String {
+    let spec = Spec::embedded().unwrap();
+    let device = spec.device("ja40").unwrap();
+    let bus = Bus::start(
+        &["ja40@1:position-p-gain=5", "ja40@2:feedforward-1st-gain=7"],
+        &["--tcp", "0", "--fault", "late=3ms"],
+    );
+    let (folder, port) = (folder(), format!("tcp://{}", bus.address));
+    let path = folder.path().join("journal");
+    let held = || {
+        let Ok(place) = port.parse();
+        let limit = Duration::from_secs(2);
+        let mut line = Line::open(device.wire, &place, 57_600, limit, Arc::default()).unwrap();
+        let layout = Layout::of(device);
+        let numbers = |id| {
+            let held = snapshot(device.wire, id, &layout, &mut line).unwrap();
+            layout.restored.iter().map(|place| held.number(place)).collect::<Vec<_>>()
+        };
+        [1, 2].map(numbers)
+    };
+    let before = held();
+    let mut run = Command::new(env!("CARGO_BIN_EXE_actucheck"));
+    run.args(["device", &port, "--device", "ja40", "--neighbour", "2", "--allow", "write-ram"]);
+    run.args(["--select", "*.written.*-of-two/data", "--journal"]).arg(&path);
+    let mut child = run.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    while !path.exists() && child.try_wait().unwrap().is_none() {
+        sleep(Duration::from_millis(2));
+    }
+    sleep(Duration::from_millis(25));
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let mut restore = Command::new(env!("CARGO_BIN_EXE_actucheck"));
+    let output = restore.args(["device", "restore"]).arg(&path).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stdout);
+    let is_told = said.contains("JA40 with ID 1, with its neighbour JA40 with ID 2,");
+    let is_right = output.status.success() && held() == before && !path.exists();
+    if is_told && is_right { String::new() } else { format!("{output:?}") }
 }
 
 /// Ctrl-C in the middle: the report tells of it, the device holds what it held, and nothing is left to do.
