@@ -64,8 +64,8 @@ is told, but is no failure: a machine may be too busy for a host that does not w
 With --device a probe is a conversation of one to six requests to a device: Ping, Read of any registers or \
 addresses, undefined instructions, packets to others, damaged packets, and noise; with --wire innfos each command \
 that reads, the board's handshake and query, and damaged datagrams. With --allow write-ram registers of the RAM area \
-that do nothing by themselves are written too, by every instruction that writes, while torque is off; the device \
-holds afterwards what it held before, as after `actucheck device`. Nothing else is sent that could be \
+that do nothing by themselves, or an actuator's values, are written too, by every instruction that writes them, while \
+torque is off; the device holds afterwards what it held before, as after `actucheck device`. Nothing else is sent that could be \
 taken for an instruction that changes something. What must come back is what the documents say, and of stored \
 registers and values that they stay as they are; what the documents leave unspecified is not judged.
 
