@@ -34,7 +34,8 @@ pub type Sink<'s> = dyn FnMut(Outcome) -> ControlFlow<()> + Send + 's;
 /// Asks `subjects`, all of the same implementation, the checks of `plan` in parallel. A subject
 /// takes a few groups at a time. A check that requires another check of its group is skipped if the
 /// subject skipped that one. A failure that follows from an earlier failure says so. `sink` receives
-/// the same outcomes in the same order for any number of subjects.
+/// the same outcomes in the same order for any number of subjects. Of a plan's part it receives the
+/// part's own outcomes, each with its number, and they are what they are in the whole.
 ///
 /// Each question is asked so many `times` in a row; answers that differ are [`Verdict::Flaky`].
 /// What failed is asked again in another process of the subject, and is flaky too if it does not
@@ -48,12 +49,19 @@ pub fn run<'s>(
     interrupted: &'s AtomicBool,
     sink: &'s mut Sink<'s>,
 ) -> usize {
-    let fault = subjects.first_mut().and_then(|subject| invented_op(subject.as_mut()));
+    let asks_invented = plan.part().is_none_or(|part| part.has(UNKNOWN_OP));
+    let first = subjects.first_mut().filter(|_| asks_invented);
+    let mut fault = first.and_then(|subject| invented_op(subject.as_mut()));
+    if let Some(fault) = fault.as_mut().filter(|_| plan.part().is_some()) {
+        fault.number = Some(0);
+    }
     if fault.is_some_and(|fault| sink(fault).is_break()) {
         return 0;
     }
     let again = subjects.first().and_then(|subject| subject.another()).map(Again::new);
-    ask(subjects, plan, times, Merge::new(sink, again, interrupted))
+    let merge = Merge::new(sink, again, interrupted);
+    let merge = if plan.part().is_some() { merge.of_part(plan.numbered()) } else { merge };
+    ask(subjects, plan, times, merge)
 }
 
 /// Asks all checks of a short plan once, and keeps every outcome as it is; until it is `interrupted`.
@@ -135,6 +143,9 @@ fn is_set(flag: &AtomicBool) -> bool {
     flag.load(Ordering::Relaxed)
 }
 
+/// The rule, and the id of the question about it.
+pub const UNKNOWN_OP: &str = "adapter.unknown-op";
+
 /// A question that every adapter must skip, as it must skip unknown ops of later versions.
 fn invented_op(subject: &mut dyn Subject) -> Option<Outcome> {
     let detail = match subject.ask_invented() {
@@ -145,8 +156,8 @@ fn invented_op(subject: &mut dyn Subject) -> Option<Outcome> {
     let rule = "an op that the adapter does not know must be answered with `skip`";
     let detail = if detail.is_empty() { rule.to_owned() } else { format!("{rule}: {detail}") };
     Some(Outcome {
-        id: "adapter.unknown-op".to_owned(),
-        requirement: "adapter.unknown-op".to_owned(),
+        id: UNKNOWN_OP.to_owned(),
+        requirement: UNKNOWN_OP.to_owned(),
         level: Level::Must,
         verdict: Verdict::AdapterFault,
         detail,
@@ -158,5 +169,6 @@ fn invented_op(subject: &mut dyn Subject) -> Option<Outcome> {
         behaviour: None,
         after: None,
         log: None,
+        number: None,
     })
 }

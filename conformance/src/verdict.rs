@@ -179,6 +179,10 @@ pub struct Outcome {
     /// The end of the adapter's error output, if this question ended the adapter.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub log: Option<String>,
+    /// The number of the check in the whole run, from 1; only in a part of a run. 0 is a question that
+    /// comes before all checks.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub number: Option<usize>,
 }
 
 /// The fewest earlier requests that bring a failure about.

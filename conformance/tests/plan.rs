@@ -12,6 +12,7 @@ use actucheck::adapter::{Hello, Limits, Question};
 use actucheck::run;
 use actucheck::subject::{Answer, Builtin, Subject};
 use actucheck::suite::check::Check;
+use actucheck::suite::partition::Partition;
 use actucheck::suite::plan::Plan;
 use actucheck::suite::select::Patterns;
 use actucheck::suite::{self, Options};
@@ -155,6 +156,58 @@ fn what_a_check_requires_stands_before_it() {
     for check in whole(&spec).checks() {
         assert!(check.requires.is_none_or(|id| earlier.contains(&id)), "{}", check.id);
         earlier.insert(check.id);
+    }
+}
+
+#[test]
+fn parts_share_the_checks_and_each_asks_the_basic_ones() {
+    let spec = Spec::embedded().unwrap();
+    let all: Vec<_> = whole(&spec).ids().collect();
+    let basic = |id: &String| id.contains(".basic.");
+    let mut shared = BTreeSet::new();
+    for part in ["1/3", "2/3", "3/3"].map(|part| part.parse::<Partition>().unwrap()) {
+        let mut plan = whole(&spec);
+        let outline = plan.outline();
+        assert_eq!(outline.checks, all.len());
+        plan.take_part(part);
+        assert_eq!(plan.outline(), outline);
+        let own: Vec<_> = plan.ids().collect();
+        assert_eq!(plan.size(), own.len());
+        // A third of them, as a hash shares them.
+        assert!((all.len() / 4..all.len() * 2 / 5).contains(&own.len()), "{part}: {}", own.len());
+        let own: BTreeSet<_> = own.into_iter().collect();
+        let mut asked = BTreeSet::new();
+        for check in plan.checks() {
+            assert!(check.requires.is_none_or(|id| asked.contains(&id)), "{}", check.id);
+            asked.insert(check.id);
+        }
+        let due = all.iter().filter(|id| own.contains(*id) || basic(id));
+        assert_eq!(asked.iter().collect::<BTreeSet<_>>(), due.collect(), "{part}");
+        for id in own {
+            assert!(shared.insert(id.clone()), "{id} is in two parts");
+        }
+    }
+    assert_eq!(shared.len(), all.len());
+}
+
+#[test]
+fn a_part_of_a_level_is_a_part_of_its_checks() {
+    let spec = Spec::embedded().unwrap();
+    let should = |part: Option<&str>| {
+        let mut plan = restricted(&spec, "innfos.*", &[]);
+        plan.restrict(&["innfos.*".to_owned()], &[], Level::Must).unwrap();
+        if let Some(part) = part {
+            plan.take_part(part.parse().unwrap());
+        }
+        (plan.ids().collect::<Vec<_>>(), plan.size(), plan.outline())
+    };
+    let (all, size, outline) = should(None);
+    assert_eq!((all.len(), outline.checks), (size, size));
+    let parts = ["1/2", "2/2"].map(|part| should(Some(part)));
+    assert_eq!(parts.iter().map(|(_, size, _)| size).sum::<usize>(), size);
+    for (ids, size, of_whole) in parts {
+        assert_eq!((ids.len(), &of_whole), (size, &outline));
+        assert!(ids.iter().all(|id| all.contains(id)));
     }
 }
 

@@ -40,6 +40,7 @@ use crate::subject::Subject;
 use crate::suite::Author;
 use crate::suite::check::Check;
 use crate::suite::device::Target;
+use crate::suite::partition::Partition;
 
 pub use finding::{Finding, Kind, Symptom};
 pub use topic::{NotAsked, Topic};
@@ -66,6 +67,8 @@ pub struct Options<'a> {
     pub cases: u64,
     /// Who is asked.
     pub asks: Asks<'a>,
+    /// The part of the probes that is asked, if not all are.
+    pub part: Option<Partition>,
 }
 
 /// Who is asked.
@@ -137,10 +140,14 @@ pub fn fuzz(
         return Fuzzed { given_up, ..Fuzzed::default() };
     };
     let (topics, known, result) = (Topics::default(), BTreeMap::new(), Fuzzed::default());
-    let mut fuzzer = Fuzzer { scope: &scope, source, topics, known, result };
-    while fuzzer.result.asked < options.cases && fuzzer.result.given_up.is_none() {
+    let mut fuzzer = Fuzzer { scope: &scope, source, topics, known, result, of_others: 0 };
+    while fuzzer.dealt() < options.cases && fuzzer.result.given_up.is_none() {
         fuzzer.draw(options, &mut lanes);
         let found = fuzzer.result.findings.len();
+        // A batch of other parts only asks nothing.
+        if watch(fuzzer.result.asked, found).is_break() {
+            break;
+        }
         let shared = Shared {
             asked: AtomicU64::new(fuzzer.result.asked),
             over: AtomicBool::new(false),
@@ -206,6 +213,8 @@ struct Fuzzer<'a> {
     topics: Topics,
     known: BTreeMap<Kind, Known>,
     result: Fuzzed,
+    /// How many probes were drawn that other parts ask.
+    of_others: u64,
 }
 
 /// What is known of a kind of failure.
@@ -221,17 +230,25 @@ struct Known {
 }
 
 impl Fuzzer<'_> {
-    /// Draws a batch and deals it to the lanes. Probes that are best asked in a row go to one lane.
+    /// How many probes were asked by this part, or are for others to ask.
+    const fn dealt(&self) -> u64 {
+        self.result.asked.saturating_add(self.of_others)
+    }
+
+    /// Draws a batch and deals it to the lanes. Probes that are best asked in a row go to one lane, and
+    /// belong to one part.
     fn draw(&mut self, options: &Options<'_>, lanes: &mut [Lane<'_>]) {
         let batch = match options.asks {
             Asks::Codec => BATCH,
             Asks::Host | Asks::Device(..) => BATCH_OF_CONVERSATIONS,
         };
-        let mut left = batch.min(options.cases.saturating_sub(self.result.asked));
+        let mut left = batch.min(options.cases.saturating_sub(self.dealt()));
         let (mut turn, mut fruitless) = (0, 0);
         while left > 0 {
+            let first = self.source.next_id();
             let row = self.row(left);
-            left -= u64::try_from(row.len()).unwrap_or(left);
+            let many = u64::try_from(row.len()).unwrap_or(left);
+            left -= many;
             fruitless = if row.is_empty() { fruitless + 1 } else { 0 };
             if fruitless >= FRUITLESS {
                 let reason = "there is nothing to ask: the adapter skips every kind of question";
@@ -239,6 +256,10 @@ impl Fuzzer<'_> {
                 return;
             }
             if row.is_empty() {
+                continue;
+            }
+            if options.part.is_some_and(|part| !part.has(&first)) {
+                self.of_others += many;
                 continue;
             }
             let lane = turn % lanes.len().max(1);

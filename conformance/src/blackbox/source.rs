@@ -33,6 +33,15 @@ impl<'a> Source<'a> {
         Some(Self { scope, strategy, runner: runner(seed), seed, drawn: 0 })
     }
 
+    /// The id of the next probe.
+    pub(super) fn next_id(&self) -> String {
+        self.id(self.drawn)
+    }
+
+    fn id(&self, number: u64) -> String {
+        format!("{}.fuzz-{}.{number}", self.scope.author.wire, self.seed)
+    }
+
     /// Draws probes that are best asked in a row. Those that are not `wanted` are dropped, and those
     /// whose right answer the documents leave unspecified.
     pub(super) fn draw(&mut self, wanted: impl Fn(&Probe) -> bool) -> Vec<Drawn> {
@@ -43,7 +52,7 @@ impl<'a> Source<'a> {
         for probe in probes {
             let number = self.drawn;
             self.drawn += 1;
-            let id = format!("{}.fuzz-{}.{number}", self.scope.author.wire, self.seed);
+            let id = self.id(number);
             if !wanted(&probe) {
                 continue;
             }

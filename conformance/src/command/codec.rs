@@ -36,6 +36,8 @@ Examples:
       passes as long as only that fails
   actucheck codec --expect expected.yaml --write-expect expected.yaml -- ./my-adapter
       adds what is new, and takes out what passes now
+  actucheck codec --partition 2/4 --report json=2.json -- ./my-adapter
+      one of four parts, each on a machine of its own; `actucheck report merge` makes one report of them
   actucheck codec --jobs 4 --max-fail 10 -- ./my-adapter
       four adapters side by side, until something failed ten times
 

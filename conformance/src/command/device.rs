@@ -146,7 +146,14 @@ pub(crate) fn run(options: &Device) -> Result<ExitCode, Failure> {
     }
     let mut subject = None;
     let again = options.again();
-    let asked = Asked { port: None, command: &options.command, again: &again };
+    let asked = Asked {
+        port: None,
+        command: &options.command,
+        again: &again,
+        // A device has one port, and the times of its answers are of one run.
+        partition: None,
+        settings: &[],
+    };
     let status = options.running.run(&spec, &options.selection, None, asked, |interrupted| {
         let (device, planned) = options.begin(&spec, tables, interrupted)?;
         subject = Some(device.clone());

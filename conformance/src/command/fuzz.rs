@@ -18,6 +18,7 @@ use actucheck::legible::{LONGEST_TEXT, legible};
 use actucheck::report::screen::{self, Detail};
 use actucheck::report::{Collector, End, Report, Run};
 use actucheck::suite::device::Target;
+use actucheck::suite::partition::Partition;
 use actucheck::suite::{Options, saved};
 use actucheck_spec::Spec;
 use clap::Args;
@@ -37,6 +38,8 @@ Examples:
       the same again, whatever the machine
   actucheck fuzz --time 10m --jobs 4 -- ./my-adapter
       four processes of the adapter side by side
+  actucheck fuzz --seed 7 --cases 100000 --partition 2/4 -- ./my-adapter
+      a quarter of that, as one of four machines
   actucheck fuzz --host -- python3 my_adapter.py
       conversations of a library that opens a port, on a line with faults
   actucheck fuzz --device /dev/ttyUSB0 --time 5m
@@ -101,6 +104,9 @@ pub(crate) struct Fuzz {
     /// The seed of the probes; another one each time if it is not given
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
+    /// Ask only the part K of N of the probes of a seed, so that N machines share them
+    #[arg(long, value_name = "K/N", requires = "seed")]
+    partition: Option<Partition>,
     /// How many processes of the adapter run side by side
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u8).range(1..))]
     jobs: u8,
@@ -145,7 +151,8 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
 
     let (started, date) = (Instant::now(), shared::date());
     let progress = progress(options);
-    let probes = blackbox::Options { wire: options.wire, seed, cases, asks };
+    let part = options.partition;
+    let probes = blackbox::Options { wire: options.wire, seed, cases, asks, part };
     let fuzzed = fuzz(&spec, &probes, &mut subjects.all, &|asked, found| {
         progress.set_position(asked);
         progress.set_message(format!("{found} kinds of finding"));
@@ -170,6 +177,7 @@ pub(crate) fn run(options: &Fuzz) -> Result<ExitCode, Failure> {
         implementation: &hello.implementation,
         wires: &[options.wire],
         options: Options { seed, ..Options::new() },
+        part: None,
         port: options.adapter.port(),
         command: &options.adapter.command,
         again: &again,
@@ -288,7 +296,8 @@ fn summary(
     };
     let seconds = took.as_secs_f64();
     let asked = options.asked();
-    writeln!(out, "{} {asked} in {seconds:.1} s, seed {seed}: {found}", fuzzed.asked)
+    let part = options.partition.map(|part| format!(", {part}")).unwrap_or_default();
+    writeln!(out, "{} {asked} in {seconds:.1} s, seed {seed}{part}: {found}", fuzzed.asked)
 }
 
 /// Who is asked.

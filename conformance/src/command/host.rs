@@ -22,6 +22,8 @@ Examples:
       a library that sends datagrams
   actucheck host --port tcp -- ./my-adapter
       a library that opens serial ports over TCP
+  actucheck host --partition 2/4 --report json=2.json -- ./my-adapter
+      one of four parts, each on a machine of its own; `actucheck report merge` makes one report of them
   actucheck replay dynamixel2.host.after.action/read -- ./my-adapter
       one conversation again
 

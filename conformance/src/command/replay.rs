@@ -70,6 +70,7 @@ pub(crate) fn run(options: &Replay) -> Result<ExitCode, Failure> {
         implementation: &hello.implementation,
         wires: &wires,
         options: options.growth.options(Some(&hello)),
+        part: None,
         port: options.adapter.port(),
         command: &options.adapter.command,
         again: &[],

@@ -35,10 +35,11 @@ pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         1 => (format!("{} failed", words::count(failed, "requirement")), "red"),
         _ => (report.word().to_owned(), "lightgrey"),
     };
-    let wires: Vec<_> = report.header.wires.iter().map(|wire| wire.id()).collect();
+    let wires = report.header.wires.iter().map(|wire| wire.id().to_owned());
+    let label: Vec<_> = wires.chain(report.part()).collect();
     let badge = Badge {
         schema_version: 1,
-        label: wires.join(", "),
+        label: label.join(", "),
         message,
         color,
         is_error: report.exit_status() == 1,

@@ -18,7 +18,8 @@ use crate::verdict::Verdict;
 /// If it can't be written.
 pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let who = &report.header.implementation;
-    let mut junit = quick_junit::Report::new(format!("{} {}", who.name, who.version));
+    let part = report.part().map(|part| format!(", {part}")).unwrap_or_default();
+    let mut junit = quick_junit::Report::new(format!("{} {}{part}", who.name, who.version));
     if let Ok(time) = Duration::try_from_secs_f64(report.summary.seconds) {
         junit.set_time(time);
     }

@@ -50,9 +50,10 @@ fn header(report: &Report) -> String {
     let checks = count(report.summary.totals.sum(), "check");
     let requirements = count(report.requirements.len(), "requirement");
     let date = report.header.date.as_ref().map(|date| format!(", {}", prose(date)));
+    let part = report.part().map(|part| format!(", {part}")).unwrap_or_default();
     let sentence = report.cut_short().map(|sentence| format!("\n**{}**\n", prose(&sentence)));
     format!(
-        "## {}: {name} {version} ({language})\n\n{checks} of {requirements}, {}, seed {}{}\n{}",
+        "## {}: {name} {version} ({language})\n\n{checks} of {requirements}{part}, {}, seed {}{}\n{}",
         report.word(),
         wires(&report.header.wires),
         report.header.seed,

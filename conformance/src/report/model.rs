@@ -9,6 +9,9 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::adapter::{Implementation, Wire};
 use crate::explain::diff::Diff;
+use crate::legible::{LONGEST_TEXT, legible};
+use crate::suite::expect::Audit;
+use crate::suite::partition::Partition;
 use crate::traffic::Traffic;
 use crate::verdict::{Outcome, Totals, Verdict};
 
@@ -41,6 +44,9 @@ pub struct Report {
     /// Why failures are expected.
     #[serde(default)]
     pub expected_failures: Vec<Tally>,
+    /// What came of the expected-failures file in a part of a run; absent for a whole one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub expectations: Option<Audit>,
     /// The checks that did not pass, by requirement and verdict.
     pub not_passed: Vec<NotPassed>,
     /// The last lines that the adapter logged.
@@ -71,6 +77,23 @@ pub struct Header {
     pub cases: u32,
     /// The most bytes in the bodies that were all tried inside every kind of packet.
     pub body_length: u32,
+    /// The part of a run that it is about; absent for a whole run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub part: Option<Part>,
+}
+
+/// A part of a run, and what all parts of that run have in common.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Part {
+    /// Which part.
+    #[serde(flatten)]
+    pub partition: Partition,
+    /// How many checks the whole run has.
+    pub checks: usize,
+    /// A hash of their ids.
+    pub ids: String,
+    /// The options that verdicts may depend on, each with its value.
+    pub settings: Vec<String>,
 }
 
 /// Earlier versions have one wire.
@@ -124,6 +147,9 @@ pub struct Cause {
     pub failed: usize,
     /// How many checks of other requirements failed because of it.
     pub follow: usize,
+    /// The number of the first check that failed because of it; only in a part of a run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub number: Option<usize>,
 }
 
 /// The result for a requirement.
@@ -175,6 +201,9 @@ pub struct Tally {
     pub count: usize,
     /// The id of the first of them.
     pub example: String,
+    /// The number of the first of them; only in a part of a run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub number: Option<usize>,
 }
 
 /// The checks of a requirement with the same verdict, which is not a pass. Answers that are not
@@ -217,16 +246,22 @@ pub struct CheckResult {
     /// The command that asks the check again; only if the check did not pass.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub replay: Option<String>,
+    /// The length of the request, by which the smallest are found; only in a part of a run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub size: Option<usize>,
 }
 
 impl Report {
     /// The exit status: as [`Totals::exit_status`], and 3 for a run that ended early without a
-    /// failure.
+    /// failure. Of a part it does not matter if nothing was judged: other parts have the rest.
     #[must_use]
     pub fn exit_status(&self) -> u8 {
-        match self.summary.totals.exit_status() {
-            0 if self.summary.stopped.is_some() => 3,
-            status => status,
+        let totals = &self.summary.totals;
+        let is_idle = totals.sum() == totals.count(Verdict::Skip);
+        match (totals.exit_status(), self.summary.stopped) {
+            (3, None) if self.header.part.is_some() && is_idle => 0,
+            (0, Some(_)) => 3,
+            (status, _) => status,
         }
     }
 
@@ -245,6 +280,23 @@ impl Report {
     pub fn adapter_broke(&self) -> bool {
         let broke = [Verdict::Timeout, Verdict::Crash, Verdict::AdapterFault, Verdict::NotRun];
         broke.into_iter().any(|verdict| self.summary.totals.count(verdict) > 0)
+    }
+}
+
+impl CheckResult {
+    /// The result for a check that passed, though it is expected to fail.
+    #[must_use]
+    pub fn of_pass(outcome: Outcome) -> Self {
+        let detail = legible(&outcome.detail, LONGEST_TEXT);
+        Self {
+            outcome: Outcome { detail, ..outcome },
+            diff: None,
+            differs_in: None,
+            mistake: None,
+            left_out: None,
+            replay: None,
+            size: None,
+        }
     }
 }
 

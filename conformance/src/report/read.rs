@@ -15,6 +15,7 @@ use super::model::{
 use super::smallest::Smallest;
 use crate::input::{self, InputError};
 use crate::legible::legible;
+use crate::run::UNKNOWN_OP;
 use crate::traffic::Traffic;
 use crate::verdict::{Totals, Verdict};
 
@@ -102,7 +103,7 @@ pub fn parse(name: &str, text: &str) -> Result<Report, ReadError> {
         OLDEST => serde_json::from_value::<Version3>(content).map_err(parse)?.into(),
         _ => return Err(ReadError::Version { path: path(), found }),
     };
-    match contradiction(&report).or_else(|| wrong_causes(&report)) {
+    match contradiction(&report) {
         Some(what) => Err(ReadError::Contradiction { path: path(), what }),
         None => Ok(report),
     }
@@ -145,7 +146,7 @@ impl From<Version3> for Report {
             let key = (places.get_index_of(requirement.as_str()), verdict);
             let new = || (requirement.clone(), Smallest::default());
             let (_, smallest) = not_passed.entry(key).or_insert_with(new);
-            let CheckResult { outcome, diff, differs_in, mistake, left_out, replay } = result;
+            let CheckResult { outcome, diff, differs_in, mistake, left_out, replay, size } = result;
             smallest.add(outcome, |outcome| CheckResult {
                 outcome,
                 diff,
@@ -153,6 +154,7 @@ impl From<Version3> for Report {
                 mistake,
                 left_out,
                 replay,
+                size,
             });
         }
         let row = |((_, verdict), (requirement, smallest)): ((_, Verdict), (String, Smallest))| {
@@ -169,6 +171,7 @@ impl From<Version3> for Report {
             profile,
             skips,
             expected_failures: Vec::new(),
+            expectations: None,
             not_passed,
             log,
         }
@@ -176,7 +179,23 @@ impl From<Version3> for Report {
 }
 
 /// Finds a contradiction in a report: what can be counted is counted again.
-fn contradiction(report: &Report) -> Option<String> {
+pub(super) fn contradiction(report: &Report) -> Option<String> {
+    wrong_counts(report).or_else(|| wrong_causes(report)).or_else(|| wrong_part(report))
+}
+
+/// Finds a part that there can't be.
+fn wrong_part(report: &Report) -> Option<String> {
+    let part = report.header.part.as_ref()?;
+    if !part.partition.is_valid() {
+        return Some(format!("there is no {}", part.partition));
+    }
+    let own = report.requirements.iter().filter(|row| row.id != UNKNOWN_OP);
+    let own = sum(own.map(RequirementResult::checks)).saturating_add(report.summary.left);
+    (own > part.checks).then(|| format!("a part of {} checks has {own}", part.checks))
+}
+
+/// Finds totals that are not those of what they count.
+fn wrong_counts(report: &Report) -> Option<String> {
     let mut totals = Totals::default();
     let mut ids = BTreeSet::new();
     for row in &report.requirements {

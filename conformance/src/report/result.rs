@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use actucheck_spec::Spec;
 
-use super::model::{CheckResult, Header};
+use super::model::{CheckResult, Header, Part};
 use crate::adapter::{HostPort, Implementation, Question, Wire};
 use crate::explain::diff;
 use crate::legible::{LONGEST_TEXT, legible};
@@ -32,6 +32,8 @@ pub struct Run<'a> {
     pub command_line: String,
     /// The options that determine the checks.
     pub options: Options,
+    /// The part of a run that it is; `None` for a whole one.
+    pub part: Option<Part>,
     /// The port that hosts get, if it was chosen.
     pub port: Option<HostPort>,
     /// The adapter's command; empty for the built-in codec.
@@ -56,6 +58,7 @@ impl Run<'_> {
             seed: self.options.seed,
             cases: self.options.cases,
             body_length: self.options.body_length,
+            part: self.part.clone(),
         }
     }
 
@@ -79,7 +82,7 @@ impl Run<'_> {
             + leave_out(&mut outcome.expected)
             + leave_out(&mut outcome.actual);
         let left_out = (left_out > 0).then_some(left_out);
-        CheckResult { outcome, diff, differs_in, mistake, left_out, replay }
+        CheckResult { outcome, diff, differs_in, mistake, left_out, replay, size: None }
     }
 
     /// The command that asks the check again, quoted for a shell; `None` if that does not bring the

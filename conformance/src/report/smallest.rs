@@ -17,30 +17,53 @@ const KEPT: usize = 5;
 pub(super) struct Smallest {
     count: usize,
     following: BTreeMap<String, usize>,
-    kept: Vec<((bool, bool, usize), CheckResult)>,
+    kept: Vec<(Rank, CheckResult)>,
 }
+
+/// Whether it follows from others, whether nothing is known that brings it about, the size of its
+/// request, and its number in the whole run if that is known.
+type Rank = (bool, bool, usize, Option<usize>);
 
 impl Smallest {
     /// Counts an outcome, and keeps its `result` if it is one of the smallest.
     pub(super) fn add(&mut self, outcome: Outcome, result: impl FnOnce(Outcome) -> CheckResult) {
-        let follows = outcome.follows();
         self.count += 1;
-        if let Some(cause) = outcome.because.as_ref().filter(|_| follows) {
+        if let Some(cause) = outcome.because.as_ref().filter(|_| outcome.follows()) {
             *self.following.entry(cause.requirement.clone()).or_default() += 1;
         }
         let size = outcome.request.as_ref().map_or(0, |request| request.to_string().len());
-        let vague = outcome.verdict == Verdict::Flaky && outcome.after.is_none();
-        let rank = (follows, vague, size);
+        let number = outcome.number;
+        self.keep(rank(&outcome, size), || {
+            let size = number.map(|_| size);
+            CheckResult { size, ..result(outcome) }
+        });
+    }
+
+    /// Adds those of another part of the run.
+    pub(super) fn join(&mut self, part: NotPassed) {
+        let NotPassed { count, following, smallest, .. } = part;
+        self.add_more(count);
+        for (requirement, count) in following {
+            let following = self.following.entry(requirement).or_default();
+            *following = following.saturating_add(count);
+        }
+        for result in smallest {
+            let rank = rank(&result.outcome, result.size.unwrap_or_default());
+            self.keep(rank, || result);
+        }
+    }
+
+    fn keep(&mut self, rank: Rank, result: impl FnOnce() -> CheckResult) {
         let at = self.kept.partition_point(|(other, _)| *other <= rank);
         if at < KEPT {
-            self.kept.insert(at, (rank, result(outcome)));
+            self.kept.insert(at, (rank, result()));
             self.kept.truncate(KEPT);
         }
     }
 
     /// Counts more outcomes without keeping any.
     pub(super) const fn add_more(&mut self, count: usize) {
-        self.count += count;
+        self.count = self.count.saturating_add(count);
     }
 
     /// The part of a report about them.
@@ -49,4 +72,9 @@ impl Smallest {
         let smallest = kept.into_iter().map(|(_, result)| result).collect();
         NotPassed { requirement, verdict, count, following, smallest }
     }
+}
+
+fn rank(outcome: &Outcome, size: usize) -> Rank {
+    let vague = outcome.verdict == Verdict::Flaky && outcome.after.is_none();
+    (outcome.follows(), vague, size, outcome.number)
 }

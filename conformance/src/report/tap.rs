@@ -15,6 +15,9 @@ use crate::verdict::Verdict;
 /// If it can't be written.
 pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "TAP version 14\n1..{}", report.requirements.len())?;
+    if let Some(part) = report.part() {
+        writeln!(out, "# {part}")?;
+    }
     for (place, requirement) in report.requirements.iter().enumerate() {
         point(report, place + 1, requirement, out)?;
     }

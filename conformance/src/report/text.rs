@@ -56,7 +56,8 @@ pub(super) fn header(report: &Report) -> String {
     let wires = words::wires(&report.header.wires);
     let checks = words::count(report.summary.totals.sum(), "check");
     let Implementation { name, version, language, .. } = who;
-    format!("{BOLD}{name} {version}{BOLD:#} ({language})  {wires}  {checks}")
+    let part = report.part().map(|part| format!("  {part}")).unwrap_or_default();
+    format!("{BOLD}{name} {version}{BOLD:#} ({language})  {wires}  {checks}{part}")
 }
 
 /// The verdict and the requirement of some checks.

@@ -79,8 +79,15 @@ impl Report {
         groups
     }
 
+    /// The part of a run that it is about, in words; `None` for a whole run.
+    #[must_use]
+    pub fn part(&self) -> Option<String> {
+        self.header.part.as_ref().map(|part| part.partition.to_string())
+    }
+
     /// The checks that accuse their own requirement, the most basic requirement first. If failures
-    /// that are expected lead to others, they are among them.
+    /// that are expected lead to others, they are among them; so are failures that follow from checks of
+    /// another part of the run, as nothing else in this report shows them.
     #[must_use]
     pub fn findings(&self) -> Vec<Group<'_>> {
         let cause = |group: &Group<'_>| {
@@ -90,10 +97,16 @@ impl Report {
         let leads = |group: &Group<'_>| {
             self.causes.get(cause(group)).is_some_and(|cause| cause.failed == 0)
         };
+        let is_shown = |cause: &Cause| cause.failed > 0;
+        let is_elsewhere = |group: &Group<'_>| {
+            let mut causes = self.causes.iter().filter(|cause| is_shown(cause));
+            self.header.part.is_some()
+                && !causes.any(|cause| group.checks.following.contains_key(&cause.requirement))
+        };
         let accuses = |group: &Group<'_>| match group.checks.verdict {
             Verdict::Warn => false,
             Verdict::ExpectedFailure => leads(group),
-            _ => group.origin().is_none(),
+            _ => group.origin().is_none() || is_elsewhere(group),
         };
         let groups = Self::URGENT.into_iter().flat_map(|verdict| self.groups(verdict));
         let mut findings: Vec<_> = groups.filter(accuses).collect();
@@ -107,7 +120,7 @@ impl Report {
         let failed = self.summary.totals.count(Verdict::Fail);
         // One mistake has up to 32 trials in 65,536: about 1 in 2,000 failures fits by chance.
         let told = |tally: &&Tally| tally.count > 1 + failed / 500;
-        let line = |Tally { text, count, example }: &Tally| {
+        let line = |Tally { text, count, example, .. }: &Tally| {
             let (count, failures) =
                 (words::thousands(*count), words::count(failed, "wrong answer"));
             format!("{count} of {failures} fit the mistake {text}; the first is {example}")
@@ -154,6 +167,10 @@ impl Cause {
         let failed = words::count(self.failed, "check");
         match self.follow {
             0 => format!("{failed} failed"),
+            more if self.failed == 0 && self.number.is_some() => {
+                let more = words::count(more, "check");
+                format!("no new failures of its own in this part, but {more} of others follow")
+            }
             more if self.failed == 0 => {
                 let more = words::thousands(more);
                 format!("its failures are expected, but {more} of other requirements follow")

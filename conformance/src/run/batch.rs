@@ -132,6 +132,7 @@ fn follow(judged: &mut Judged, required: &Past) {
                 behaviour: None,
                 after: None,
                 log: None,
+                number: None,
             };
             judged.doubt = None;
         }

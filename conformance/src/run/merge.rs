@@ -12,6 +12,7 @@ use super::blame::Blame;
 use super::ledger::{Ledger, Loss};
 use super::{Sink, is_set, lock};
 use crate::suite::check::Check;
+use crate::suite::plan::Numbered;
 use crate::verdict::{Outcome, Verdict};
 
 /// How many batches a worker may be ahead of the slowest one. Their outcomes are held back until
@@ -55,6 +56,8 @@ struct Exit<'s> {
     /// Asks failures again, if there is a second process.
     again: Option<Again>,
     blame: Blame,
+    /// The checks that are asked, if they are those of a part.
+    part: Option<Box<dyn Iterator<Item = Numbered> + Send + 's>>,
     /// How many outcomes the sink was given.
     count: usize,
 }
@@ -65,7 +68,7 @@ impl<'s> Merge<'s> {
         again: Option<Again>,
         interrupted: &'s AtomicBool,
     ) -> Self {
-        let exit = Exit { sink, again, blame: Blame::default(), count: 0 };
+        let exit = Exit { sink, again, blame: Blame::default(), part: None, count: 0 };
         Self {
             state: Mutex::default(),
             moved: Condvar::new(),
@@ -74,6 +77,14 @@ impl<'s> Merge<'s> {
             interrupted,
             ledger: Ledger::default(),
         }
+    }
+
+    /// The same for a part of a plan: outcomes get their numbers, and those of other parts are not passed
+    /// on.
+    pub(super) fn of_part(mut self, checks: impl Iterator<Item = Numbered> + Send + 's) -> Self {
+        let exit = self.exit.get_mut().unwrap_or_else(PoisonError::into_inner);
+        exit.part = Some(Box::new(checks));
+        self
     }
 
     /// Whether to stop asking.
@@ -210,8 +221,16 @@ impl State {
 
 impl Exit<'_> {
     fn hand_on(&mut self, mut outcome: Outcome) -> ControlFlow<()> {
-        self.count += 1;
         self.blame.charge(&mut outcome);
+        if let Some(checks) = &mut self.part {
+            // Those in between were not asked, as the run has ended early.
+            let mut asked = checks.filter(|check| check.id == outcome.id);
+            let Some(own) = asked.next().filter(|check| check.is_own) else {
+                return ControlFlow::Continue(());
+            };
+            outcome.number = Some(own.number);
+        }
+        self.count += 1;
         (self.sink)(outcome)
     }
 }

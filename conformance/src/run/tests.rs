@@ -172,6 +172,7 @@ fn a_failure_follows_from_a_fact_only() {
         merge.put(0, judged("first", verdict, Some(because("earlier"))), false);
         merge.put(0, judged("second", Verdict::Fail, Some(because("first"))), true);
         assert_eq!(merge.finish(), 2);
+        drop(merge);
         let earlier = follows.then(|| because("earlier"));
         assert_eq!(causes, [earlier.clone(), earlier]);
     }

@@ -193,6 +193,7 @@ impl Check {
             behaviour,
             after: None,
             log: None,
+            number: None,
         }
     }
 

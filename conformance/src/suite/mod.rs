@@ -11,6 +11,7 @@ pub mod device;
 pub mod due;
 pub mod expect;
 pub(crate) mod host;
+pub mod partition;
 pub mod plan;
 pub(crate) mod random;
 pub mod saved;

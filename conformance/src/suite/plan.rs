@@ -10,7 +10,9 @@ use std::sync::Arc;
 
 use actucheck_spec::model::Level;
 
+use super::basics::is_basic;
 use super::check::Check;
+use super::partition::{Fingerprint, Partition};
 use super::select::Patterns;
 use crate::names::nearest;
 
@@ -20,6 +22,32 @@ pub struct Plan<'a> {
     only: Patterns,
     not: Patterns,
     level: Level,
+    part: Option<Partition>,
+}
+
+/// How many checks are selected, and which.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Outline {
+    /// How many they are.
+    pub checks: usize,
+    /// A hash of their ids, in their order.
+    pub ids: String,
+}
+
+/// A check that a part asks.
+pub(crate) struct Numbered {
+    pub(crate) id: String,
+    /// Its number among all that are selected, from 1.
+    pub(crate) number: usize,
+    /// Whether it belongs to the part. Others rest on one that does not.
+    pub(crate) is_own: bool,
+}
+
+/// The ids of a group's selected checks.
+struct Members {
+    ids: Vec<String>,
+    is_own: bool,
+    is_asked: bool,
 }
 
 /// Groups whose checks' ids have a common prefix.
@@ -66,7 +94,7 @@ impl Names {
 impl<'a> Plan<'a> {
     pub(crate) fn new(families: Vec<Family<'a>>) -> Self {
         let (only, not) = (Patterns::default(), Patterns::default());
-        Self { families, only, not, level: Level::May }
+        Self { families, only, not, level: Level::May, part: None }
     }
 
     /// A plan of these checks only, as one group: one subject is asked them all.
@@ -109,6 +137,18 @@ impl<'a> Plan<'a> {
         (self.only, self.not) = (self.patterns(only)?, self.patterns(not)?);
         self.level = level;
         Ok(())
+    }
+
+    /// Keeps the selected checks of a part. Basic checks are asked in every part, as the others rest on
+    /// them: only so their failures are charged as in the whole.
+    pub fn take_part(&mut self, part: Partition) {
+        self.part = Some(part);
+    }
+
+    /// The part, if it is one.
+    #[must_use]
+    pub const fn part(&self) -> Option<Partition> {
+        self.part
     }
 
     /// Patterns each of which matches a check.
@@ -167,6 +207,11 @@ impl<'a> Plan<'a> {
 
     /// The groups that have a check to ask, in order.
     pub(crate) fn groups(&self) -> impl Iterator<Item = Group<'a>> + Send + '_ {
+        self.selected().filter(|group| self.part.is_none() || self.is_asked(group))
+    }
+
+    /// The groups that have a selected check, in whichever part.
+    fn selected(&self) -> impl Iterator<Item = Group<'a>> + Send + '_ {
         let families = self.families.iter().filter(|family| {
             self.is_whole()
                 || self.may_have(&family.prefix)
@@ -175,6 +220,15 @@ impl<'a> Plan<'a> {
         families
             .flat_map(|family| (family.groups)())
             .filter(|group| self.is_whole() || self.has_some(group))
+    }
+
+    /// Whether a group belongs to the part.
+    fn is_own(&self, group: &Group<'_>) -> bool {
+        self.part.is_none_or(|part| group.ids().next().is_some_and(|id| part.has(&id)))
+    }
+
+    fn is_asked(&self, group: &Group<'_>) -> bool {
+        self.is_own(group) || group.ids().next().is_some_and(|id| is_basic(&id))
     }
 
     /// Whether every check of the group is selected.
@@ -204,21 +258,55 @@ impl<'a> Plan<'a> {
         (self.only.is_empty() || self.only.is_match(id)) && !self.not.is_match(id)
     }
 
-    /// Every check; each is built when it is needed.
+    /// Every check that is asked; each is built when it is needed.
     pub fn checks(&self) -> impl Iterator<Item = Check> + '_ {
         self.groups().flat_map(|group| self.build(group))
     }
 
-    /// The id of every check. No check is built, unless the level is restricted.
+    /// The id of every check that belongs to the plan. No check is built, unless the level is restricted.
+    pub fn ids(&self) -> impl Iterator<Item = String> + '_ {
+        self.members().filter(|group| group.is_own).flat_map(|group| group.ids)
+    }
+
+    /// What is selected, in whichever part.
     #[must_use]
-    pub fn ids(&self) -> Box<dyn Iterator<Item = String> + '_> {
+    pub fn outline(&self) -> Outline {
+        let (mut checks, mut hash) = (0, Fingerprint::new());
+        for id in self.members().flat_map(|group| group.ids) {
+            checks += 1;
+            hash.add(&id);
+            hash.add("\n");
+        }
+        Outline { checks, ids: hash.to_string() }
+    }
+
+    /// The checks that are asked, in order.
+    pub(crate) fn numbered(&self) -> impl Iterator<Item = Numbered> + Send + '_ {
+        let numbers = self.members().scan(0, |last, Members { ids, is_own, is_asked }| {
+            let first = *last + 1;
+            *last += ids.len();
+            let ids = if is_asked { ids } else { Vec::new() };
+            let numbered = (first..).zip(ids);
+            Some(numbered.map(move |(number, id)| Numbered { id, number, is_own }))
+        });
+        numbers.flatten()
+    }
+
+    /// The ids of the selected checks by group, in whichever part.
+    fn members(&self) -> Box<dyn Iterator<Item = Members> + Send + '_> {
+        let members = |ids, (is_own, is_asked)| Members { ids, is_own, is_asked };
+        let whose = |group: &Group<'_>| (self.is_own(group), self.is_asked(group));
         if self.level != Level::May {
-            return Box::new(self.checks().map(|check| check.id));
+            return Box::new(self.selected().map(move |group| {
+                let whose = whose(&group);
+                members(self.build(group).into_iter().map(|check| check.id).collect(), whose)
+            }));
         }
         let families = self.families.iter().filter(|family| self.may_have(&family.prefix));
         let groups = families.flat_map(Family::named).filter(|group| self.may_have(&group.stem));
-        let ids = groups.flat_map(|group| group.ids().collect::<Vec<_>>());
-        Box::new(ids.filter(|id| self.has(id)))
+        Box::new(groups.map(move |group| {
+            members(group.ids().filter(|id| self.has(id)).collect(), whose(&group))
+        }))
     }
 
     /// The id of every check, even if the plan is restricted.
@@ -227,11 +315,12 @@ impl<'a> Plan<'a> {
         groups.flat_map(|group| group.ids().collect::<Vec<_>>())
     }
 
-    /// How many checks there are.
+    /// How many checks belong to the plan.
     #[must_use]
     pub fn size(&self) -> usize {
         if self.is_whole() {
-            self.families.iter().flat_map(Family::named).map(|group| group.size()).sum()
+            let groups = self.families.iter().flat_map(Family::named);
+            groups.filter(|group| self.is_own(group)).map(|group| group.size()).sum()
         } else {
             self.ids().count()
         }

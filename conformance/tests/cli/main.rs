@@ -163,7 +163,7 @@ fn help_lists_the_subcommands_and_the_exit_status() {
       show         Shows one check: what it asks, what it demands, and which sentence demands it
       replay       Asks one check again and shows the exchange
       adapter      Helps to write an adapter, and checks it
-      report       Compares the reports of several runs, or writes one in another format
+      report       Compares reports, merges the parts of a run, or writes one in another format
       spec         Shows, compares and exports what the documents say
       completions  Prints a shell's completion script
       man          Prints the manual page, or writes those of all subcommands

@@ -199,6 +199,42 @@ fn the_example_for_github_names_inputs_that_there_are() {
     }
 }
 
+/// Each part is a job with a folder of its own, and another job has what they left.
+#[test]
+fn the_example_for_several_machines_comes_to_the_verdict_of_one() {
+    let example = example("github-parts.yml");
+    let part = &example["jobs"]["part"];
+    let steps = part["steps"].as_sequence().unwrap();
+    let inputs = steps.iter().find_map(|step| step["with"].get("command").map(|_| &step["with"]));
+    let kept = steps.iter().find_map(|step| step["with"].get("path")).unwrap().as_str().unwrap();
+    let steps = example["jobs"]["whole"]["steps"].as_sequence().unwrap();
+    let script: Vec<_> = steps.iter().filter_map(|step| step.get("run")?.as_str()).collect();
+    let script = format!("set -e\n{}", script.join("\n"));
+    for (wrong, status) in [("0", 0), ("1", 1)] {
+        let whole = Project::new(wrong, "[]");
+        let matrix = part["strategy"]["matrix"]["part"].as_sequence().unwrap();
+        for number in matrix.iter().map(|number| number.as_u64().unwrap().to_string()) {
+            let of_matrix = |text: &str| text.replace("${{ matrix.part }}", &number);
+            let inputs = inputs.unwrap().as_mapping().unwrap().iter();
+            let inputs: Vec<_> = inputs
+                .map(|(name, value)| (name.as_str().unwrap(), of_matrix(value.as_str().unwrap())))
+                .collect();
+            let inputs: Vec<_> = inputs.iter().map(|(name, value)| (*name, &**value)).collect();
+            let project = Project::new(wrong, "[]");
+            let output = project.act(&inputs);
+            assert_eq!(output.status.code(), Some(status), "{}", text(&output.stderr));
+            whole.write(&format!("part-{number}/report.json"), &project.read(kept));
+        }
+        let summary = whole.path("summary.md").display().to_string();
+        let environment = [("GITHUB_STEP_SUMMARY".to_owned(), summary)].into();
+        let output = whole.run(Path::new("sh"), &["-c", &script], &environment);
+        assert_eq!(output.status.code(), Some(status), "{}", text(&output.stderr));
+        let said = whole.read("summary.md");
+        assert!(said.contains("bitwise 1") && !said.contains("part "), "{said}");
+        assert!(whole.read("junit.xml").contains("<testsuites name=\"bitwise 1\""));
+    }
+}
+
 #[test]
 fn the_example_for_gitlab_runs() {
     let example = example("gitlab.yml");

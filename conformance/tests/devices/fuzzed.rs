@@ -198,7 +198,13 @@ fn fuzzed(devices: &str, fault: &str, allowed: &Permissions) -> (Fuzzed, Option<
     let spec = Spec::embedded().unwrap();
     let (wire, present) = (wire_of(devices), ids(devices));
     let target = Target { id: present[0], present, ..Target::alone(model(&spec, devices)) };
-    let options = Options { wire, seed: SEED, cases: CASES, asks: Asks::Device(&target, allowed) };
+    let options = Options {
+        wire,
+        seed: SEED,
+        cases: CASES,
+        asks: Asks::Device(&target, allowed),
+        part: None,
+    };
     let folder = tempfile::tempdir().unwrap();
     let device = device(devices, fault, allowed, folder.path().join("journal"));
     let mut asked: [Box<dyn Subject + Send>; 1] = [Box::new(device.clone())];
@@ -249,6 +255,7 @@ fn only_reads() -> String {
         seed: SEED,
         cases: 3_000,
         asks: Asks::Device(&target, &Permissions::READ),
+        part: None,
     };
     let device = device("ja40@1", "none", &Permissions::READ, PathBuf::new());
     let checks = checks(&spec, &options, device.hello());
@@ -278,6 +285,7 @@ fn boards_only_read() -> String {
         seed: SEED,
         cases: 3_000,
         asks: Asks::Device(&target, &Permissions::READ),
+        part: None,
     };
     let device = device("dd-6010@1", "none", &Permissions::READ, PathBuf::new());
     let checks = checks(&spec, &options, device.hello());

@@ -33,6 +33,7 @@ mod killing;
 mod line;
 mod memory;
 mod packet;
+mod parts;
 mod port;
 mod request;
 mod shown;
@@ -109,6 +110,11 @@ fn tests() -> ExitCode {
         trials.push(test(name, Box::new(move || fuzzed::right(port))));
     }
     trials.extend(killed("innfos", "udp", innfos::FAULTS).map(|(name, killed)| test(name, killed)));
+    let shared = parts::SHARED.iter().map(|fault| {
+        test(format!("parts::{fault}::memory"), Box::new(move || parts::wrong(fault)))
+    });
+    trials.extend(shared);
+    trials.push(test("parts::conversations".to_owned(), Box::new(parts::wrong_conversations)));
     trials.push(test("bus::every_call".to_owned(), Box::new(bus::every_call)));
     trials.push(test("busy::a_late_host_is_found".to_owned(), Box::new(busy::wrong)));
     trials.push(test("faults::each_is_shown".to_owned(), Box::new(shown)));

@@ -24,7 +24,7 @@ use super::{LIMITS, Mutant, Mutated, Wrong};
 fn several(subjects: Vec<Box<dyn Subject + Send>>, wire: Wire, seed: u64, cases: u64) -> Fuzzed {
     let spec = Spec::embedded().unwrap();
     let mut subjects = subjects;
-    let options = Options { wire, seed, cases, asks: Asks::Codec };
+    let options = Options { wire, seed, cases, asks: Asks::Codec, part: None };
     fuzz(&spec, &options, &mut subjects, &|_, _| ControlFlow::Continue(()))
 }
 
@@ -57,7 +57,7 @@ fn every_mutant_is_found() {
     hello.limits = LIMITS;
     let mut missed = Vec::new();
     for wire in Wire::ALL {
-        let options = Options { wire, seed: 1, cases: 24_000, asks: Asks::Codec };
+        let options = Options { wire, seed: 1, cases: 24_000, asks: Asks::Codec, part: None };
         let checks = blackbox::checks(&spec, &options, &hello);
         let ops: BTreeSet<_> = checks.iter().map(|check| check.question.name()).collect();
         // Those whose fault is in an op that is fuzzed.
@@ -82,7 +82,8 @@ fn every_mutant_is_found() {
 #[test]
 fn what_is_found_is_made_small_and_fails_as_before() {
     let spec = Spec::embedded().unwrap();
-    let options = Options { wire: dynamixel2::WIRE, seed: 1, cases: 3_000, asks: Asks::Codec };
+    let options =
+        Options { wire: dynamixel2::WIRE, seed: 1, cases: 3_000, asks: Asks::Codec, part: None };
     let drawn = blackbox::checks(&spec, &options, Builtin::default().hello());
     let drawn: BTreeMap<_, _> = drawn.into_iter().map(|check| (check.id, check.question)).collect();
     for mutant in MUTANTS.iter().step_by(8) {

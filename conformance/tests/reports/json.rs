@@ -24,12 +24,12 @@ fn value(report: &Report) -> Value {
     serde_json::from_str(&written(report)).unwrap()
 }
 
-fn validator(name: &str) -> Validator {
+pub(crate) fn validator(name: &str) -> Validator {
     let (_, text) = schema::all().into_iter().find(|(other, _)| *other == name).unwrap();
     jsonschema::validator_for(&serde_json::from_str(&text).unwrap()).unwrap()
 }
 
-fn faults(validator: &Validator, value: &Value) -> Vec<String> {
+pub(crate) fn faults(validator: &Validator, value: &Value) -> Vec<String> {
     let faults = validator.iter_errors(value);
     faults.map(|fault| format!("{}: {fault}", fault.instance_path())).collect()
 }
@@ -133,6 +133,7 @@ fn failure(place: usize, size: usize, detail: &str) -> Outcome {
         behaviour: None,
         after: None,
         log: None,
+        number: None,
     }
 }
 

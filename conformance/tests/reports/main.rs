@@ -12,6 +12,7 @@ mod junit;
 mod kept;
 mod order;
 mod outside;
+mod parts;
 mod program;
 mod sample;
 mod text;

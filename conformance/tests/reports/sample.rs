@@ -9,7 +9,8 @@ use actucheck::report::model::Summary;
 use actucheck::report::{Collector, End, Format, Report, Run, Stopped};
 use actucheck::run::outcomes;
 use actucheck::subject::{Answer, Builtin, Subject};
-use actucheck::suite::expect::Rows;
+use actucheck::suite::expect::Expectations;
+use actucheck::suite::plan::Plan;
 use actucheck::suite::{self, Options};
 use actucheck::traffic::{Response, Spread, Traffic};
 use actucheck::verdict::{After, Outcome, Verdict};
@@ -24,7 +25,7 @@ use crc::{CRC_16_T10_DIF, Crc};
 pub(crate) const NAME: &str = "<script>alert('odd')</script> & |co|";
 
 /// The built-in codec under another name, with other answers.
-struct Odd {
+pub(crate) struct Odd {
     codec: Builtin,
     hello: Hello,
     bend: fn(&Question, Answer) -> Answer,
@@ -41,7 +42,7 @@ impl Subject for Odd {
 }
 
 /// Sends without byte stuffing, as several libraries do.
-fn unstuffed(op: &Question, answer: Answer) -> Answer {
+pub(crate) fn unstuffed(op: &Question, answer: Answer) -> Answer {
     match op {
         Question::Encode { packet, .. } => match &packet.packet {
             Packet::Dynamixel2(Instruction { id, instruction, params }) => {
@@ -68,7 +69,7 @@ fn unknown_crc(op: &Question, answer: Answer) -> Answer {
 }
 
 /// Meets every verdict.
-fn odd(op: &Question, answer: Answer) -> Answer {
+pub(crate) fn odd(op: &Question, answer: Answer) -> Answer {
     let said = || "<b>said</b> \u{1b}[31mthis\n```".to_owned();
     match (op, answer) {
         (Question::Crc { bytes, .. }, answer) => match bytes.len() {
@@ -86,11 +87,11 @@ fn odd(op: &Question, answer: Answer) -> Answer {
     }
 }
 
-static SPEC: LazyLock<Spec> = LazyLock::new(|| Spec::embedded().unwrap());
+pub(crate) static SPEC: LazyLock<Spec> = LazyLock::new(|| Spec::embedded().unwrap());
 static COMMAND: LazyLock<[String; 2]> =
     LazyLock::new(|| ["./adapter", "two words"].map(str::to_owned));
-const WIRES: [Wire; 1] = [dynamixel2::WIRE];
-const OPTIONS: Options = Options { cases: 10, ..Options::new() };
+pub(crate) const WIRES: [Wire; 1] = [dynamixel2::WIRE];
+pub(crate) const OPTIONS: Options = Options { cases: 10, ..Options::new() };
 
 /// Reads without taking the byte stuffing out.
 fn left_in(op: &Question, answer: Answer) -> Answer {
@@ -106,33 +107,42 @@ fn left_in(op: &Question, answer: Answer) -> Answer {
     }
 }
 
+impl Odd {
+    pub(crate) fn new(name: &str, bend: fn(&Question, Answer) -> Answer) -> Self {
+        let codec = Builtin::default();
+        let mut hello = codec.hello().clone();
+        hello.implementation = Implementation {
+            name: name.to_owned(),
+            version: "1.0".to_owned(),
+            language: "C".to_owned(),
+            url: None,
+        };
+        Self { codec, hello, bend }
+    }
+}
+
+/// What an expected-failures file with these rows expects of a plan.
+pub(crate) fn expectations(rows: &str, plan: &Plan<'_>) -> Expectations {
+    let text = format!("expected_failures: {rows}\n");
+    Expectations::parse("expected-failures.yaml", &text, plan, plan).unwrap()
+}
+
 fn report(name: &str, only: &str, bend: fn(&Question, Answer) -> Answer, expect: &str) -> Report {
     let mut plan = suite::plan(&SPEC, &WIRES, &OPTIONS);
     let not = ["*.stuffing.body.*".to_owned()];
     plan.restrict(&[only.to_owned()], &not, Level::May).unwrap();
-    let codec = Builtin::default();
-    let mut hello = codec.hello().clone();
-    hello.implementation = Implementation {
-        name: name.to_owned(),
-        version: "1.0".to_owned(),
-        language: "C".to_owned(),
-        url: None,
-    };
-    let implementation = hello.implementation.clone();
-    let subject = Odd { codec, hello, bend };
+    let subject = Odd::new(name, bend);
+    let implementation = subject.hello.implementation.clone();
     let mut outcomes = outcomes(&mut [Box::new(subject)], &plan, &AtomicBool::new(false));
     make_flaky(&mut outcomes);
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("expected-failures.yaml");
-    std::fs::write(&file, format!("expected_failures: {expect}\n")).unwrap();
-    let mut expectations = Rows::read(&file).unwrap().with(&plan, &plan).unwrap();
+    let mut expectations = expectations(expect, &plan);
     let run = run(&implementation);
     let mut collector = Collector::new(&run);
     for mut outcome in outcomes {
         expectations.apply(&mut outcome);
         collector.add(outcome);
     }
-    expectations.unexpected().into_iter().for_each(|passes| collector.revise(passes));
+    expectations.audit().unexpected().into_iter().for_each(|passes| collector.revise(passes));
     collector.finish(End { seconds: 1.5, ..End::default() })
 }
 
@@ -162,6 +172,7 @@ pub(crate) fn run(implementation: &Implementation) -> Run<'_> {
         implementation,
         wires: &WIRES,
         options: OPTIONS,
+        part: None,
         port: None,
         again: &[],
         command: COMMAND.as_slice(),

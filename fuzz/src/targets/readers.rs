@@ -6,6 +6,7 @@ use std::sync::LazyLock;
 
 use actucheck::adapter::{Greeting, Output, Question, Reported};
 use actucheck::journal::{Ask, Journal, restore};
+use actucheck::report::merge::merge;
 use actucheck::report::{Format, json, read};
 use actucheck::suite::check::{Check, Demand};
 use actucheck::suite::expect::{Expectations, Failures};
@@ -102,6 +103,13 @@ fn report(text: &str) {
     assert_eq!(again.unwrap_or_else(|error| panic!("{error}\n{written}")), report);
     for format in Format::ALL.into_iter().filter(|format| *format != Format::Jsonl) {
         format.write(&report, &mut Vec::new()).unwrap();
+    }
+    // The part of a run with others that say the same. A merged report is a report too.
+    let twins = ["one", "other"].map(|name| (name.to_owned(), report.clone()));
+    for parts in [&twins[..1], &twins] {
+        if let Ok((whole, _)) = merge(&SPEC, parts.to_vec()) {
+            json::write(&whole, &mut Vec::new()).unwrap();
+        }
     }
 }
 

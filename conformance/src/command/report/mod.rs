@@ -1,6 +1,7 @@
 //! `actucheck report …`.
 
 mod compare;
+mod merge;
 mod render;
 
 use std::path::Path;
@@ -11,10 +12,11 @@ use clap::Subcommand;
 
 use super::Failure;
 
-/// Compares the reports of several runs, or writes one in another format
+/// Compares reports, merges the parts of a run, or writes one in another format
 #[derive(Debug, Subcommand)]
 pub(crate) enum Report {
     Compare(compare::Compare),
+    Merge(merge::Merge),
     Render(render::Render),
 }
 
@@ -22,6 +24,7 @@ pub(crate) enum Report {
 pub(crate) fn run(command: &Report) -> Result<ExitCode, Failure> {
     match command {
         Report::Compare(options) => compare::run(options),
+        Report::Merge(options) => merge::run(options),
         Report::Render(options) => render::run(options),
     }
 }

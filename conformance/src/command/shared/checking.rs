@@ -10,11 +10,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use actucheck::adapter::{HostPort, Wire};
+use actucheck::report::model::Part;
 use actucheck::report::{Collector, End, Run, Stopped, screen};
 use actucheck::run;
 use actucheck::suite::Options;
 use actucheck::suite::expect::{Expectations, Extended, Failures, Rows};
-use actucheck::suite::plan::Plan;
+use actucheck::suite::partition::Partition;
+use actucheck::suite::plan::{Outline, Plan};
 use actucheck::verdict::Outcome;
 use actucheck_spec::Spec;
 use clap::Args;
@@ -32,6 +34,10 @@ pub(crate) struct Checking {
     /// How many processes of the adapter share the work
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u8).range(1..))]
     jobs: u8,
+    /// Ask only the part K of N of the checks, so that N machines share a run; `actucheck report merge`
+    /// makes one report of the parts
+    #[arg(long, value_name = "K/N", conflicts_with = "write_expect")]
+    partition: Option<Partition>,
     #[command(flatten)]
     adapter: Adapter,
 }
@@ -79,6 +85,10 @@ pub(crate) struct Asked<'c> {
     pub(crate) command: &'c [String],
     /// The words that ask checks again, before the glob of their ids, if `replay` does not.
     pub(crate) again: &'c [String],
+    /// The part that is asked, if not the whole.
+    pub(crate) partition: Option<Partition>,
+    /// The options that verdicts may depend on, each with its value.
+    pub(crate) settings: &'c [String],
 }
 
 impl Checking {
@@ -89,8 +99,15 @@ impl Checking {
         selection: &Selection,
         plan: impl FnOnce(&mut Subjects) -> Result<Planned<'a>, Failure>,
     ) -> Result<ExitCode, Failure> {
-        let Self { running, jobs, adapter } = self;
-        let asked = Asked { port: adapter.port(), command: &adapter.command, again: &[] };
+        let Self { running, jobs, partition, adapter } = self;
+        let settings = [running.settings(), adapter.settings()].concat();
+        let asked = Asked {
+            port: adapter.port(),
+            command: &adapter.command,
+            again: &[],
+            partition: *partition,
+            settings: &settings,
+        };
         running.run(spec, selection, adapter.trace(), asked, |interrupted| {
             let mut subjects = Subjects::start(adapter, *jobs, interrupted)?;
             let planned = plan(&mut subjects)?;
@@ -107,7 +124,7 @@ impl Running {
         spec: &'a Spec,
         selection: &Selection,
         trace: Option<&Path>,
-        Asked { port, command, again }: Asked<'_>,
+        Asked { port, command, again, partition, settings }: Asked<'_>,
         start: impl FnOnce(&Arc<AtomicBool>) -> Result<(Subjects, Planned<'a>), Failure>,
     ) -> Result<ExitCode, Failure> {
         let others = trace.into_iter().chain(self.write_expect.as_deref());
@@ -117,7 +134,8 @@ impl Running {
         let interrupted = interrupted()?;
         let start = Start::new(self, selection, &interrupted, start);
         let (mut outputs, start) = outputs.unless_failed(start)?;
-        let Start { mut subjects, planned, mut expectations } = start;
+        let Start { mut subjects, mut planned, mut expectations } = start;
+        let part = partition.map(|partition| take_part(&mut planned.plan, partition, settings));
         let Planned { wires, plan, records, options, .. } = planned;
         let hello = subjects.hello.clone();
         let size = plan.size();
@@ -131,6 +149,7 @@ impl Running {
             implementation: &hello.implementation,
             wires: &wires,
             options,
+            part,
             port,
             command,
             again,
@@ -163,7 +182,8 @@ impl Running {
 
         let traffic = subjects.traffic();
         let (log, traced) = subjects.end();
-        expectations.unexpected().into_iter().for_each(|passes| collector.revise(passes));
+        let audit = expectations.audit();
+        audit.unexpected().into_iter().for_each(|passes| collector.revise(passes));
         let report = collector.finish(End {
             seconds,
             stopped: if limit.is_reached() {
@@ -174,17 +194,16 @@ impl Running {
             left: size.saturating_sub(asked),
             log,
             traffic,
+            expectations: partition.filter(|_| audit.is_of_file()).map(|_| audit.clone()),
         });
         let streamed = streams.end(&report.summary);
         let written = outputs.write(
             |format, out| format.write(&report, out),
             |out| screen::write(&report, &self.look.terminal(Some(next(&report))), out),
         );
-        if report.summary.stopped.is_none() {
-            expectations
-                .remarks()
-                .iter()
-                .for_each(|remark| anstream::eprintln!("actucheck: {remark}"));
+        // Of a part, they are made when all parts are merged.
+        if report.summary.stopped.is_none() && partition.is_none() {
+            say(&audit.remarks());
         }
         let kept = write_expect.map_or(Ok(()), |target| {
             let name = target.name.clone();
@@ -201,6 +220,12 @@ impl Running {
         Ok(ExitCode::from(report.exit_status()))
     }
 
+    /// The options that verdicts may depend on, each with its value.
+    fn settings(&self) -> Vec<String> {
+        let max_fail = self.max_fail.map(|most| format!("--max-fail {most}"));
+        std::iter::once(format!("--repeat {}", self.repeat)).chain(max_fail).collect()
+    }
+
     /// The file for `--write-expect`. Rows that a person wrote are not lost by mistake.
     fn new_file(&self, path: &Path) -> Result<Target, Failure> {
         let target = Target::new(path)?;
@@ -212,6 +237,20 @@ impl Running {
             return Err(Failure::usage(message));
         }
         Ok(target)
+    }
+}
+
+/// Takes the part out of a plan, and says which it is.
+fn take_part(plan: &mut Plan<'_>, partition: Partition, settings: &[String]) -> Part {
+    let Outline { checks, ids } = plan.outline();
+    plan.take_part(partition);
+    Part { partition, checks, ids, settings: settings.to_vec() }
+}
+
+/// Tells what a user should know, a line each.
+pub(crate) fn say(remarks: &[String]) {
+    for remark in remarks {
+        anstream::eprintln!("actucheck: {remark}");
     }
 }
 

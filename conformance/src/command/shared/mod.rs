@@ -24,7 +24,7 @@ use actucheck_spec::Spec;
 pub(crate) use begun::{command_line, date};
 #[cfg(unix)]
 pub(crate) use checking::{Asked, Running};
-pub(crate) use checking::{Checking, Planned};
+pub(crate) use checking::{Checking, Planned, say};
 pub(crate) use device::DeviceOption;
 pub(crate) use failure::Failure;
 pub(crate) use look::{Look, next, terminal_width};

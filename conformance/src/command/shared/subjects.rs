@@ -53,6 +53,15 @@ impl Adapter {
         self.exchange.port
     }
 
+    /// The options that verdicts may depend on, each with its value.
+    pub(crate) fn settings(&self) -> Vec<String> {
+        let Exchange { timeout, start_timeout, port, .. } = &self.exchange;
+        let limits = [("timeout", timeout), ("start-timeout", start_timeout)];
+        let limits = limits.map(|(name, time)| format!("--{name} {}", time.as_secs_f64()));
+        let port = port.map(|port| format!("--port {port}"));
+        limits.into_iter().chain(port).collect()
+    }
+
     /// The file that the exchange is written to, if it is.
     pub(crate) fn trace(&self) -> Option<&Path> {
         self.exchange.trace.as_deref()

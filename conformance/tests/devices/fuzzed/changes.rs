@@ -62,8 +62,13 @@ pub(super) fn writes_little() -> String {
     let table = spec.device("xm430-w210").unwrap();
     let target = Target::alone(Some(table));
     let allowed = ram();
-    let options =
-        Options { wire: WIRE, seed: SEED, cases: 3_000, asks: Asks::Device(&target, &allowed) };
+    let options = Options {
+        wire: WIRE,
+        seed: SEED,
+        cases: 3_000,
+        asks: Asks::Device(&target, &allowed),
+        part: None,
+    };
     let device = device("xm430-w210@1", "none", &allowed, PathBuf::new());
     let checks = checks(&spec, &options, device.hello());
     let may_be_written = |address: u16| {
@@ -128,7 +133,7 @@ pub(super) fn boards_written_little() -> String {
     let spec = Spec::embedded().unwrap();
     let (target, allowed) = (Target::alone(None), ram());
     let asks = Asks::Device(&target, &allowed);
-    let options = Options { wire: innfos::WIRE, seed: SEED, cases: 3_000, asks };
+    let options = Options { wire: innfos::WIRE, seed: SEED, cases: 3_000, asks, part: None };
     let device = device("dd-6010@1", "none", &allowed, PathBuf::new());
     let checks = checks(&spec, &options, device.hello());
     let commands = &spec.wires.innfos.content.commands;
