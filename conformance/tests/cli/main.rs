@@ -205,7 +205,7 @@ fn the_help_of_each_subcommand_has_an_example_of_it() {
             seen += 1;
         }
     }
-    assert_eq!(seen, if cfg!(unix) { 25 } else { 21 });
+    assert_eq!(seen, if cfg!(unix) { 26 } else { 22 });
     assert!(ran > 35, "{ran} examples");
 }
 
