@@ -7,7 +7,7 @@ use crate::simd::Processor;
 /// The fastest back end for CRCs on this machine.
 ///
 /// The free functions of [`crc`](super) look it up on every call, which costs a load and a
-/// branch. A loop over many short packets keeps an `Engine` instead, which is one byte: every call
+/// jump. A loop over many short packets keeps an `Engine` instead, which is one byte: every call
 /// then begins with one branch that the processor predicts.
 ///
 /// With the feature `std`, the processor is detected at run time. Without it, only instructions
@@ -69,9 +69,7 @@ impl Engine {
             #[cfg(target_arch = "x86_64")]
             Processor::Narrow(_) => 128,
             #[cfg(target_arch = "x86_64")]
-            Processor::Wide(_) => 256,
-            #[cfg(target_arch = "x86_64")]
-            Processor::Widest(_) => 512,
+            Processor::Wide(wide) => wide.bits(),
         }
     }
 
@@ -111,8 +109,6 @@ impl Engine {
             Processor::Narrow(narrow) => narrow.update::<O>(state, bytes),
             #[cfg(target_arch = "x86_64")]
             Processor::Wide(wide) => wide.update::<O>(state, bytes),
-            #[cfg(target_arch = "x86_64")]
-            Processor::Widest(widest) => widest.update::<O>(state, bytes),
         }
     }
 }

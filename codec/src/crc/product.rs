@@ -43,7 +43,9 @@ fn split_at<O: Order, U: Multiplies<N>, const N: usize>(
 ) -> (U::Block, &[[u8; N]], &[u8]) {
     let (state, bytes, start) = match bytes {
         // The head would be one byte and hold but one byte of the state: deal with it apart.
-        [first, rest @ ..] if start % N == 1 => (compact::step::<O>(state, *first), rest, 0),
+        [first, rest @ ..] if start % N == 1 => {
+            (compact::step::<O>(state, *first), rest, start - 1)
+        }
         _ => (state, bytes, start),
     };
     let used = start.wrapping_sub(1) % N + 1;

@@ -20,7 +20,7 @@ mod x86_64;
 use portable::Portable;
 pub(crate) use search::{header, patterns};
 #[cfg(target_arch = "x86_64")]
-use x86_64::{Narrow, Wide, Widest};
+use x86_64::{Narrow, Wide};
 
 /// Bytes of a window.
 pub(crate) const WINDOW: usize = 64;
@@ -119,8 +119,6 @@ pub(crate) enum Processor {
     Narrow(Narrow),
     #[cfg(target_arch = "x86_64")]
     Wide(Wide),
-    #[cfg(target_arch = "x86_64")]
-    Widest(Widest),
 }
 
 impl Processor {
@@ -143,7 +141,7 @@ impl Processor {
         let special = [
             Narrow::new().map(Self::Narrow),
             Wide::new().map(Self::Wide),
-            Widest::new().map(Self::Widest),
+            Wide::widest().map(Self::Wide),
         ];
         #[cfg(not(target_arch = "x86_64"))]
         let special: [Option<Self>; 0] = [];
@@ -159,8 +157,6 @@ impl Processor {
             Self::Narrow(narrow) => narrow.run(task),
             #[cfg(target_arch = "x86_64")]
             Self::Wide(wide) => wide.run(task),
-            #[cfg(target_arch = "x86_64")]
-            Self::Widest(widest) => widest.wide().run(task),
         }
     }
 }

@@ -48,21 +48,16 @@ pub(super) fn fastest() -> Processor {
     detect()
 }
 
-/// The fastest back end of this processor, remembered: a load and a compare, where asking for each
+/// The fastest back end of this processor, remembered: a load and a jump, where asking for each
 /// feature would cost more than the CRC of a short packet.
 #[cfg(feature = "std")]
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "a call would cost more than the load")]
 pub(super) fn fastest() -> Processor {
     // Only what was detected is remembered. Relaxed is enough: the answer is always the same.
-    let number = remembered::FASTEST.load(Ordering::Relaxed);
-    // Two comparisons are faster than a table of jumps.
-    if number >= remembered::WIDE {
-        let wide = Wide(());
-        let widest = number == remembered::WIDEST;
-        return if widest { Processor::Widest(Widest(wide)) } else { Processor::Wide(wide) };
-    }
-    match number {
+    match remembered::FASTEST.load(Ordering::Relaxed) {
+        remembered::WIDEST => Processor::Wide(Wide { widest: Some(Widest(())) }),
+        remembered::WIDE => Processor::Wide(Wide { widest: None }),
         remembered::NARROW => Processor::Narrow(Narrow(())),
         remembered::PORTABLE => Processor::Portable,
         _ => remembered::ask(),
@@ -71,7 +66,7 @@ pub(super) fn fastest() -> Processor {
 
 #[cfg(feature = "std")]
 mod remembered {
-    use super::{AtomicU8, Ordering, Processor, detect};
+    use super::{AtomicU8, Ordering, Processor, Wide, detect};
 
     /// Unknown at first.
     pub(super) static FASTEST: AtomicU8 = AtomicU8::new(0);
@@ -86,8 +81,8 @@ mod remembered {
         let number = match fastest {
             Processor::Portable => PORTABLE,
             Processor::Narrow(_) => NARROW,
-            Processor::Wide(_) => WIDE,
-            Processor::Widest(_) => WIDEST,
+            Processor::Wide(Wide { widest: None }) => WIDE,
+            Processor::Wide(Wide { widest: Some(_) }) => WIDEST,
         };
         FASTEST.store(number, Ordering::Relaxed);
         fastest
@@ -96,10 +91,9 @@ mod remembered {
 
 /// Asks the processor, or the build, from the fastest back end down.
 fn detect() -> Processor {
-    let widest = || Widest::new().map(Processor::Widest);
-    let wide = || Wide::new().map(Processor::Wide);
+    let wide = || Wide::widest().or_else(Wide::new).map(Processor::Wide);
     let narrow = || Narrow::new().map(Processor::Narrow);
-    widest().or_else(wide).or_else(narrow).unwrap_or(Processor::Portable)
+    wide().or_else(narrow).unwrap_or(Processor::Portable)
 }
 
 /// Proof that the processor multiplies without carry in 128-bit registers.
@@ -133,19 +127,36 @@ impl Narrow {
 
 /// Proof that the processor multiplies without carry in 256-bit registers.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Wide(());
+pub(crate) struct Wide {
+    /// Wider registers for long messages, if there are some. Windows need none.
+    widest: Option<Widest>,
+}
 
 impl Wide {
     #[inline]
     pub(super) fn new() -> Option<Self> {
-        has!("vpclmulqdq" "avx2" "pclmulqdq" "ssse3" "popcnt" "bmi1" "bmi2").then_some(Self(()))
+        has!("vpclmulqdq" "avx2" "pclmulqdq" "ssse3" "popcnt" "bmi1" "bmi2")
+            .then_some(Self { widest: None })
+    }
+
+    /// With wider registers for long messages.
+    #[inline]
+    pub(super) fn widest() -> Option<Self> {
+        Self::new()?;
+        let widest = has!("avx512f" "avx512bw" "avx512vbmi").then_some(Widest(()))?;
+        Some(Self { widest: Some(widest) })
+    }
+
+    /// The size of its widest registers.
+    pub(crate) const fn bits(self) -> u32 {
+        if self.widest.is_some() { 512 } else { 256 }
     }
 
     /// The state after `bytes`.
     #[inline]
     pub(crate) fn update<O: Order>(self, state: u16, bytes: &[u8]) -> u16 {
         // SAFETY: a `Wide` is made only where the features that the function needs were found.
-        unsafe { wide::update::<O>(self, state, bytes) }
+        unsafe { wide::update::<O>(state, bytes, self) }
     }
 
     /// Runs the task with these features.
@@ -160,29 +171,14 @@ impl Wide {
     }
 }
 
-/// Proof that the processor multiplies without carry in 512-bit registers, and in others.
+/// Proof that the processor multiplies without carry in 512-bit registers, and in those of 256 bits.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Widest(Wide);
+struct Widest(());
 
 impl Widest {
+    /// The state after `bytes`, at least [`widest::LEAST`].
     #[inline]
-    pub(super) fn new() -> Option<Self> {
-        let wide = Wide::new()?;
-        has!("avx512f" "avx512bw" "avx512vbmi").then_some(Self(wide))
-    }
-
-    /// The same for 256 bits, which is faster for short messages and windows.
-    #[inline]
-    pub(super) const fn wide(self) -> Wide {
-        self.0
-    }
-
-    /// The state after `bytes`.
-    #[inline]
-    pub(crate) fn update<O: Order>(self, state: u16, bytes: &[u8]) -> u16 {
-        if bytes.len() < widest::LEAST {
-            return self.wide().update::<O>(state, bytes);
-        }
+    fn update<O: Order>(self, state: u16, bytes: &[u8]) -> u16 {
         // SAFETY: a `Widest` is made only where the features that the function needs were found.
         unsafe { widest::update::<O>(self, state, bytes) }
     }

@@ -4,7 +4,7 @@ use core::arch::x86_64::{
     _mm256_set_epi8, _mm256_set_m128i, _mm256_setzero_si256, _mm256_shuffle_epi8, _mm256_xor_si256,
 };
 
-use super::{Wide, load128, load256, narrow};
+use super::{Wide, load128, load256, narrow, widest};
 use crate::crc::order::Order;
 use crate::crc::product;
 
@@ -13,22 +13,28 @@ const LONG: usize = 1025;
 
 /// The state after `bytes`.
 #[target_feature(enable = "vpclmulqdq,avx2,pclmulqdq,ssse3")]
-pub(super) fn update<O: Order>(wide: Wide, state: u16, bytes: &[u8]) -> u16 {
+pub(super) fn update<O: Order>(state: u16, bytes: &[u8], wide: Wide) -> u16 {
     if bytes.len() <= 16 {
-        return narrow::update_short::<O>(state, bytes);
-    }
-    if bytes.len() < LONG {
+        narrow::update_short::<O>(state, bytes)
+    } else if bytes.len() < widest::LEAST {
         product::medium::<O, _, 32>(wide, state, bytes)
     } else {
-        long::<O>(wide, state, bytes)
+        longer::<O>(state, bytes, wide)
     }
 }
 
+/// The state after at least [`widest::LEAST`] bytes.
 #[inline(never)]
 #[target_feature(enable = "vpclmulqdq,avx2,pclmulqdq,ssse3")]
-fn long<O: Order>(wide: Wide, state: u16, bytes: &[u8]) -> u16 {
+fn longer<O: Order>(state: u16, bytes: &[u8], wide: Wide) -> u16 {
+    if let Some(widest) = wide.widest {
+        return widest.update::<O>(state, bytes);
+    }
+    if bytes.len() < LONG {
+        return product::medium::<O, _, 32>(wide, state, bytes);
+    }
     let (state, tail) = product::long::<O, _, 32>(wide, state, bytes);
-    if tail.is_empty() { state } else { update::<O>(wide, state, tail) }
+    if tail.is_empty() { state } else { update::<O>(state, tail, wide) }
 }
 
 /// As [`Multiplies::head`](product::Multiplies::head); more than 16 bytes are enough.

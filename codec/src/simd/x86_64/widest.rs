@@ -7,7 +7,7 @@ use core::arch::x86_64::{
     _mm512_sub_epi8, _mm512_xor_si512, _mm512_zextsi128_si512,
 };
 
-use super::{Widest, load512, narrow, wide};
+use super::{Wide, Widest, load512, narrow, wide};
 use crate::crc::order::Order;
 use crate::crc::product;
 
@@ -53,7 +53,7 @@ pub(super) fn update<O: Order>(widest: Widest, state: u16, bytes: &[u8]) -> u16 
 #[target_feature(enable = "avx512f,avx512bw,avx512vbmi,vpclmulqdq,avx2,pclmulqdq,ssse3")]
 fn long<O: Order>(widest: Widest, state: u16, bytes: &[u8]) -> u16 {
     let (state, tail) = product::long::<O, _, 64>(widest, state, bytes);
-    if tail.is_empty() { state } else { wide::update::<O>(widest.wide(), state, tail) }
+    if tail.is_empty() { state } else { wide::update::<O>(state, tail, Wide { widest: None }) }
 }
 
 /// As [`Multiplies::head`](product::Multiplies::head).
