@@ -20,11 +20,11 @@ use super::compact;
 use super::fold::{Adds, BLOCK, GROUP, LEFT, Words, fold};
 use super::order::Order;
 use super::short;
+use crate::simd::HAS_WORDS;
 
 /// The state after `bytes`.
 pub(crate) fn update<O: Order>(state: u16, bytes: &[u8]) -> u16 {
-    if cfg!(not(any(target_pointer_width = "64", target_family = "wasm"))) {
-        // No 64-bit registers.
+    if !HAS_WORDS {
         return compact::update::<O>(state, bytes);
     }
     match bytes.len() {

@@ -77,6 +77,7 @@ fn compare(state: u16, bytes: &[u8], umts: u16, modbus: u16) {
 /// The machine must support the back ends that the tests claim to test.
 #[test]
 fn engines_are_all_here() {
+    #[cfg_attr(not(target_arch = "x86_64"), expect(unused_mut))]
     let mut expected = 1;
     #[cfg(all(target_arch = "x86_64", feature = "std"))]
     {

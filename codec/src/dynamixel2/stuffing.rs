@@ -4,6 +4,7 @@
 //! A *body* is the bytes from the instruction up to the CRC. A sender inserts FD after every FF FF
 //! FD in it; a receiver removes it.
 
+pub(crate) mod compact;
 mod insert;
 mod remove;
 #[cfg(test)]

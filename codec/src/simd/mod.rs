@@ -22,6 +22,10 @@ pub(crate) use search::{header, patterns};
 #[cfg(target_arch = "x86_64")]
 use x86_64::{Narrow, Wide};
 
+/// Whether the processor has registers of 64 bits. Without them a window costs more than it saves, in
+/// time and in code, so that everything is done byte by byte.
+pub(crate) const HAS_WORDS: bool = cfg!(any(target_pointer_width = "64", target_family = "wasm"));
+
 /// Bytes of a window.
 pub(crate) const WINDOW: usize = 64;
 

@@ -6,7 +6,8 @@
 //! zero where all bytes match.
 
 use super::words::{everywhere, zero_bytes};
-use super::{Backend, Task, WINDOW as LARGE, meter, run};
+use super::{Backend, HAS_WORDS, Task, WINDOW as LARGE, meter, run};
+use crate::dynamixel2::stuffing::compact;
 use crate::dynamixel2::{HEADER, STUFFING_BYTE, STUFFING_PATTERN};
 
 /// The number of places that are examined together.
@@ -40,6 +41,12 @@ fn may_be_header(bytes: &[u8]) -> bool {
 /// is none.
 pub(crate) fn header(bytes: &[u8]) -> usize {
     let [_, _, _, fourth] = HEADER;
+    let is_header = |at: &usize| bytes.get(*at..).is_some_and(may_be_header);
+    if !HAS_WORDS {
+        let found = (0..bytes.len()).find(is_header).unwrap_or(bytes.len());
+        meter::add(bytes.len().min(found + HEADER.len()));
+        return found;
+    }
     let mut at = match run(FindHeader { bytes }) {
         Ok(at) => {
             meter::add(at + HEADER.len());
@@ -57,7 +64,6 @@ pub(crate) fn header(bytes: &[u8]) -> usize {
         at += PLACES;
     }
     meter::add(bytes.len());
-    let is_header = |at: &usize| bytes.get(*at..).is_some_and(may_be_header);
     (at..bytes.len()).find(is_header).unwrap_or(bytes.len())
 }
 
@@ -68,6 +74,9 @@ pub(crate) fn header(bytes: &[u8]) -> usize {
 /// ends at `body_end`. A pattern counts as soon as the byte after it is available.
 #[inline]
 pub(crate) fn patterns(bytes: &[u8], from: usize, body_end: usize) -> Option<usize> {
+    if !HAS_WORDS {
+        return compact::patterns(bytes, from, body_end);
+    }
     let large = bytes.len() >= from + LARGE;
     let (mut count, mut at) =
         if large { run(CountPatterns { bytes, from, body_end })? } else { (0, from) };

@@ -3,7 +3,6 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::crc::Engine;
 use crate::crc::tests::umts_oracle;
 
 /// The results of a back end for a window.
@@ -43,6 +42,9 @@ impl Task for Which {
 #[test]
 fn the_fastest_back_end_of_the_processor_is_taken() {
     use std::is_x86_feature_detected as has;
+
+    use crate::crc::Engine;
+
     let narrow = has!("pclmulqdq") && has!("ssse3");
     let bits = has!("popcnt") && has!("bmi1") && has!("bmi2");
     let wide = narrow && bits && has!("vpclmulqdq") && has!("avx2");

@@ -5,7 +5,7 @@
 
 use crate::dynamixel2::header::{CRC, PREFIX};
 use crate::dynamixel2::{HEADER, STUFFING_BYTE, STUFFING_PATTERN};
-use crate::simd::{Backend, Looked, Pieces, Task, WINDOW, run};
+use crate::simd::{Backend, HAS_WORDS, Looked, Pieces, Task, WINDOW, run};
 
 /// Bytes before the parameters.
 const FRONT: usize = PREFIX + 1;
@@ -18,6 +18,9 @@ const ROOM: usize = FRONT + size_of::<u64>() - 1 + WINDOW + CRC;
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "as the public function is")]
 pub(super) fn encode(id: u8, code: u8, params: &[&[u8]], buffer: &mut [u8]) -> Option<usize> {
+    if !HAS_WORDS {
+        return None;
+    }
     let (mut lead, mut lead_len, mut tail) = (0_u64, 0, &[][..]);
     for part in params {
         if !tail.is_empty() {
@@ -40,6 +43,9 @@ pub(super) fn encode(id: u8, code: u8, params: &[&[u8]], buffer: &mut [u8]) -> O
 /// longer than 65 bytes or a pattern begins with its instruction.
 #[inline]
 pub(super) fn look(before_crc: &[u8]) -> Option<Looked> {
+    if !HAS_WORDS {
+        return None;
+    }
     let (prefix, tail) = before_crc.split_first_chunk()?;
     let prefix = u64::from_le_bytes(*prefix);
     run(Pieces { prefix, lead_len: 0, lead: 0, tail })

@@ -6,7 +6,7 @@
 use super::candidate::Whole;
 use crate::dynamixel2::STUFFING_PATTERN;
 use crate::dynamixel2::header::{CRC, Header, PREFIX};
-use crate::simd::{Backend, Places, Task, WINDOW, meter, run};
+use crate::simd::{Backend, HAS_WORDS, Places, Task, WINDOW, meter, run};
 
 /// The number of packets that are examined at once.
 const AHEAD: usize = 16;
@@ -47,6 +47,9 @@ impl Ready {
     #[inline(never)]
     pub(super) fn find(&mut self, buffer: &[u8], start: usize, max_packet: usize) {
         self.next = 0;
+        if !HAS_WORDS {
+            return; // the whole packet is looked at, as a long one
+        }
         self.count = run(Find { packets: &mut self.packets, buffer, start, max_packet });
     }
 }

@@ -1,7 +1,8 @@
 //! Stuffs a body in place.
 
+use super::compact;
 use crate::dynamixel2::{STUFFING_BYTE, STUFFING_PATTERN};
-use crate::simd::{Backend, Task, WINDOW, run};
+use crate::simd::{Backend, HAS_WORDS, Task, WINDOW, run};
 
 /// The number of places that a window decides: those whose whole pattern is in it.
 const PLACES: usize = WINDOW - (STUFFING_PATTERN.len() - 1);
@@ -10,11 +11,17 @@ const PLACES: usize = WINDOW - (STUFFING_PATTERN.len() - 1);
 /// new end, or `None` if they do not fit. The bytes after them in `buffer` are overwritten.
 #[inline]
 pub(crate) fn insert(buffer: &mut [u8], start: usize, end: usize) -> Option<usize> {
+    if !HAS_WORDS {
+        return compact::insert(buffer, start, end);
+    }
     run(Insert { buffer, start, end })
 }
 
 /// The number of bytes that stuffing adds to a body.
 pub(super) fn missing(body: &[u8]) -> usize {
+    if !HAS_WORDS {
+        return compact::missing(body);
+    }
     run(Missing { body })
 }
 

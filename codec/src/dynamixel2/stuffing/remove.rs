@@ -1,7 +1,8 @@
 //! Takes stuffing away: fast from a body that is known to be right, and from any other.
 
+use super::compact;
 use crate::dynamixel2::STUFFING_PATTERN;
-use crate::simd::{Backend, Places, Processor, Task, WINDOW, run};
+use crate::simd::{Backend, HAS_WORDS, Places, Processor, Task, WINDOW, run};
 
 /// The number of places that a window decides: those whose whole pattern and one more byte are in
 /// it.
@@ -12,6 +13,10 @@ const PLACES: usize = WINDOW - STUFFING_PATTERN.len();
 /// makes it faster; the bytes after them in `buffer` are overwritten.
 #[inline]
 pub(crate) fn remove(bytes: &[u8], stuffed: usize, buffer: &mut [u8], len: usize) {
+    if !HAS_WORDS {
+        let body = bytes.get(..stuffed).unwrap_or_default();
+        return remove_any(body, buffer.get_mut(..len).unwrap_or_default());
+    }
     if let Some(whole) = buffer.first_chunk_mut()
         && run(Short { bytes, stuffed, whole }).is_some()
     {
@@ -108,6 +113,9 @@ fn remove_any(body: &[u8], target: &mut [u8]) {
 /// # Errors
 /// The offset at which FD is missing after the first bare pattern.
 pub(super) fn checked(stuffed: &[u8], buffer: &mut [u8]) -> Result<usize, usize> {
+    if !HAS_WORDS {
+        return compact::checked(stuffed, buffer);
+    }
     // Not `run`, as with that call between them the compiler stores the task by moves of 16 bytes. The
     // back end loads 8 bytes at a time and has to wait for these: 6 % for short bodies.
     Processor::new().run(Checked { stuffed, buffer })

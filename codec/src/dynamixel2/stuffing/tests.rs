@@ -3,7 +3,9 @@
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-use super::{UnstuffError, insert, remove, stuff, stuffed_len, unstuff};
+use crate::simd::patterns;
+
+use super::{UnstuffError, compact, insert, remove, stuff, stuffed_len, unstuff};
 
 /// Bytes in which the pattern is common.
 fn tricky(most: usize) -> impl Strategy<Value = Vec<u8>> {
@@ -30,10 +32,16 @@ proptest! {
         // Into a buffer that ends anywhere.
         let mut buffer = [before.as_slice(), &body, &behind].concat();
         let (start, end) = (before.len(), before.len() + stuffed.len());
+        let mut by_byte = buffer.clone();
+        prop_assert_eq!(
+            compact::insert(&mut by_byte, start, start + body.len()),
+            Some(end).filter(|end| *end <= buffer.len())
+        );
         let inserted = insert(&mut buffer, start, start + body.len());
         prop_assert_eq!(inserted, Some(end).filter(|end| *end <= buffer.len()));
         if inserted.is_some() {
             prop_assert_eq!(&buffer[start..end], stuffed.as_slice());
+            prop_assert_eq!(&by_byte[..end], &buffer[..end]);
             prop_assert_eq!(&buffer[..start], before);
         }
 
@@ -47,17 +55,48 @@ proptest! {
         }
     }
 
+    /// Of packets that may be cut off, and end one byte into their CRC at most.
+    #[test]
+    fn patterns_are_counted_as_byte_by_byte(
+        body in tricky(200),
+        front in tricky(16),
+        after in proptest::option::of(prop_oneof![Just(0xFD_u8), any::<u8>()]),
+        from in 0..30_usize,
+        stuffed in any::<bool>(),
+    ) {
+        let body = if stuffed { stuff_bytewise(&body) } else { body };
+        let mut bytes = [&[0xFF, 0xFF, 0xFD, 0, 1, 0, 0], front.as_slice(), &body].concat();
+        let from = (7 + from).min(bytes.len());
+        let body_end = if after.is_some() { bytes.len() } else { bytes.len() + 1 };
+        bytes.extend(after);
+        prop_assert_eq!(
+            compact::patterns(&bytes, from, body_end),
+            patterns(&bytes, from, body_end)
+        );
+    }
+
     #[test]
     fn whole_bodies_are_as_byte_by_byte(body in tricky(400), room in 0..500_usize) {
         let mut buffer = vec![0; room];
         let expected = stuff_bytewise(&body);
         prop_assert_eq!(stuffed_len(&body), expected.len());
+        prop_assert_eq!(body.len() + compact::missing(&body), expected.len());
         match stuff(&body, &mut buffer) {
             Ok(stuffed) => prop_assert_eq!(stuffed, expected.as_slice()),
             Err(error) => prop_assert_eq!((error.needed, room < error.needed), (expected.len(), true)),
         }
         // Few random bytes are valid stuffed bodies.
         for stuffed in [&expected, &body] {
+            let mut target = vec![0; room];
+            let unstuffed = unstuff_bytewise(stuffed);
+            prop_assert_eq!(
+                compact::checked(stuffed, &mut target),
+                unstuffed.as_ref().map(Vec::len).map_err(|at| *at)
+            );
+            if let Ok(body) = unstuffed {
+                let kept = body.len().min(room);
+                prop_assert_eq!(&target[..kept], &body[..kept]);
+            }
             match (unstuff(stuffed, &mut buffer), unstuff_bytewise(stuffed)) {
                 (Ok(found), expected) => prop_assert_eq!(Ok(found.to_vec()), expected),
                 (Err(UnstuffError::Bare { at }), expected) => prop_assert_eq!(Err(at), expected),
