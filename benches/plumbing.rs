@@ -11,7 +11,7 @@ use actucheck_benches::input::Write;
 use actucheck_benches::input::{BATCH, Content, Random, messages, noise, writes};
 use actucheck_benches::measured::Measured;
 use actucheck_benches::traffic::{Traffic, count};
-use actucheck_benches::{chart, contender, measured, table};
+use actucheck_benches::{chart, contender, kept, measured, results, table};
 use actucheck_codec::dynamixel2::stuffing::{stuff, unstuff};
 use actucheck_codec::dynamixel2::{Frame, Instruction};
 use actucheck_codec::{EncodeError, crc};
@@ -215,7 +215,7 @@ fn sample() -> Vec<Measured> {
 #[test]
 fn ratios_follow_from_what_criterion_kept() {
     let all = sample();
-    let rows = table::rows(&all);
+    let rows = table::rows(&all, 256);
     let row = |group, case| {
         let found = rows
             .iter()
@@ -241,11 +241,69 @@ fn ratios_follow_from_what_criterion_kept() {
 #[test]
 fn tables_and_picture_show_what_was_measured() {
     let all = sample();
-    let text = table::markdown(&all);
+    let text = table::markdown(&all, 256);
     for line in ["| 64 | ", "of the speed of reading", "trap: time for twice the input"] {
         assert!(text.contains(line), "{line} in {text}");
     }
     let picture = chart::svg(&all);
     assert_eq!(picture.matches("<polyline").count(), 4);
     assert!(picture.contains(">crc-fast</text>") && !picture.contains("NaN"));
+}
+
+#[test]
+fn results_follow_from_the_runs_that_are_kept() {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let runs = kept::read(&here.join("runs")).unwrap();
+    let results = fs::read_to_string(here.join("RESULTS.md")).unwrap();
+    let repeat = "repeat it with `cargo run --release -p actucheck-benches`";
+    let small = fs::read_to_string(here.join("runs/thumbv7em.md")).unwrap();
+    assert!(results::renewed(&results, &runs, &small).unwrap() == results, "RESULTS.md: {repeat}");
+    for run in runs {
+        let picture = fs::read_to_string(here.join("runs").join(run.machine.name() + ".svg"));
+        assert!(
+            picture.unwrap() == chart::svg(&run.measured),
+            "{}.svg: {repeat}",
+            run.machine.name()
+        );
+    }
+}
+
+#[test]
+fn a_run_that_is_kept_is_read_again() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("kept");
+    let run = kept::Run { machine: kept::Machine::here(), measured: sample() };
+    run.keep(&folder).unwrap();
+    assert_eq!(kept::read(&folder).unwrap(), [run]);
+    fs::write(folder.join("other.json"), "{}").unwrap();
+    let error = kept::read(&folder).unwrap_err().to_string();
+    assert!(error.contains("other.json is not a run"), "{error}");
+    fs::remove_file(folder.join("other.json")).unwrap();
+}
+
+/// Peers are measured beside the registers that the codec has, and nothing is faster than reading.
+#[test]
+fn goals_of_long_messages_go_with_the_registers() {
+    let measured = |who: &str, time| Measured {
+        group: "umts".to_owned(),
+        who: who.to_owned(),
+        case: "65536".to_owned(),
+        time,
+        error: 0.0,
+        units: 65_536.0,
+    };
+    for (bits, peer, reading, verdict) in [
+        (256, 5000.0, 100.0, "met"),
+        (256, 4900.0, 100.0, "**missed**"),
+        (256, 4900.0, 900.0, "met, 0.90 of reading"),
+        (512, 1300.0, 100.0, "met"),
+        (512, 1200.0, 890.0, "**missed**"),
+        (128, 1200.0, 890.0, ""),
+    ] {
+        let all = [
+            measured(contender::OURS, 1000.0),
+            measured("crc-fast", peer),
+            measured(contender::READ, reading),
+        ];
+        assert_eq!(table::rows(&all, bits)[0].verdict(), verdict, "{bits} {peer} {reading}");
+    }
 }

@@ -1,21 +1,28 @@
-//! Makes `RESULTS.md` and `crc.svg` from criterion's measurements.
+//! Keeps criterion's measurements, and makes `RESULTS.md` and pictures from all that is kept.
 //!
-//! `cargo run --release -p actucheck-benches [FOLDER]`, right after `cargo bench`. The default
-//! folder is `target/criterion`. In `RESULTS.md` it replaces the text between the two marks; the
-//! rest is written by hand.
+//! `cargo run --release -p actucheck-benches [keep [FOLDER]]`: with `keep`, right after `cargo bench`, the
+//! measurements in the folder, else in `target/criterion`, are kept in `runs/` first.
 
 use std::io;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode};
+use std::process::ExitCode;
 use std::{env, fs};
 
-use actucheck_benches::{chart, measured, table};
-
-const BEGIN: &str = "<!-- measured -->\n";
-const END: &str = "<!-- end of measured -->\n";
+use actucheck_benches::kept::{Machine, Run};
+use actucheck_benches::{chart, kept, measured, results};
 
 fn main() -> ExitCode {
-    match run() {
+    let arguments: Vec<_> = env::args_os().skip(1).collect();
+    let folder = match arguments.as_slice() {
+        [] => None,
+        [keep] if keep == "keep" => Some(here().join("../target/criterion")),
+        [keep, folder] if keep == "keep" => Some(PathBuf::from(folder)),
+        _ => {
+            eprintln!("ratios: say `keep`, with or without a folder of criterion's, or nothing");
+            return ExitCode::from(2);
+        }
+    };
+    match run(folder.as_deref()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("ratios: {error}");
@@ -24,49 +31,23 @@ fn main() -> ExitCode {
     }
 }
 
-fn run() -> io::Result<()> {
-    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let folder = env::args_os().nth(1).map_or(here.join("../target/criterion"), PathBuf::from);
-    let all = measured::read(&folder)?;
-    let results = here.join("RESULTS.md");
-    let old = fs::read_to_string(&results)?;
-    let parts = old.split_once(BEGIN).zip(old.split_once(END));
-    let ((before, _), (_, after)) = parts.ok_or_else(|| io::Error::other("no marks"))?;
-    let tables = table::markdown(&all);
-    fs::write(&results, format!("{before}{BEGIN}\n{}\n{tables}\n{END}{after}", circumstances()))?;
-    fs::write(here.join("crc.svg"), chart::svg(&all))?;
-    print!("{tables}");
-    Ok(())
+fn here() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Machine, compiler, day and load.
-fn circumstances() -> String {
-    let said = |program: &str, argument: &str| {
-        let output = Command::new(program).arg(argument).output();
-        output.map(|output| String::from_utf8_lossy(&output.stdout).trim().to_owned())
-    };
-    let unknown = |_| "unknown".to_owned();
-    let cpu = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let line = |name: &str| {
-        let line = cpu.lines().find(|line| line.starts_with(name));
-        line.and_then(|line| line.split_once(": ")).map_or("unknown", |(_, value)| value)
-    };
-    let flags = ["sse2", "avx2", "pclmulqdq", "vpclmulqdq", "avx512f"];
-    let flags: Vec<_> = flags
-        .into_iter()
-        .filter(|flag| line("flags").split(' ').any(|other| other == *flag))
-        .collect();
-    format!(
-        "- processor: {} (family {}, model {}) with {}\n- compiler: {}\n- day: {}\n\
-         - load over 1, 5 and 15 minutes when the run ended: {}\n",
-        line("model name"),
-        line("cpu family"),
-        line("model\t"),
-        flags.join(", "),
-        said("rustc", "--version").unwrap_or_else(unknown),
-        said("date", "+%F").unwrap_or_else(unknown),
-        fs::read_to_string("/proc/loadavg").map_or_else(unknown, |load| {
-            load.split(' ').take(3).collect::<Vec<_>>().join(", ")
-        }),
-    )
+fn run(measured: Option<&Path>) -> io::Result<()> {
+    let folder = here().join("runs");
+    if let Some(measured) = measured {
+        Run { machine: Machine::here(), measured: measured::read(measured)? }.keep(&folder)?;
+    }
+    let runs = kept::read(&folder)?;
+    let results = here().join("RESULTS.md");
+    let small = fs::read_to_string(folder.join("thumbv7em.md"))?;
+    let new = results::renewed(&fs::read_to_string(&results)?, &runs, &small);
+    fs::write(&results, new.ok_or_else(|| io::Error::other("RESULTS.md has lost its marks"))?)?;
+    for run in &runs {
+        fs::write(folder.join(run.machine.name() + ".svg"), chart::svg(&run.measured))?;
+    }
+    println!("wrote {}", results.display());
+    Ok(())
 }

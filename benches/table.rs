@@ -3,7 +3,9 @@
 use std::fmt::Write as _;
 
 use crate::contender::{OURS, PORTABLE, READ, is_peer};
-use crate::goals::{GROWTH, OF_READING, READ_ANSWERED, SYNC_READ_CARRIED, goal};
+use crate::goals::{
+    AS_FAST_AS_READING, GROWTH, OF_READING, READ_ANSWERED, SYNC_READ_CARRIED, goal,
+};
 use crate::measured::Measured;
 
 /// One case: the codec, the best peer, and the goal.
@@ -16,6 +18,8 @@ pub struct Row<'a> {
     pub portable: Option<&'a Measured>,
     /// The fastest peer's measurement, if there is a peer.
     pub peer: Option<&'a Measured>,
+    /// The time of only reading the bytes, if it was measured.
+    pub reading: Option<&'a Measured>,
     /// The goal: the factor by which the codec must be faster than the peer.
     pub goal: Option<f64>,
 }
@@ -27,36 +31,55 @@ impl Row<'_> {
         self.peer.map(|peer| peer.per_unit() / self.ours.per_unit())
     }
 
-    /// Whether the goal, if there is one, is reached.
+    /// The speed as a fraction of the speed of only reading the bytes.
+    #[must_use]
+    pub fn of_reading(&self) -> Option<f64> {
+        self.reading.map(|reading| reading.per_unit() / self.ours.per_unit())
+    }
+
+    /// Whether the goal, if there is one, is reached, or there is no more to gain.
     #[must_use]
     pub fn met(&self) -> Option<bool> {
-        self.goal.zip(self.ratio()).map(|(goal, ratio)| ratio >= goal)
+        let as_fast = self.of_reading().is_some_and(|part| part >= AS_FAST_AS_READING);
+        self.goal.zip(self.ratio()).map(|(goal, ratio)| ratio >= goal || as_fast)
+    }
+
+    /// [`met`](Self::met) in a word or some.
+    #[must_use]
+    pub fn verdict(&self) -> String {
+        let beaten = self.goal.zip(self.ratio()).is_some_and(|(goal, ratio)| ratio >= goal);
+        match (self.met(), self.of_reading()) {
+            (Some(true), Some(part)) if !beaten => format!("met, {part:.2} of reading"),
+            (met, _) => met.map_or("", verdict).to_owned(),
+        }
     }
 }
 
-/// One row per case of the codec.
+const fn verdict(met: bool) -> &'static str {
+    if met { "met" } else { "**missed**" }
+}
+
+/// One row per case of the codec, measured where it has registers of so many bits.
 #[must_use]
-pub fn rows(all: &[Measured]) -> Vec<Row<'_>> {
+pub fn rows<'a>(all: &'a [Measured], bits: u32) -> Vec<Row<'a>> {
     let ours = all.iter().filter(|measured| measured.who == OURS);
-    let row = |ours: &'_ Measured| {
+    let row = |ours: &'a Measured| {
         let ours_case = (&ours.group, &ours.case);
         let others = || all.iter().filter(move |other| (&other.group, &other.case) == ours_case);
         let peers = others().filter(|other| is_peer(&other.who));
         let peer = peers.min_by(|a, b| a.per_unit().total_cmp(&b.per_unit()));
         let portable = others().find(|other| other.who == PORTABLE);
-        (portable, peer, goal(&ours.group, &ours.case))
+        let reading = others().find(|other| other.who == READ);
+        let goal = goal(&ours.group, &ours.case, bits);
+        Row { ours, portable, peer, reading, goal }
     };
-    let rows = ours.map(|ours| {
-        let (portable, peer, goal) = row(ours);
-        Row { ours, portable, peer, goal }
-    });
-    rows.collect()
+    ours.map(row).collect()
 }
 
-/// The whole table.
+/// All tables, of a machine with registers of so many bits.
 #[must_use]
-pub fn markdown(all: &[Measured]) -> String {
-    let rows = rows(all);
+pub fn markdown(all: &[Measured], bits: u32) -> String {
+    let rows = rows(all, bits);
     let mut text = String::new();
     let mut groups: Vec<_> = rows.iter().map(|row| row.ours.group.as_str()).collect();
     groups.dedup();
@@ -94,7 +117,7 @@ fn table(rows: &[&Row]) -> String {
                 row.ratio().unwrap_or(0.0),
                 (ours.error + peer.error) * 100.0,
                 row.goal.map(|goal| format!("{goal:.1}")).unwrap_or_default(),
-                row.met().map_or("", |met| if met { "met" } else { "**missed**" }),
+                row.verdict(),
             )
         } else {
             let speed = bytes(ours).map(|_| format!("{:.2}", 1.0 / ours.per_unit()));
@@ -129,7 +152,6 @@ fn limits(all: &[Measured]) -> String {
         all.iter().find(wanted)
     };
     let mut text = "\n### Limits\n\n| what | is | goal | |\n|---|---:|---:|---|\n".to_owned();
-    let verdict = |met| if met { "met" } else { "**missed**" };
     for group in ["umts", "modbus"] {
         if let Some((ours, read)) = find(group, "65536", OURS).zip(find(group, "65536", READ)) {
             let part = read.time / ours.time;

@@ -1,0 +1,90 @@
+//! `RESULTS.md` from the runs that are kept.
+
+use std::fmt::Write as _;
+
+use crate::kept::{Machine, Run};
+use crate::table::{self, Row};
+
+const BEGIN: &str = "<!-- measured -->\n";
+const END: &str = "<!-- end of measured -->\n";
+
+/// `results` with the text between its two marks written anew, from the runs and the table of a
+/// micro-controller; the rest was written by hand. `None` if there are no marks.
+#[must_use]
+pub fn renewed(results: &str, runs: &[Run], small: &str) -> Option<String> {
+    let (before, _) = results.split_once(BEGIN)?;
+    let (_, after) = results.split_once(END)?;
+    Some(format!(
+        "{before}{BEGIN}\n{}\n## On a micro-controller\n\n{small}\n{END}{after}",
+        measured(runs)
+    ))
+}
+
+/// All goals machine beside machine, then all that each has measured.
+fn measured(runs: &[Run]) -> String {
+    let mut text = beside(runs);
+    for Run { machine, measured } in runs {
+        // Writing to a string can't fail.
+        let _ = write!(
+            text,
+            "\n## {}\n\n{}\n![CRC-16/UMTS throughput over message size](runs/{}.svg)\n{}",
+            machine.short(),
+            circumstances(machine),
+            machine.name(),
+            table::markdown(measured, machine.bits),
+        );
+    }
+    text
+}
+
+fn circumstances(machine: &Machine) -> String {
+    let mut text = format!(
+        "- processor: {} with {}\n- compiler: {}\n- day: {}\n\
+         - load over 1, 5 and 15 minutes when the run ended: {}\n",
+        machine.processor,
+        machine.features.join(", "),
+        machine.compiler,
+        machine.day,
+        machine.load,
+    );
+    if let Some(note) = &machine.note {
+        let _ = writeln!(text, "- note: {note}");
+    }
+    text
+}
+
+/// The ratios of all cases with a goal, a column for each machine.
+fn beside(runs: &[Run]) -> String {
+    let columns: Vec<Vec<Row>> =
+        runs.iter().map(|run| table::rows(&run.measured, run.machine.bits)).collect();
+    let key = |row: &Row| (row.ours.group.clone(), row.ours.case.clone());
+    let mut cases = Vec::new();
+    for row in columns.iter().flatten().filter(|row| row.met().is_some()) {
+        if !cases.contains(&key(row)) {
+            cases.push(key(row));
+        }
+    }
+    cases.sort_by_key(|(group, case)| (group.clone(), case.parse().unwrap_or(u64::MAX)));
+
+    let mut text = "## Goals, machine by machine\n\n| case |".to_owned();
+    for run in runs {
+        let _ = write!(text, " {} |", run.machine.short());
+    }
+    let _ = writeln!(text, "\n|---|{}", "---|".repeat(runs.len()));
+    for case in cases {
+        let _ = write!(text, "| {}, {} |", case.0, case.1);
+        for column in &columns {
+            let row = column.iter().find(|row| key(row) == case);
+            let _ = write!(text, " {} |", row.map(cell).unwrap_or_default());
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// `6.42 of 5.0: met`, and how that was.
+fn cell(row: &Row) -> String {
+    let Some(ratio) = row.ratio() else { return String::new() };
+    let goal = row.goal.map(|goal| format!(" of {goal:.1}: {}", row.verdict()));
+    format!("{ratio:.2}{}", goal.unwrap_or_default())
+}
