@@ -66,6 +66,8 @@ impl Engine {
     pub const fn bits(self) -> u32 {
         match self.0 {
             Processor::Portable => 64,
+            #[cfg(target_arch = "aarch64")]
+            Processor::Pmull(_) => 128,
             #[cfg(target_arch = "x86_64")]
             Processor::Narrow(_) => 128,
             #[cfg(target_arch = "x86_64")]
@@ -105,6 +107,8 @@ impl Engine {
     fn update<O: Order>(self, state: u16, bytes: &[u8]) -> u16 {
         match self.0 {
             Processor::Portable => portable::update::<O>(state, bytes),
+            #[cfg(target_arch = "aarch64")]
+            Processor::Pmull(pmull) => pmull.update::<O>(state, bytes),
             #[cfg(target_arch = "x86_64")]
             Processor::Narrow(narrow) => narrow.update::<O>(state, bytes),
             #[cfg(target_arch = "x86_64")]

@@ -28,7 +28,7 @@ pub(crate) fn factors<O: Order, const N: usize>() -> &'static [[u8; N]] {
 /// The 64 bits below the highest of the quotient of x^80 by P.
 #[inline]
 #[cfg_attr(
-    not(target_arch = "x86_64"),
+    not(any(target_arch = "aarch64", target_arch = "x86_64")),
     expect(dead_code, reason = "the tests need the factors alone")
 )]
 pub(crate) fn inverse<O: Order>() -> u64 {

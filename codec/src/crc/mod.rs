@@ -20,12 +20,12 @@
 
 pub(crate) mod compact;
 mod engine;
-#[cfg(any(test, target_arch = "x86_64"))]
+#[cfg(any(test, target_arch = "aarch64", target_arch = "x86_64"))]
 pub(crate) mod factors;
 pub(crate) mod fold;
 pub(crate) mod order;
 pub(crate) mod portable;
-#[cfg(any(test, target_arch = "x86_64"))]
+#[cfg(any(test, target_arch = "aarch64", target_arch = "x86_64"))]
 pub(crate) mod product;
 pub(crate) mod shift;
 pub(crate) mod short;

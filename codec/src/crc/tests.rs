@@ -77,13 +77,21 @@ fn compare(state: u16, bytes: &[u8], umts: u16, modbus: u16) {
 /// The machine must support the back ends that the tests claim to test.
 #[test]
 fn engines_are_all_here() {
-    #[cfg_attr(not(target_arch = "x86_64"), expect(unused_mut))]
+    #[cfg_attr(not(any(target_arch = "aarch64", target_arch = "x86_64")), expect(unused_mut))]
     let mut expected = 1;
     #[cfg(all(target_arch = "x86_64", feature = "std"))]
     {
         expected += usize::from(std::is_x86_feature_detected!("pclmulqdq"));
         expected += usize::from(std::is_x86_feature_detected!("vpclmulqdq"));
         expected += usize::from(std::is_x86_feature_detected!("avx512vbmi"));
+    }
+    #[cfg(all(target_arch = "aarch64", feature = "std"))]
+    {
+        expected += usize::from(std::arch::is_aarch64_feature_detected!("aes"));
+    }
+    #[cfg(all(target_arch = "aarch64", not(feature = "std")))]
+    {
+        expected += usize::from(cfg!(target_feature = "aes"));
     }
     #[cfg(all(target_arch = "x86_64", not(feature = "std")))]
     {

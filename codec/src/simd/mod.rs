@@ -2,9 +2,11 @@
 //!
 //! A [`Task`] is a loop over windows. [`run`] compiles it once for each back end and picks the one
 //! for this machine. A [`Backend`] finds the pattern of byte stuffing in a window, and checks
-//! whether a window ends in its CRC. All of the crate's `unsafe` is in `x86_64`; the arithmetic of
-//! CRCs is in [`crc`](crate::crc).
+//! whether a window ends in its CRC. All of the crate's `unsafe` is in `aarch64` and `x86_64`; the
+//! arithmetic of CRCs is in [`crc`](crate::crc).
 
+#[cfg(target_arch = "aarch64")]
+mod aarch64;
 #[cfg(any(test, feature = "meter"))]
 pub mod meter;
 #[cfg(not(any(test, feature = "meter")))]
@@ -13,10 +15,14 @@ mod portable;
 mod search;
 #[cfg(test)]
 mod tests;
+#[cfg(any(target_arch = "aarch64", target_arch = "x86_64"))]
+mod unit;
 mod words;
 #[cfg(target_arch = "x86_64")]
 mod x86_64;
 
+#[cfg(target_arch = "aarch64")]
+use aarch64::Pmull;
 use portable::Portable;
 pub(crate) use search::{header, patterns};
 #[cfg(target_arch = "x86_64")]
@@ -119,6 +125,8 @@ fn keep_last(len: usize) -> &'static [u8; WINDOW] {
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Processor {
     Portable,
+    #[cfg(target_arch = "aarch64")]
+    Pmull(Pmull),
     #[cfg(target_arch = "x86_64")]
     Narrow(Narrow),
     #[cfg(target_arch = "x86_64")]
@@ -133,7 +141,11 @@ impl Processor {
         {
             x86_64::fastest()
         }
-        #[cfg(not(target_arch = "x86_64"))]
+        #[cfg(target_arch = "aarch64")]
+        {
+            aarch64::fastest()
+        }
+        #[cfg(not(any(target_arch = "aarch64", target_arch = "x86_64")))]
         {
             Self::Portable
         }
@@ -147,7 +159,9 @@ impl Processor {
             Wide::new().map(Self::Wide),
             Wide::widest().map(Self::Wide),
         ];
-        #[cfg(not(target_arch = "x86_64"))]
+        #[cfg(target_arch = "aarch64")]
+        let special = [Pmull::new().map(Self::Pmull)];
+        #[cfg(not(any(target_arch = "aarch64", target_arch = "x86_64")))]
         let special: [Option<Self>; 0] = [];
         [Self::Portable].into_iter().chain(special.into_iter().flatten())
     }
@@ -157,6 +171,8 @@ impl Processor {
     pub(crate) fn run<T: Task>(self, task: T) -> T::Output {
         match self {
             Self::Portable => portable(task),
+            #[cfg(target_arch = "aarch64")]
+            Self::Pmull(pmull) => pmull.run(task),
             #[cfg(target_arch = "x86_64")]
             Self::Narrow(narrow) => narrow.run(task),
             #[cfg(target_arch = "x86_64")]

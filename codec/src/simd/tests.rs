@@ -141,8 +141,9 @@ proptest! {
                 });
                 for (index, processor) in Processor::all().enumerate() {
                     let found = processor.run(pieces);
-                    // The portable processor, the first, may decline.
-                    if index > 0 || found.is_some() {
+                    // The portable processor, the first, may decline, and whoever looks as it does.
+                    let may_decline = index == 0 || cfg!(not(target_arch = "x86_64"));
+                    if found.is_some() || !may_decline {
                         prop_assert_eq!(found, expected, "{:?}, {} and {}", processor, lead_len, tail_len);
                     }
                 }

@@ -22,10 +22,9 @@ use core::arch::x86_64::{
 #[cfg(feature = "std")]
 use core::sync::atomic::{AtomicU8, Ordering};
 
+use super::unit::unit;
 use super::{Processor, Task};
-use crate::crc::fold::Adds;
 use crate::crc::order::Order;
-use crate::crc::product::Multiplies;
 
 /// Whether the processor has all of the features: detected at run time with `std`, otherwise those
 /// enabled for the build.
@@ -182,59 +181,6 @@ impl Widest {
         // SAFETY: a `Widest` is made only where the features that the function needs were found.
         unsafe { widest::update::<O>(self, state, bytes) }
     }
-}
-
-/// Implements the operations on blocks for a back end, by its module's functions.
-macro_rules! unit {
-    ($proof:ident, $bytes:literal, $block:ident, $module:ident) => {
-        impl Adds<$bytes> for $proof {
-            type Block = $block;
-
-            #[inline(always)]
-            fn zero(self) -> $block {
-                // SAFETY: the proof is made only where the features that the function needs were found.
-                unsafe { $module::zero() }
-            }
-
-            #[inline(always)]
-            fn load(self, bytes: &[u8; $bytes]) -> $block {
-                // SAFETY: as above.
-                unsafe { $module::load(bytes) }
-            }
-
-            #[inline(always)]
-            fn add(self, a: $block, b: $block) -> $block {
-                // SAFETY: as above.
-                unsafe { $module::add(a, b) }
-            }
-
-            #[inline(always)]
-            fn odd(self, block: $block) -> bool {
-                // SAFETY: as above.
-                unsafe { $module::odd(block) }
-            }
-        }
-
-        impl Multiplies<$bytes> for $proof {
-            #[inline(always)]
-            fn head<O: Order>(self, state: u16, bytes: &[u8], used: usize) -> $block {
-                // SAFETY: as above.
-                unsafe { $module::head::<O>(state, bytes, used) }
-            }
-
-            #[inline(always)]
-            fn multiply<O: Order>(self, block: $block, factors: &[u8; $bytes]) -> $block {
-                // SAFETY: as above.
-                unsafe { $module::multiply($module::arrange::<O>(block), $module::load(factors)) }
-            }
-
-            #[inline(always)]
-            fn finish<O: Order>(self, sums: $block) -> u16 {
-                // SAFETY: as above.
-                unsafe { $module::finish::<O>(sums) }
-            }
-        }
-    };
 }
 
 unit!(Narrow, 16, __m128i, narrow);
