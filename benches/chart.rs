@@ -13,7 +13,7 @@ const SIZES: (f64, f64) = (8.0, 1_048_576.0);
 const SPEEDS: (f64, f64) = (0.2, 128.0);
 
 /// Colours for light and dark backgrounds: strong ones for the codec, pale ones for the peers.
-const STYLE: &str = "
+pub(crate) const STYLE: &str = "
   text { font: 13px system-ui, sans-serif; fill: #57606a }
   .title { font-size: 16px; font-weight: 600; fill: #1f2328 }
   .grid { stroke: #d0d7de; stroke-width: 1 }
@@ -113,7 +113,7 @@ fn lines(all: &[Measured]) -> Vec<Line<'_>> {
 }
 
 /// The position of a value between `from` and `to`, by its place in its range.
-fn along(value: f64, (least, most): (f64, f64), from: f64, to: f64) -> f64 {
+pub(crate) fn along(value: f64, (least, most): (f64, f64), from: f64, to: f64) -> f64 {
     from + (to - from) * (value / least).ln() / (most / least).ln()
 }
 

@@ -1,4 +1,4 @@
-//! Runs that are kept in `runs/`: what was measured, on which machine.
+//! Runs that are kept in `runs/machines/`: what was measured, on which machine.
 //!
 //! A file's name is the kind of processor and the size of the registers that the codec computes long
 //! messages in, as goals differ by it: `x86_64-512.json`. A new run on such a machine replaces it.

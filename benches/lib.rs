@@ -7,6 +7,8 @@
 pub mod chart;
 pub mod contender;
 pub mod goals;
+pub mod growth;
+pub mod growth_chart;
 pub mod input;
 pub mod kept;
 pub mod measured;

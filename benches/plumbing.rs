@@ -10,8 +10,9 @@ use std::path::Path;
 use actucheck_benches::input::Write;
 use actucheck_benches::input::{BATCH, Content, Random, messages, noise, writes};
 use actucheck_benches::measured::Measured;
+use actucheck_benches::results::Kept;
 use actucheck_benches::traffic::{Traffic, count};
-use actucheck_benches::{chart, contender, kept, measured, results, table};
+use actucheck_benches::{chart, contender, growth, kept, measured, results, table};
 use actucheck_codec::dynamixel2::stuffing::{stuff, unstuff};
 use actucheck_codec::dynamixel2::{Frame, Instruction};
 use actucheck_codec::{EncodeError, crc};
@@ -253,18 +254,13 @@ fn tables_and_picture_show_what_was_measured() {
 #[test]
 fn results_follow_from_the_runs_that_are_kept() {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let runs = kept::read(&here.join("runs")).unwrap();
+    let kept = Kept::read(&here.join("runs")).unwrap();
     let results = fs::read_to_string(here.join("RESULTS.md")).unwrap();
     let repeat = "repeat it with `cargo run --release -p actucheck-benches`";
-    let small = fs::read_to_string(here.join("runs/thumbv7em.md")).unwrap();
-    assert!(results::renewed(&results, &runs, &small).unwrap() == results, "RESULTS.md: {repeat}");
-    for run in runs {
-        let picture = fs::read_to_string(here.join("runs").join(run.machine.name() + ".svg"));
-        assert!(
-            picture.unwrap() == chart::svg(&run.measured),
-            "{}.svg: {repeat}",
-            run.machine.name()
-        );
+    assert!(results::renewed(&results, &kept).unwrap() == results, "RESULTS.md: {repeat}");
+    for (name, picture) in kept.pictures() {
+        let found = fs::read_to_string(here.join("runs").join(&name)).unwrap();
+        assert!(found == picture, "{name}: {repeat}");
     }
 }
 
@@ -305,5 +301,22 @@ fn goals_of_long_messages_go_with_the_registers() {
             measured(contender::READ, reading),
         ];
         assert_eq!(table::rows(&all, bits)[0].verdict(), verdict, "{bits} {peer} {reading}");
+    }
+}
+
+#[test]
+fn time_in_proportion_to_the_work_and_the_same_memory_are_met() {
+    let run = |work, seconds, memory| growth::Run { work, seconds, memory };
+    for (more, verdict) in [
+        (run(1000, 11.0, 1100), "| 11.0 | 1.10 | met |"),
+        (run(1000, 11.1, 1000), "| 11.1 | 1.00 | **missed** |"),
+        (run(500, 5.6, 1000), "| 5.6 | 1.00 | **missed** |"),
+        (run(1000, 9.0, 1200), "| 9.0 | 1.20 | **missed** |"),
+    ] {
+        let runs = vec![run(100, 1.0, 1000), more];
+        let command = growth::Command { name: "codec".into(), unit: "checks".into(), runs };
+        let all = growth::Growth { machine: kept::Machine::here(), commands: vec![command] };
+        let table = growth::markdown(&all);
+        assert!(table.ends_with(&format!("{verdict}\n")), "{verdict} in {table}");
     }
 }

@@ -1,7 +1,7 @@
 //! Keeps criterion's measurements, and makes `RESULTS.md` and pictures from all that is kept.
 //!
 //! `cargo run --release -p actucheck-benches [keep [FOLDER]]`: with `keep`, right after `cargo bench`, the
-//! measurements in the folder, else in `target/criterion`, are kept in `runs/` first.
+//! measurements in the folder, else in `target/criterion`, are kept in `runs/machines/` first.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,8 @@ use std::process::ExitCode;
 use std::{env, fs};
 
 use actucheck_benches::kept::{Machine, Run};
-use actucheck_benches::{chart, kept, measured, results};
+use actucheck_benches::results::Kept;
+use actucheck_benches::{measured, results};
 
 fn main() -> ExitCode {
     let arguments: Vec<_> = env::args_os().skip(1).collect();
@@ -38,15 +39,15 @@ fn here() -> &'static Path {
 fn run(measured: Option<&Path>) -> io::Result<()> {
     let folder = here().join("runs");
     if let Some(measured) = measured {
-        Run { machine: Machine::here(), measured: measured::read(measured)? }.keep(&folder)?;
+        Run { machine: Machine::here(), measured: measured::read(measured)? }
+            .keep(&folder.join(results::MACHINES))?;
     }
-    let runs = kept::read(&folder)?;
+    let kept = Kept::read(&folder)?;
     let results = here().join("RESULTS.md");
-    let small = fs::read_to_string(folder.join("thumbv7em.md"))?;
-    let new = results::renewed(&fs::read_to_string(&results)?, &runs, &small);
+    let new = results::renewed(&fs::read_to_string(&results)?, &kept);
     fs::write(&results, new.ok_or_else(|| io::Error::other("RESULTS.md has lost its marks"))?)?;
-    for run in &runs {
-        fs::write(folder.join(run.machine.name() + ".svg"), chart::svg(&run.measured))?;
+    for (name, picture) in kept.pictures() {
+        fs::write(folder.join(name), picture)?;
     }
     println!("wrote {}", results.display());
     Ok(())

@@ -1,22 +1,68 @@
 //! `RESULTS.md` from the runs that are kept.
 
 use std::fmt::Write as _;
+use std::fs;
+use std::io;
+use std::path::Path;
 
-use crate::kept::{Machine, Run};
+use crate::growth::{self, Growth};
+use crate::kept::{self, Machine, Run};
 use crate::table::{self, Row};
+use crate::{chart, growth_chart};
 
+/// The folder with a run of each machine.
+pub const MACHINES: &str = "machines";
+/// The file with how the program grows.
+const GROWTH: &str = "growth.json";
 const BEGIN: &str = "<!-- measured -->\n";
 const END: &str = "<!-- end of measured -->\n";
 
-/// `results` with the text between its two marks written anew, from the runs and the table of a
-/// micro-controller; the rest was written by hand. `None` if there are no marks.
+/// What is kept.
+pub struct Kept {
+    /// The runs of all benchmarks.
+    pub runs: Vec<Run>,
+    /// How the program grows.
+    pub growth: Growth,
+    /// The table of a micro-controller.
+    pub small: String,
+}
+
+impl Kept {
+    /// All in `folder`.
+    ///
+    /// # Errors
+    /// If something is missing, or is not what it should be.
+    pub fn read(folder: &Path) -> io::Result<Self> {
+        Ok(Self {
+            runs: kept::read(&folder.join(MACHINES))?,
+            growth: growth::read(&folder.join(GROWTH))?,
+            small: fs::read_to_string(folder.join("thumbv7em.md"))?,
+        })
+    }
+
+    /// The pictures, each with the name of its file.
+    #[must_use]
+    pub fn pictures(&self) -> Vec<(String, String)> {
+        let runs = self.runs.iter();
+        let throughput = runs.map(|run| (picture(&run.machine), chart::svg(&run.measured)));
+        let growth = ("growth.svg".to_owned(), growth_chart::svg(&self.growth));
+        throughput.chain([growth]).collect()
+    }
+}
+
+/// `results` with the text between its two marks written anew; the rest was written by hand. `None` if
+/// there are no marks.
 #[must_use]
-pub fn renewed(results: &str, runs: &[Run], small: &str) -> Option<String> {
+pub fn renewed(results: &str, kept: &Kept) -> Option<String> {
     let (before, _) = results.split_once(BEGIN)?;
     let (_, after) = results.split_once(END)?;
+    let Kept { runs, growth, small } = kept;
+    let (measured, table) = (measured(runs), growth::markdown(growth));
+    let circumstances = circumstances(&growth.machine);
     Some(format!(
-        "{before}{BEGIN}\n{}\n## On a micro-controller\n\n{small}\n{END}{after}",
-        measured(runs)
+        "{before}{BEGIN}\n{measured}\n## How the program grows\n\n{circumstances}\n\
+         ![Time and memory over the work](runs/growth.svg)\n\n{table}\n\
+         ## On a micro-controller\n\n{small}\n{END}{after}"
     ))
 }
 
@@ -27,14 +73,19 @@ fn measured(runs: &[Run]) -> String {
         // Writing to a string can't fail.
         let _ = write!(
             text,
-            "\n## {}\n\n{}\n![CRC-16/UMTS throughput over message size](runs/{}.svg)\n{}",
+            "\n## {}\n\n{}\n![CRC-16/UMTS throughput over message size](runs/{})\n{}",
             machine.short(),
             circumstances(machine),
-            machine.name(),
+            picture(machine),
             table::markdown(measured, machine.bits),
         );
     }
     text
+}
+
+/// The file of a machine's picture.
+fn picture(machine: &Machine) -> String {
+    format!("{MACHINES}/{}.svg", machine.name())
 }
 
 fn circumstances(machine: &Machine) -> String {
