@@ -3,17 +3,15 @@
 use std::fs;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
-use std::sync::Arc;
-use std::thread::sleep;
-use std::time::Duration;
 
-use actucheck::journal::{Journal, Layout, OLDEST, VERSION, restore, snapshot};
+use actucheck::journal::{Journal, OLDEST, VERSION, restore, snapshot};
 use actucheck::subject::Subject as _;
-use actucheck::subject::device::{Kept, Line};
+use actucheck::subject::device::Kept;
 use actucheck_spec::Spec;
 use serde_json::Value;
 
 use super::bench::{Bench, folder};
+use super::programs::{held, interrupt, kill, writing};
 use super::right::Bus;
 
 /// A test by its name, which returns what is wrong.
@@ -137,13 +135,7 @@ fn killed() -> String {
     let mut run = actucheck();
     run.args(["device", &port, "--device", "ja40", "--allow", "write-ram,eeprom", "--journal"]);
     run.arg(&path).stdout(Stdio::null()).stderr(Stdio::null());
-    let mut child = run.spawn().unwrap();
-    while !path.exists() && child.try_wait().unwrap().is_none() {
-        sleep(Duration::from_millis(2));
-    }
-    sleep(Duration::from_millis(20));
-    child.kill().unwrap();
-    child.wait().unwrap();
+    kill(writing(&mut run, &path, 20));
     if !path.exists() {
         return "the run left no journal".to_owned();
     }
@@ -183,33 +175,17 @@ fn killed_with_its_neighbour() -> String {
     );
     let (folder, port) = (folder(), format!("tcp://{}", bus.address));
     let path = folder.path().join("journal");
-    let held = || {
-        let Ok(place) = port.parse();
-        let limit = Duration::from_secs(2);
-        let mut line = Line::open(device.wire, &place, 57_600, limit, Arc::default()).unwrap();
-        let layout = Layout::of(device);
-        let numbers = |id| {
-            let held = snapshot(device.wire, id, &layout, &mut line).unwrap();
-            layout.restored.iter().map(|place| held.number(place)).collect::<Vec<_>>()
-        };
-        [1, 2].map(numbers)
-    };
-    let before = held();
+    let before = held(&port, device, [1, 2]);
     let mut run = Command::new(env!("CARGO_BIN_EXE_actucheck"));
     run.args(["device", &port, "--device", "ja40", "--neighbour", "2", "--allow", "write-ram"]);
     run.args(["--select", "*.written.*-of-two/data", "--journal"]).arg(&path);
-    let mut child = run.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
-    while !path.exists() && child.try_wait().unwrap().is_none() {
-        sleep(Duration::from_millis(2));
-    }
-    sleep(Duration::from_millis(25));
-    child.kill().unwrap();
-    child.wait().unwrap();
+    kill(writing(run.stdout(Stdio::null()).stderr(Stdio::null()), &path, 25));
     let mut restore = Command::new(env!("CARGO_BIN_EXE_actucheck"));
     let output = restore.args(["device", "restore"]).arg(&path).output().unwrap();
     let said = String::from_utf8_lossy(&output.stdout);
     let is_told = said.contains("JA40 with ID 1, with its neighbour JA40 with ID 2,");
-    let is_right = output.status.success() && held() == before && !path.exists();
+    let is_held = held(&port, device, [1, 2]) == before;
+    let is_right = output.status.success() && is_held && !path.exists();
     if is_told && is_right { String::new() } else { format!("{output:?}") }
 }
 
@@ -224,33 +200,20 @@ fn by_a_signal() -> String {
     );
     let (folder, port) = (folder(), format!("tcp://{}", bus.address));
     let (journal, report) = (folder.path().join("journal"), folder.path().join("report"));
-    let held = || {
-        let limit = Duration::from_secs(2);
-        let Ok(place) = port.parse();
-        let mut line = Line::open(device.wire, &place, 57_600, limit, Arc::default()).unwrap();
-        let held = snapshot(device.wire, 1, &Layout::of(device), &mut line).unwrap();
-        let places = Layout::of(device).restored;
-        places.iter().map(|place| held.number(place)).collect::<Vec<_>>()
-    };
-    let before = held();
+    let before = held(&port, device, [1]);
     let mut run = Command::new(env!("CARGO_BIN_EXE_actucheck"));
     run.args(["device", &port, "--device", "ja40", "--allow", "write-ram,eeprom", "--journal"]);
     run.arg(&journal).arg("--report").arg(format!("json={}", report.display()));
-    let mut child = run.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
-    while !journal.exists() && child.try_wait().unwrap().is_none() {
-        sleep(Duration::from_millis(2));
-    }
-    sleep(Duration::from_millis(30));
-    let id = child.id().to_string();
-    assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
-    let output = child.wait_with_output().unwrap();
+    run.stdout(Stdio::null()).stderr(Stdio::piped());
+    let output = interrupt(writing(&mut run, &journal, 30));
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     let report: Value = serde_json::from_str(&fs::read_to_string(&report).unwrap()).unwrap();
     let is_told = report["stopped"] == "interrupted"
         && report["left"].as_u64().unwrap() > 10
         && report["totals"]["pass"].as_u64().unwrap() > 0
         && said.contains("the device holds what it held before");
-    let is_right = output.status.code() == Some(3) && !journal.exists() && held() == before;
+    let is_held = held(&port, device, [1]) == before;
+    let is_right = output.status.code() == Some(3) && !journal.exists() && is_held;
     if is_told && is_right {
         return String::new();
     }

@@ -32,6 +32,7 @@ mod motion;
 mod packets;
 mod pair;
 mod profile;
+mod programs;
 mod rewrite;
 mod right;
 mod several;

@@ -3,13 +3,11 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use actucheck::report::format::NO_JSONL;
 use actucheck::report::merge::{Named, merge};
-use actucheck::report::{Format, screen};
 use clap::Args;
 
-use super::read;
-use crate::command::shared::{self, Failure, Look, Outputs, Reports, next, say};
+use super::{read, refuse_jsonl, write};
+use crate::command::shared::{self, Failure, Look, Reports, say};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -42,16 +40,11 @@ pub(crate) struct Merge {
 
 /// Reads the reports, and writes that of the whole run.
 pub(crate) fn run(options: &Merge) -> Result<ExitCode, Failure> {
-    if options.reports.formats().any(|format| format == Format::Jsonl) {
-        return Err(Failure::usage(NO_JSONL));
-    }
+    refuse_jsonl(&options.reports)?;
     let named = |file: &PathBuf| Ok((name(file), read(file)?));
     let parts = options.files.iter().map(named).collect::<Result<Vec<Named>, _>>()?;
     let (report, expectations) = merge(&shared::spec()?, parts).map_err(Failure::usage)?;
-    Outputs::open(&options.reports, [])?.write(
-        |format, out| format.write(&report, out),
-        |out| screen::write(&report, &options.look.terminal(Some(next(&report))), out),
-    )?;
+    write(&report, &options.reports, options.look)?;
     if let Some(audit) = expectations.filter(|_| report.summary.stopped.is_none()) {
         say(&audit.remarks());
     }

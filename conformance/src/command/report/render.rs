@@ -3,13 +3,11 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use actucheck::report::format::NO_JSONL;
-use actucheck::report::{Format, screen};
 use clap::Args;
 
-use super::read;
+use super::{read, refuse_jsonl, write};
 use crate::command::WRITTEN;
-use crate::command::shared::{Failure, Look, Outputs, Reports, next};
+use crate::command::shared::{Failure, Look, Reports};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -32,13 +30,8 @@ pub(crate) struct Render {
 
 /// Reads the report and writes it.
 pub(crate) fn run(options: &Render) -> Result<ExitCode, Failure> {
-    if options.reports.formats().any(|format| format == Format::Jsonl) {
-        return Err(Failure::usage(NO_JSONL));
-    }
+    refuse_jsonl(&options.reports)?;
     let report = read(&options.file)?;
-    Outputs::open(&options.reports, [])?.write(
-        |format, out| format.write(&report, out),
-        |out| screen::write(&report, &options.look.terminal(Some(next(&report))), out),
-    )?;
+    write(&report, &options.reports, options.look)?;
     Ok(ExitCode::SUCCESS)
 }

@@ -2,16 +2,10 @@
 
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
-use std::sync::Arc;
-use std::thread::sleep;
-use std::time::Duration;
 
 use actucheck::adapter::Question;
 use actucheck::blackbox::{Asks, Options, checks};
-use actucheck::journal::{Layout, snapshot};
-use actucheck::port::Place;
 use actucheck::subject::Subject as _;
-use actucheck::subject::device::Line;
 use actucheck::suite::check::Check;
 use actucheck::suite::device::Target;
 use actucheck_spec::Spec;
@@ -19,6 +13,7 @@ use actucheck_spec::model::Area;
 use actucheck_spec::wire::dynamixel2::WIRE;
 use actucheck_spec::wire::innfos::{self, Operation};
 
+use super::super::programs::{held, interrupt, writing};
 use super::super::right::Bus;
 use super::{SEED, device, ram};
 
@@ -172,31 +167,18 @@ pub(super) fn interrupted() -> String {
     );
     let (folder, port) = (tempfile::tempdir().unwrap(), format!("tcp://{}", bus.address));
     let (journal, found) = (folder.path().join("journal"), folder.path().join("findings.yaml"));
-    let held = || {
-        let Ok(place) = port.parse::<Place>();
-        let limit = Duration::from_secs(2);
-        let mut line = Line::open(WIRE, &place, 57_600, limit, Arc::default()).unwrap();
-        let held = snapshot(WIRE, 1, &Layout::of(table), &mut line).unwrap();
-        let places = Layout::of(table).restored;
-        places.iter().map(|place| held.number(place)).collect::<Vec<_>>()
-    };
-    let before = held();
+    let before = held(&port, table, [1]);
     let mut run = Command::new(env!("CARGO_BIN_EXE_actucheck"));
     run.args(["fuzz", "--device", &port, "--table", "ja40", "--allow", "write-ram", "--seed", "1"]);
     run.arg("--journal").arg(&journal).arg("--out").arg(&found);
-    let mut child = run.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-    while !journal.exists() && child.try_wait().unwrap().is_none() {
-        sleep(Duration::from_millis(2));
-    }
-    sleep(Duration::from_millis(50));
-    let id = child.id().to_string();
-    assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
-    let output = child.wait_with_output().unwrap();
+    run.stdout(Stdio::piped()).stderr(Stdio::piped());
+    let output = interrupt(writing(&mut run, &journal, 50));
     let said = format!("{output:?}");
     let is_told = said.contains("the device holds what it held before; that was read back");
     let words = String::from_utf8_lossy(&output.stdout).into_owned();
     let count = words.split(' ').next().and_then(|count| count.parse::<u64>().ok());
     let is_early = count.is_some_and(|count| count < 1_000);
-    let is_right = output.status.success() && !journal.exists() && held() == before;
+    let is_held = held(&port, table, [1]) == before;
+    let is_right = output.status.success() && !journal.exists() && is_held;
     if is_told && is_early && is_right { String::new() } else { said }
 }

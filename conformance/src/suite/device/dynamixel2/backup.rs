@@ -57,7 +57,7 @@ fn ready(talk: &Talk<'_>) -> Option<Check> {
 
 /// A register of the EEPROM area comes back.
 fn restored(talk: &Talk<'_>) -> Option<Check> {
-    let steps = there_and_back(talk, &[lasting(talk)?], nothing)?;
+    let steps = there_and_back(talk, &[lasting(talk)?], |_| Some(Vec::new()))?;
     let rows = ["backup.restore", "backup.effect"];
     let needs = permissions(&[Permission::Eeprom]);
     Some(talk.demands(needs, named("backup.restore/eeprom"), &rows, steps))
@@ -69,7 +69,7 @@ fn contents(talk: &Talk<'_>) -> Option<Check> {
     let only = Permissions::from([Permission::Eeprom]);
     let all = writable(talk).into_iter().filter(|one| needs(talk, one.register) == only);
     let all: Vec<_> = all.filter(|one| one.register.name.ends_with("Limit")).take(MANY).collect();
-    let steps = there_and_back(talk, &all, nothing)?;
+    let steps = there_and_back(talk, &all, |_| Some(Vec::new()))?;
     let needs = permissions(&[Permission::Eeprom]);
     Some(talk.demands(needs, named("backup.contents/eeprom"), &["backup.contents"], steps))
 }
@@ -92,15 +92,9 @@ fn locked(talk: &Talk<'_>) -> Option<Check> {
 /// Whether a gain comes back too.
 fn gains(talk: &Talk<'_>) -> Option<Check> {
     talk.row(&["backup.restore.gains"])?;
-    let steps = there_and_back(talk, &[probe(talk)?], nothing)?;
+    let steps = there_and_back(talk, &[probe(talk)?], |_| Some(Vec::new()))?;
     let needs = permissions(&[Permission::WriteRam]);
     Some(talk.demands(needs, named("backup.gains/restored"), &["backup.restore.gains"], steps))
-}
-
-/// Nothing is done before restoring.
-#[expect(clippy::unnecessary_wraps, reason = "others may not be possible")]
-const fn nothing(_: usize) -> Option<Vec<Step>> {
-    Some(Vec::new())
 }
 
 /// Stores what registers hold, writes two other values one after the other, of which one is not what they held,

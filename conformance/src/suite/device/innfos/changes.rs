@@ -65,7 +65,7 @@ impl Place {
     }
 }
 
-/// A signed number, high byte first.
+/// A signed number, high byte first; a single byte is a flag, and never negative.
 fn number(bytes: &[u8]) -> i64 {
     let sign = bytes.first().is_some_and(|first| first & 0x80 != 0 && bytes.len() > 1);
     bytes.iter().fold(if sign { -1 } else { 0 }, |number, byte| (number << 8) | i64::from(*byte))
