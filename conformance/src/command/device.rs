@@ -299,7 +299,13 @@ impl Device {
             }
             None => target,
         };
-        let (wire, plan) = (self.wire()?, self.plan(spec, &target)?);
+        let wire = self.wire()?;
+        if has_tables(wire) && self.table.words().is_none() {
+            anstream::eprintln!(
+                "actucheck: no device is named, so the checks of its control table are left out; name it with --device"
+            );
+        }
+        let plan = self.plan(spec, &target)?;
         let table = plan::table(&plan);
         let allowed = self.writing.allowed();
         let effort = self.effort(spec, &target)?;

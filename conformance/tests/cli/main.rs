@@ -313,6 +313,9 @@ fn a_plan_tells_how_long_it_takes() {
     let write = "*.basic.write/answer";
     let asked = |options: &[&str]| plan(write, options).contains("checks that are asked: 1;");
     assert_eq!((asked(&[]), asked(&["--allow", "write-ram"])), (false, true));
+    // Nothing is asked of a device, so nobody knows its control table.
+    let (status, _, said) = actucheck(&["device", "--dry-run"]);
+    assert!(status == 0 && said.contains("the checks of its control table are left out"), "{said}");
 }
 
 #[test]
