@@ -26,7 +26,7 @@ use tempfile::TempDir;
 use super::json::{faults, validator};
 use super::sample::{OPTIONS, Odd, SPEC, WIRES, expectations, odd, unstuffed, written};
 
-/// A wrong answer of many kinds, so that texts are many.
+/// Skips of many kinds, so that texts are many.
 fn verbose(op: &Question, answer: Answer) -> Answer {
     match op {
         Question::Crc { bytes, .. } => Answer::Skipped(format!("no CRC of {bytes:?}")),
