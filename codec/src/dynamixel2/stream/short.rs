@@ -43,7 +43,7 @@ impl Ready {
         Some(Whole { len, patterns, fast: false })
     }
 
-    /// Looks for packets from `bytes` of the buffer on. No earlier packets may be left.
+    /// Looks for packets from `start` of the buffer on. No earlier packets may be left.
     #[inline(never)]
     pub(super) fn find(&mut self, buffer: &[u8], start: usize, max_packet: usize) {
         self.next = 0;
@@ -113,10 +113,8 @@ fn in_body(len: usize) -> u64 {
 #[inline]
 fn len(bytes: &[u8], max_packet: usize) -> Option<usize> {
     let &[ref prefix @ .., instruction] = bytes.first_chunk::<{ PREFIX + 1 }>()?;
-    let header = Header::check(prefix).ok()?;
-    header.check_instruction(instruction).ok()?;
-    let len = header.packet_len();
-    (len <= max_packet.min(WINDOW) && !header.is_fast(instruction)).then_some(len)
+    let len = Header::plain(prefix, instruction)?.packet_len();
+    (len <= max_packet.min(WINDOW)).then_some(len)
 }
 
 /// The number of patterns in the body of such a packet; `None` if one of them lacks its stuffing
