@@ -4,11 +4,11 @@
 use std::path::PathBuf;
 use std::{env, fs, io};
 
-use actucheck_spec::{Spec, generate};
+use actucheck_spec::{Spec, generate, load};
 
 fn main() -> io::Result<()> {
     println!("cargo::rerun-if-changed=build.rs");
-    let spec = match Spec::embedded() {
+    let spec = match Spec::read(&load::embedded()) {
         Ok(spec) => spec,
         Err(defects) => {
             generate::report(&defects);

@@ -1,4 +1,5 @@
-//! Lists the YAML files of this folder as Rust source, so that they are part of the crate.
+//! Lists the YAML files of this folder as Rust source, so that they are part of the crate; each as JSON
+//! too, which is read ten times as fast.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -17,15 +18,28 @@ fn main() -> io::Result<()> {
     }
     files.sort();
 
+    let out = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());
     let mut list = String::from("&[\n");
     for file in &files {
         let name = file.strip_prefix(&root).unwrap_or(file).to_string_lossy().replace('\\', "/");
-        let file = file.to_string_lossy();
-        let _ = writeln!(list, "    ({name:?}, include_str!({file:?})),");
+        let json = out.join(name.replace('/', "-")).with_extension("json");
+        fs::write(&json, as_json(&fs::read_to_string(file)?).map_err(|why| told(&name, &why))?)?;
+        let (file, json) = (file.to_string_lossy(), json.to_string_lossy());
+        let _ = writeln!(list, "    ({name:?}, include_str!({file:?}), include_str!({json:?})),");
     }
     list.push(']');
-    let out = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());
     fs::write(out.join("sources.rs"), list)
+}
+
+/// The reader's message ends with line and column.
+fn as_json(yaml: &str) -> Result<String, String> {
+    let value: serde_yaml::Value = serde_yaml::from_str(yaml).map_err(|error| error.to_string())?;
+    serde_json::to_string(&value).map_err(|error| error.to_string())
+}
+
+fn told(name: &str, why: &str) -> io::Error {
+    println!("cargo::error=spec/{name}: {why}");
+    io::Error::other(format!("spec/{name} is not read"))
 }
 
 fn collect(path: &Path, files: &mut Vec<PathBuf>) -> io::Result<()> {

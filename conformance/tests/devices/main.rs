@@ -91,7 +91,7 @@ fn tests() -> ExitCode {
     );
     let mut arguments = Arguments::from_args();
     // Most of the time is waited.
-    arguments.test_threads.get_or_insert(16);
+    arguments.test_threads.get_or_insert(24);
     let test = |name: String, wrong: Box<dyn Fn() -> String + Send>| {
         Trial::test(name, move || {
             let tries: Vec<_> =
@@ -99,9 +99,19 @@ fn tests() -> ExitCode {
             if tries.len() < TRIES { Ok(()) } else { Err(Failed::from(tries.join("\n"))) }
         })
     };
-    let mut trials: Vec<_> = every()
-        .map(|row| test(format!("killed::{}", row.name), Box::new(|| killing::wrong(row))))
-        .collect();
+    // These wait for the longest, so they begin first.
+    let everywhere = right::everywhere().into_iter();
+    let mut trials: Vec<_> =
+        everywhere.map(|(name, wrong)| test(format!("right::{name}"), wrong)).collect();
+    for (name, wrong) in right::TESTS {
+        trials.push(test(format!("right::{name}"), Box::new(wrong)));
+    }
+    for (name, wrong) in fuzzed::TESTS {
+        trials.push(test(format!("fuzzed::{name}"), Box::new(wrong)));
+    }
+    for row in every() {
+        trials.push(test(format!("killed::{}", row.name), Box::new(|| killing::wrong(row))));
+    }
     trials.push(test("checks::each_has_a_requirement".to_owned(), Box::new(right::requirements)));
     let still = Box::new(right::torque_without_a_goal);
     trials.push(test("checks::torque_moves_nothing".to_owned(), still));
@@ -112,15 +122,6 @@ fn tests() -> ExitCode {
             let wrong = wrong();
             if wrong.is_empty() { Ok(()) } else { Err(Failed::from(wrong)) }
         }));
-    }
-    for (name, wrong) in right::TESTS {
-        trials.push(test(format!("right::{name}"), Box::new(wrong)));
-    }
-    for (name, wrong) in right::everywhere() {
-        trials.push(test(format!("right::{name}"), wrong));
-    }
-    for (name, wrong) in fuzzed::TESTS {
-        trials.push(test(format!("fuzzed::{name}"), Box::new(wrong)));
     }
     for (name, wrong) in profile::TESTS {
         trials.push(test(format!("profile::{name}"), Box::new(wrong)));

@@ -75,14 +75,14 @@ const PORTS: [(&str, &[&str], &str); 3] = [
 ];
 /// How answers come.
 const ANSWERS: [(&str, &[&str]); 2] =
-    [("at_once", &[]), ("late_and_split", &["--fault", "late=3ms", "--fault", "split"])];
+    [("late_and_split", &["--fault", "late=3ms", "--fault", "split"]), ("at_once", &[])];
 
 /// Each device at each port, with answers that come at once and those that come late and in pieces.
 pub(crate) fn everywhere() -> Vec<(String, Box<dyn Fn() -> String + Send>)> {
     let servos = ["ja40", "ja-variant", "xm430-w210", "xl330-m288"];
     let mut tests: Vec<(String, Box<dyn Fn() -> String + Send>)> = Vec::new();
-    for (port, options, before) in PORTS {
-        for (answers, fault) in ANSWERS {
+    for (answers, fault) in ANSWERS {
+        for (port, options, before) in PORTS {
             let options = [options, fault].concat();
             for device in servos {
                 let options = options.clone();

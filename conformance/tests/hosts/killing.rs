@@ -81,7 +81,8 @@ fn unfit(port: &str, fault: &str, point: &str) -> String {
 
 /// What is said of the right host on such a port; empty if nothing is.
 pub(crate) fn right(port: &str) -> String {
-    let run = run(port, "none", PATIENT, &["--jobs", "2"]);
+    // Most of the time is waited.
+    let run = run(port, "none", PATIENT, &["--jobs", "6"]);
     // A port in memory can't be told of a packet that is too long to be one.
     let skipped: &[&str] = if port == "memory" { &["skip"] } else { &[] };
     let is_right = run.status == Some(0) && run.verdicts == skipped;

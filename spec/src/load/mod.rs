@@ -28,6 +28,8 @@ pub struct Source {
     pub path: String,
     /// The whole file.
     pub text: String,
+    /// The same as JSON, if this crate was built with it and so needs no check of its YAML.
+    json: Option<&'static str>,
 }
 
 impl Source {
@@ -36,17 +38,25 @@ impl Source {
     /// `requirements` or `sentences`.
     #[must_use]
     pub fn new(path: &str, text: &str) -> Self {
-        Self { path: format!("spec/{path}"), text: text.to_owned() }
+        Self { path: format!("spec/{path}"), text: text.to_owned(), json: None }
     }
 }
 
-/// Path below the spec folder and text of each file, as `build.rs` lists them.
-static EMBEDDED: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/sources.rs"));
+/// Path below the spec folder of each file, its text and the same as JSON, as `build.rs` lists them.
+static EMBEDDED: &[(&str, &str, &str)] = include!(concat!(env!("OUT_DIR"), "/sources.rs"));
 
 /// The files that this crate was built with.
 #[must_use]
 pub fn embedded() -> Vec<Source> {
-    EMBEDDED.iter().map(|(path, text)| Source::new(path, text)).collect()
+    EMBEDDED.iter().map(|(path, text, _)| Source::new(path, text)).collect()
+}
+
+/// The same, to be read as JSON.
+fn as_json() -> Vec<Source> {
+    let sources = EMBEDDED.iter();
+    sources
+        .map(|(path, text, json)| Source { json: Some(json), ..Source::new(path, text) })
+        .collect()
 }
 
 /// The content of one YAML file, with its text.
@@ -63,9 +73,13 @@ pub struct File<T> {
 impl<T: DeserializeOwned> File<T> {
     fn read(source: &Source) -> Result<Self, Diagnostic> {
         let (path, text) = (source.path.clone(), Arc::from(&source.text[..]));
-        let content = bounds::check(&text)
-            .and_then(|()| serde_yaml::from_str(&text).map_err(|error| defect(&error)))
-            .map_err(|(place, message)| Diagnostic::new(&path, &text, place, message))?;
+        let content = match source.json {
+            Some(json) => serde_json::from_str(json).map_err(|error| ((1, 1), error.to_string())),
+            None => bounds::check(&text)
+                .and_then(|()| serde_yaml::from_str(&text).map_err(|error| defect(&error))),
+        };
+        let content =
+            content.map_err(|(place, message)| Diagnostic::new(&path, &text, place, message))?;
         Ok(Self { path, text, places: OnceLock::new(), content })
     }
 }
@@ -147,12 +161,13 @@ pub struct Spec {
 }
 
 impl Spec {
-    /// The spec that this crate was built with.
+    /// The spec that this crate was built with, which is not validated again: the codec's build and the
+    /// tests do, by [`Spec::read`] of [`embedded()`].
     ///
     /// # Errors
-    /// All defects found: those of the YAML first, then those of its content.
+    /// The files that the model does not fit. There are none if the tests pass.
     pub fn embedded() -> Result<Self, Vec<Diagnostic>> {
-        Self::read(&embedded())
+        Self::parse(&as_json())
     }
 
     /// Reads and validates `sources`.
@@ -176,9 +191,9 @@ impl Spec {
                 .iter()
                 .any(|name| source.path.starts_with(&format!("spec/{name}")))
         };
-        let wires: Vec<_> = embedded().into_iter().filter(own).collect();
+        let wires: Vec<_> = as_json().into_iter().filter(own).collect();
         let mut spec = Self::parse(&wires)?;
-        let source = Source { path: path.to_owned(), text: text.to_owned() };
+        let source = Source { path: path.to_owned(), text: text.to_owned(), json: None };
         let device: File<Device> = File::read(&source).map_err(|defect| vec![defect])?;
         let rows = device.content.registers.iter().flat_map(|row| &row.source);
         for citation in device.content.source.iter().chain(rows) {
@@ -331,10 +346,16 @@ mod tests {
 
     #[test]
     fn the_folder_is_free_of_defects() {
-        if let Err(defects) = Spec::embedded() {
+        if let Err(defects) = Spec::read(&embedded()) {
             let list: Vec<_> = defects.iter().map(Diagnostic::excerpt).collect();
             panic!("{}", list.join("\n"));
         }
+    }
+
+    #[test]
+    fn the_json_says_what_the_yaml_says() {
+        let (yaml, json) = (Spec::read(&embedded()).unwrap(), Spec::embedded().unwrap());
+        assert!(format!("{yaml:?}") == format!("{json:?}"), "a file is read otherwise as JSON");
     }
 
     #[test]
