@@ -1,12 +1,12 @@
 //! Measures how time and memory of the program grow with its work, and keeps it in `runs/growth.json`.
 //!
-//! `cargo run --release -p actucheck-benches --bin grow PROGRAM`, on Linux, with the program `actucheck` that
-//! `cargo build --release` made.
+//! `cargo run --release -p actucheck-benches --bin grow PROGRAM HOST`, on Linux, with the program `actucheck` that
+//! `cargo build --release` made, and the test program `hosts`, which is a right host too.
 
 use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::io::{self, Write as _};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, ExitCode, Stdio};
 use std::time::Duration;
 use std::{env, thread};
@@ -21,14 +21,24 @@ const PAUSE: Duration = Duration::from_millis(2);
 /// The unit of processor time in `/proc`, on every Linux that Rust runs on.
 const TICKS_A_SECOND: f64 = 100.0;
 
-type Work = fn(&Path, u64, &Path) -> io::Result<Run>;
+/// What is measured, with so much work.
+type Work = fn(&Programs, u64, &Path) -> io::Result<Run>;
+
+struct Programs {
+    actucheck: PathBuf,
+    host: PathBuf,
+}
 
 fn main() -> ExitCode {
-    let Some(program) = env::args_os().nth(1) else {
-        eprintln!("grow: name the program, such as target/release/actucheck");
+    let mut arguments = env::args_os().skip(1).map(PathBuf::from);
+    let (Some(actucheck), Some(host)) = (arguments.next(), arguments.next()) else {
+        eprintln!(
+            "grow: name the program, such as target/release/actucheck, and the test program hosts, such as \
+             target/debug/deps/hosts-0123456789abcdef"
+        );
         return ExitCode::from(2);
     };
-    match run(Path::new(&program)) {
+    match run(&Programs { actucheck, host }) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("grow: {error}");
@@ -37,10 +47,10 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(program: &Path) -> io::Result<()> {
+fn run(programs: &Programs) -> io::Result<()> {
     let folder = env::temp_dir().join(format!("actucheck-growth-{}", std::process::id()));
     fs::create_dir(&folder)?;
-    let measured = measured(program, &folder);
+    let measured = measured(programs, &folder);
     fs::remove_dir_all(&folder)?;
     let growth = Growth { commands: measured?, machine: Machine::here() };
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("runs/growth.json");
@@ -49,18 +59,19 @@ fn run(program: &Path) -> io::Result<()> {
     Ok(())
 }
 
-fn measured(program: &Path, folder: &Path) -> io::Result<Vec<Command>> {
-    let all: [(&str, &str, Work, [u64; 3]); 4] = [
+fn measured(programs: &Programs, folder: &Path) -> io::Result<Vec<Command>> {
+    let all: [(&str, &str, Work, [u64; 3]); 5] = [
         ("codec", "checks", codec, [20_000, 200_000, 2_000_000]),
         ("decode", "packets", decode, [10_000, 100_000, 1_000_000]),
         ("bus", "requests", bus, [100_000, 1_000_000, 10_000_000]),
-        ("fuzz --device", "conversations", fuzz, [100, 1000, 10_000]),
+        ("fuzz --host", "conversations", fuzz_host, [300, 3000, 30_000]),
+        ("fuzz --device", "conversations", fuzz_device, [300, 3000, 30_000]),
     ];
     let mut commands = Vec::new();
     for (name, unit, work, sizes) in all {
         let mut runs = Vec::new();
         for size in sizes {
-            let run = work(program, size, folder)?;
+            let run = work(programs, size, folder)?;
             println!("{name}: {run:?}");
             runs.push(run);
         }
@@ -70,11 +81,11 @@ fn measured(program: &Path, folder: &Path) -> io::Result<Vec<Command>> {
 }
 
 /// So many random cases of the built-in codec, beside those that are always asked.
-fn codec(program: &Path, cases: u64, folder: &Path) -> io::Result<Run> {
+fn codec(programs: &Programs, cases: u64, folder: &Path) -> io::Result<Run> {
     let report = folder.join("report.json");
     let (cases, json) = (cases.to_string(), format!("json={}", report.display()));
     let arguments = ["codec", "-q", "--jobs", "1", "--cases", &cases, "--report", &json];
-    let run = watched(program, arguments, Stdio::null())?;
+    let run = watched(&programs.actucheck, arguments, Stdio::null())?;
     let report: Value = serde_json::from_str(&fs::read_to_string(report)?)?;
     let totals = report.get("totals").and_then(Value::as_object);
     let checks = totals.map(|totals| totals.values().filter_map(Value::as_u64).sum());
@@ -82,30 +93,53 @@ fn codec(program: &Path, cases: u64, folder: &Path) -> io::Result<Run> {
 }
 
 /// A log of so many packets.
-fn decode(program: &Path, packets: u64, folder: &Path) -> io::Result<Run> {
+fn decode(programs: &Programs, packets: u64, folder: &Path) -> io::Result<Run> {
     let log = folder.join("log");
     requests(&log, packets)?;
     let arguments = [OsStr::new("decode"), OsStr::new("--input=raw"), log.as_os_str()];
-    Ok(Run { work: packets, ..watched(program, arguments, Stdio::null())? })
+    Ok(Run { work: packets, ..watched(&programs.actucheck, arguments, Stdio::null())? })
 }
 
 /// So many requests to a virtual device.
-fn bus(program: &Path, packets: u64, folder: &Path) -> io::Result<Run> {
+fn bus(programs: &Programs, packets: u64, folder: &Path) -> io::Result<Run> {
     let log = folder.join("requests");
     requests(&log, packets)?;
     let arguments = ["bus", "ja40@1", "--stdio"];
-    Ok(Run { work: packets, ..watched(program, arguments, File::open(&log)?.into())? })
+    Ok(Run { work: packets, ..watched(&programs.actucheck, arguments, File::open(&log)?.into())? })
 }
 
-/// So many conversations with a virtual device, which is a process of its own.
-fn fuzz(program: &Path, cases: u64, folder: &Path) -> io::Result<Run> {
-    let (cases, out) = (cases.to_string(), folder.join("findings.yaml").display().to_string());
-    let device = program.display().to_string();
-    let arguments =
-        ["fuzz", "-q", "--device", "--seed", "1", "--cases", &cases, "--out", &out, "--"];
-    let arguments = arguments.into_iter().chain([device.as_str(), "bus", "ja40@1", "--stdio"]);
-    let run = watched(program, arguments, Stdio::null())?;
-    Ok(Run { work: cases.parse().map_err(io::Error::other)?, ..run })
+/// So many conversations with a virtual device.
+fn fuzz_device(programs: &Programs, cases: u64, folder: &Path) -> io::Result<Run> {
+    let device =
+        [programs.actucheck.as_os_str(), "bus".as_ref(), "ja40@1".as_ref(), "--stdio".as_ref()];
+    fuzz(programs, "--device", cases, folder, &device)
+}
+
+/// So many conversations of a right host, on a port in memory.
+fn fuzz_host(programs: &Programs, cases: u64, folder: &Path) -> io::Result<Run> {
+    let host = [
+        programs.host.as_os_str(),
+        "adapter".as_ref(),
+        "none".as_ref(),
+        "100".as_ref(),
+        "memory".as_ref(),
+    ];
+    fuzz(programs, "--host", cases, folder, &host)
+}
+
+/// So many conversations of what is a process of its own.
+fn fuzz(
+    programs: &Programs,
+    role: &str,
+    cases: u64,
+    folder: &Path,
+    command: &[&OsStr],
+) -> io::Result<Run> {
+    let (number, out) = (cases.to_string(), folder.join("findings.yaml"));
+    let options = ["fuzz", "-q", role, "--seed", "1", "--cases", &number, "--out"];
+    let options = options.into_iter().map(OsStr::new).chain([out.as_os_str(), "--".as_ref()]);
+    let run = watched(&programs.actucheck, options.chain(command.iter().copied()), Stdio::null())?;
+    Ok(Run { work: cases, ..run })
 }
 
 /// A file of so many Reads, one directly after the other.

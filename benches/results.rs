@@ -23,6 +23,8 @@ pub struct Kept {
     pub runs: Vec<Run>,
     /// How the program grows.
     pub growth: Growth,
+    /// What each part of a packet's way through the stream parser costs.
+    pub way: String,
     /// The table of a micro-controller.
     pub small: String,
 }
@@ -36,6 +38,7 @@ impl Kept {
         Ok(Self {
             runs: kept::read(&folder.join(MACHINES))?,
             growth: growth::read(&folder.join(GROWTH))?,
+            way: fs::read_to_string(folder.join("way.md"))?,
             small: fs::read_to_string(folder.join("thumbv7em.md"))?,
         })
     }
@@ -56,11 +59,11 @@ impl Kept {
 pub fn renewed(results: &str, kept: &Kept) -> Option<String> {
     let (before, _) = results.split_once(BEGIN)?;
     let (_, after) = results.split_once(END)?;
-    let Kept { runs, growth, small } = kept;
+    let Kept { runs, growth, way, small } = kept;
     let (measured, table) = (measured(runs), growth::markdown(growth));
     let circumstances = circumstances(&growth.machine);
     Some(format!(
-        "{before}{BEGIN}\n{measured}\n## How the program grows\n\n{circumstances}\n\
+        "{before}{BEGIN}\n{measured}\n## The way of a packet\n\n{way}\n## How the program grows\n\n{circumstances}\n\
          ![Time and memory over the work](runs/growth.svg)\n\n{table}\n\
          ## On a micro-controller\n\n{small}\n{END}{after}"
     ))
