@@ -138,27 +138,19 @@ pub fn count(stream: &[u8]) -> usize {
     let mut parser = Parser::new();
     let mut buffer = [0; DEFAULT_MAX_PACKET];
     let mut packets = 0;
-    let mut rest = stream;
-    while !rest.is_empty() {
-        rest = parser.push(rest);
-        packets += events(&mut parser, &mut buffer);
-    }
-    parser.idle();
-    packets + events(&mut parser, &mut buffer)
-}
-
-fn events(parser: &mut Parser, buffer: &mut [u8]) -> usize {
-    let mut packets = 0;
-    while let Some(event) = parser.next_event() {
+    let mut take = |event: Event<'_>| {
         if let Event::Frame(frame) = event {
             let params = frame.stuffed_params();
             let params = if params.len() == frame.params_len() {
                 Ok(params)
             } else {
-                frame.copy_params(buffer)
+                frame.copy_params(&mut buffer)
             };
             packets += usize::from(black_box(params).is_ok());
         }
-    }
+    };
+    parser.feed(stream, &mut take);
+    parser.idle();
+    parser.feed(&[], &mut take);
     packets
 }

@@ -41,6 +41,8 @@ proptest! {
         prop_assert_eq!(parse::<1>(&scenario.0, max_packet, &sizes, 1), expected(64));
         prop_assert_eq!(parse::<3>(&scenario.0, max_packet, &[1], 2), expected(192));
         prop_assert_eq!(parse::<3>(&scenario.0, max_packet, &[500], usize::MAX), expected(192));
+        let all = &[usize::MAX];
+        prop_assert_eq!(parse::<1>(&scenario.0, max_packet, all, usize::MAX), expected(64));
     }
 
     #[test]

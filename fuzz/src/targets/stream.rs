@@ -19,13 +19,16 @@ pub(crate) fn events(busy: &[Vec<u8>]) -> Vec<Event> {
     let mut draw = Draw::of(&busy.concat());
     let events = expected(busy, MAX_PACKET);
     let sizes = [1 + draw.below(12), 1 + draw.below(80), 1 + draw.below(400)];
-    for (sizes, patience) in [(&[usize::MAX][..], usize::MAX), (&[1], 1), (&sizes, 3)] {
+    let all = usize::MAX;
+    for (sizes, patience) in [(&[all][..], all), (&[1], 1), (&sizes, 3), (&sizes, all)] {
         assert_eq!(parsed::<16>(busy, MAX_PACKET, sizes, patience), events, "pieces of {sizes:?}");
     }
     // The smallest buffer, in which bytes are moved all the time, with a limit below its size.
     let limit = 12 + draw.below(60);
     let small = expected(busy, limit.min(64));
-    assert_eq!(parsed::<1>(busy, limit, &sizes, 1), small, "at most {limit} bytes");
+    for (sizes, patience) in [(&sizes[..], 1), (&[all], all)] {
+        assert_eq!(parsed::<1>(busy, limit, sizes, patience), small, "at most {limit} bytes");
+    }
     events
 }
 
@@ -55,6 +58,11 @@ fn parsed<const BLOCKS: usize>(
         let mut rest = bytes.as_slice();
         while !rest.is_empty() {
             let piece = &rest[..sizes.next().unwrap().min(rest.len())];
+            if patience == usize::MAX {
+                parser.feed(piece, |seen| events.push(event(seen)));
+                rest = &rest[piece.len()..];
+                continue;
+            }
             let left = parser.push(piece).len();
             rest = &rest[piece.len() - left..];
             take(&mut parser, patience, &mut events);

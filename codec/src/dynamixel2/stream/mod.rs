@@ -81,6 +81,7 @@
 mod candidate;
 mod checkpoints;
 mod event;
+mod input;
 mod parser;
 mod short;
 #[cfg(test)]

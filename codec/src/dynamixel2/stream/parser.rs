@@ -2,12 +2,13 @@
 
 use super::candidate::{Progress, Verdict, Whole};
 use super::checkpoints::Checkpoints;
+use super::input::Input;
 use super::short::Ready;
 use super::{BLOCK, Event, RawFastStatus, Reason};
 use crate::crc;
 use crate::dynamixel2::header::CRC;
 use crate::dynamixel2::{Frame, HEADER};
-use crate::simd::{self, meter};
+use crate::simd::{self, WINDOW, meter};
 
 /// The longest packet, in bytes, that [`Parser::new`] accepts. The length field would allow 65,542.
 pub const DEFAULT_MAX_PACKET: usize = BLOCKS * BLOCK;
@@ -110,15 +111,52 @@ impl<const BLOCKS: usize> Parser<BLOCKS> {
     /// assert_eq!(ids, [1]);
     /// ```
     pub fn feed(&mut self, bytes: &[u8], mut take: impl FnMut(Event<'_>)) {
-        let mut rest = bytes;
+        let mut input = Input::new(bytes);
+        while let Some(event) = self.next_of(&mut input) {
+            take(event);
+        }
+    }
+
+    /// The next event with these bytes after those in the buffer; `None` if all of them are taken.
+    #[inline]
+    fn next_of<'e, 'b: 'e>(&'e mut self, input: &mut Input<'b>) -> Option<Event<'e>> {
         loop {
-            rest = self.push(rest);
-            while let Some(event) = self.next_event() {
-                take(event);
+            if let Some(packet) = input.pop() {
+                return input.take(packet);
             }
-            if rest.is_empty() {
-                break;
+            if input.is_drained && self.refill(input) {
+                continue;
             }
+            if let Some(packet) = self.next_short_packet() {
+                return self.take(packet);
+            }
+            match self.search() {
+                Some(found) => return self.event(found),
+                None if input.rest().is_empty() => return None,
+                None => input.is_drained = true,
+            }
+        }
+    }
+
+    /// Looks for packets in the input, or else takes some of it. Returns whether there were packets.
+    #[inline(never)]
+    fn refill(&mut self, input: &mut Input<'_>) -> bool {
+        self.give_back(input);
+        if self.pending() == 0 && input.find(self.max_packet) {
+            return true;
+        }
+        let rest = self.push(input.rest()).len();
+        input.take_all_but(rest);
+        input.is_drained = false;
+        false
+    }
+
+    /// Gives the bytes of an incomplete packet back if they are few: then it may be found where it is.
+    fn give_back(&mut self, input: &mut Input<'_>) {
+        let held = self.end - self.start;
+        if held < WINDOW && input.give_back(held) {
+            self.end = self.start;
+            self.progress = Progress::new();
         }
     }
 
@@ -157,7 +195,13 @@ impl<const BLOCKS: usize> Parser<BLOCKS> {
         if let Some(packet) = self.next_short_packet() {
             return self.take(packet);
         }
-        match self.search()? {
+        let found = self.search()?;
+        self.event(found)
+    }
+
+    #[inline]
+    fn event(&mut self, found: Found) -> Option<Event<'_>> {
+        match found {
             Found::Packet(packet) => self.take(packet),
             Found::Run { bytes, reason } => Some(Event::Skipped { bytes, reason }),
         }

@@ -20,12 +20,14 @@ pub(super) struct Ready {
     count: usize,
 }
 
-/// A short, valid packet.
+/// A short, valid packet, of at most [`WINDOW`] bytes.
 #[derive(Clone, Copy, Debug, Default)]
 struct Short {
-    len: usize,
-    patterns: usize,
+    len: u8,
+    patterns: u8,
 }
+
+const _: () = assert!(WINDOW <= u8::MAX as usize);
 
 impl Ready {
     pub(super) const fn new() -> Self {
@@ -40,17 +42,18 @@ impl Ready {
         }
         let Short { len, patterns } = *self.packets.get(self.next)?;
         self.next += 1;
-        Some(Whole { len, patterns, fast: false })
+        Some(Whole { len: len.into(), patterns: patterns.into(), fast: false })
     }
 
-    /// Looks for packets from `start` of the buffer on. No earlier packets may be left.
+    /// Looks for packets from `start` of the buffer on. No earlier packets may be left. Returns whether there
+    /// are some.
     #[inline(never)]
-    pub(super) fn find(&mut self, buffer: &[u8], start: usize, max_packet: usize) {
+    pub(super) fn find(&mut self, buffer: &[u8], start: usize, max_packet: usize) -> bool {
         self.next = 0;
-        if !HAS_WORDS {
-            return; // the whole packet is looked at, as a long one
-        }
-        self.count = run(Find { packets: &mut self.packets, buffer, start, max_packet });
+        if HAS_WORDS {
+            self.count = run(Find { packets: &mut self.packets, buffer, start, max_packet });
+        } // else the whole packet is looked at, as a long one
+        self.count > 0
     }
 }
 
@@ -74,7 +77,7 @@ impl Task for Find<'_> {
             let Some(packet) = packet(backend, self.buffer, start, self.max_packet) else {
                 break;
             };
-            start += packet.len;
+            start += usize::from(packet.len);
             *slot = packet;
             count += 1;
         }
@@ -97,7 +100,7 @@ fn packet(backend: impl Backend, buffer: &[u8], start: usize, max_packet: usize)
         0 => 0,
         _ => patterns(backend.places(window), len)?,
     };
-    Some(Short { len, patterns })
+    Some(Short { len: u8::try_from(len).ok()?, patterns })
 }
 
 /// The places at which a pattern in the body of a packet begins. The packet is the last `len` bytes
@@ -120,9 +123,10 @@ fn len(bytes: &[u8], max_packet: usize) -> Option<usize> {
 /// The number of patterns in the body of such a packet; `None` if one of them lacks its stuffing
 /// byte.
 #[inline]
-fn patterns(places: Places, len: usize) -> Option<usize> {
+#[expect(clippy::cast_possible_truncation, reason = "no more than a window has places")]
+fn patterns(places: Places, len: usize) -> Option<u8> {
     let patterns = places.patterns & in_body(len);
     // And so must be its stuffing.
     let stuffed = (places.stuffing & u64::MAX >> CRC) >> STUFFING_PATTERN.len();
-    (patterns & !stuffed == 0).then_some(patterns.count_ones() as usize)
+    (patterns & !stuffed == 0).then_some(patterns.count_ones() as u8)
 }

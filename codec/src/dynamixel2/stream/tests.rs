@@ -12,20 +12,13 @@ use crate::simd::meter;
 fn cost<const BLOCKS: usize>(stream: &[u8], size: usize) -> (usize, usize) {
     let mut parser = Parser::<BLOCKS>::default();
     let (before, mut packets) = (meter::total(), 0);
-    let mut drain = |parser: &mut Parser<BLOCKS>| {
-        while let Some(event) = parser.next_event() {
-            packets += usize::from(!matches!(event, Event::Skipped { .. }));
-        }
-    };
+    let mut count =
+        |event: Event<'_>| packets += usize::from(!matches!(event, Event::Skipped { .. }));
     for piece in stream.chunks(size) {
-        let mut rest = piece;
-        while !rest.is_empty() {
-            rest = parser.push(rest);
-            drain(&mut parser);
-        }
+        parser.feed(piece, &mut count);
     }
     parser.idle();
-    drain(&mut parser);
+    parser.feed(&[], &mut count);
     (meter::total() - before, packets)
 }
 
