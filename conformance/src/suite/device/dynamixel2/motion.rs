@@ -78,11 +78,12 @@ fn in_mode(talk: &Talk<'_>, mode: u64) -> Option<Vec<Check>> {
     add("profile-velocity", bound, slow()?.after(BEGUN).on_the_way((1, SLOW), false)?)?;
     let flag = slow()?.after(BEGUN).in_position(0, 0)?.in_position(1, LOOKS)?;
     add("in-position", &["moving-status.in-position"], flag)?;
-    let still = slow()?.in_position(1, LOOKS)?.at_the_end(Some(0))?;
+    let still = Part::Number { lowest: 0, highest: 0 };
+    let still = slow()?.in_position(1, LOOKS)?.comes_to_rest(still)?;
     let rows = ["velocity-trajectory.position-mode", "velocity-trajectory.end"];
     add("velocity-at-the-end", &rows, still)?;
     let there = slow()?.after(BEGUN).on_the_way((-SLOW, SLOW), true)?;
-    let there = there.in_position(1, LOOKS)?.at_the_end(None)?;
+    let there = there.in_position(1, LOOKS)?.comes_to_rest(Part::Any(4))?.at_the_end()?;
     add("position-trajectory", &["position-trajectory.modes"], there)?;
     if let Some(goal) = talk.register("Goal Velocity") {
         let limits = [(goal, SLOW)];
@@ -106,12 +107,12 @@ fn profiles(talk: &Talk<'_>) -> Option<Vec<Check>> {
     let bound = (1, SLOW);
     let asked_for = (SLOW * 95 / 100, SLOW * 105 / 100);
     add("with-a-profile/shown", "drive-mode.profile", slow()?.on_the_way(bound, false)?)?;
-    let at_once = begin(Profile::Off)?.after(BEGUN + SHORT).at_the_end(None)?;
+    let at_once = begin(Profile::Off)?.after(BEGUN + SHORT).at_the_end()?;
     add("without-a-profile/shown", "drive-mode.profile", at_once)?;
     let moving = "velocity-trajectory.moving";
     add("velocity-trajectory/shown", moving, slow()?.on_the_way(asked_for, false)?)?;
     if talk.register("Movement Duration").is_some() {
-        let whole = slow()?.on_the_way((1, i64::MAX), true)?.after(LONG).at_the_end(None)?;
+        let whole = slow()?.on_the_way((1, i64::MAX), true)?.after(LONG).at_the_end()?;
         add("movement-duration/shown", "movement-duration.effect", whole)?;
         return Some(checks);
     }
@@ -124,11 +125,11 @@ fn profiles(talk: &Talk<'_>) -> Option<Vec<Check>> {
         ("no-velocity/shown", "profile-velocity.zero", 0),
         ("no-velocity-but-acceleration/shown", "profile-acceleration.ignored", 1),
     ] {
-        add(name, row, free(acceleration)?.after(BEGUN + SHORT).at_the_end(None)?)?;
+        add(name, row, free(acceleration)?.after(BEGUN + SHORT).at_the_end()?)?;
     }
     // An acceleration of ten times that counts for half of it.
     let half = begin(Profile::Time(SLOW_MS, SLOW_MS * 10))?.after(BEGUN);
-    let half = half.on_the_way((-FAST, FAST), true)?.after(LONG).at_the_end(None)?;
+    let half = half.on_the_way((-FAST, FAST), true)?.after(LONG).at_the_end()?;
     add("acceleration-time/shown", "profile-acceleration.share", half)?;
     Some(checks)
 }
@@ -226,16 +227,20 @@ impl<'t, 'a> Movement<'t, 'a> {
         self.asks_for(Part::Number { lowest, highest }, place)
     }
 
-    /// What it asks for at the end: the goal, or a velocity.
-    fn at_the_end(self, velocity: Option<i64>) -> Option<Self> {
+    /// What it asks for at the end: the goal.
+    fn at_the_end(self) -> Option<Self> {
         let there = Part::Moved { step: self.start, by: WAY.into(), within: 1 };
-        match velocity {
-            None => self.asks_for(Part::Any(4), there),
-            Some(velocity) => {
-                let number = Part::Number { lowest: velocity, highest: velocity };
-                self.asks_for(number, Part::Any(4))
-            }
-        }
+        self.asks_for(Part::Any(4), there)
+    }
+
+    /// What velocity it asks for when that has become 0, or has not for long. The shaft may be there, as counts
+    /// tell it, a little before.
+    fn comes_to_rest(self, velocity: Part) -> Option<Self> {
+        let mut movement = self.asks_for(velocity, Part::Any(4))?;
+        let (asked, _) = movement.steps.last_mut()?;
+        asked.again = LOOKS;
+        asked.until = Some(Bits { lowest: 0, width: 32, one_of: vec![0] });
+        Some(movement)
     }
 
     fn asks_for(mut self, velocity: Part, position: Part) -> Option<Self> {
