@@ -1,12 +1,16 @@
 """Conformance adapter for `dynamixel-api`, which reads and writes registers by their names.
 
-The library is used as published, on a port that it opens by itself. What it puts on the line and what it
-returns is its work, its mistakes included; it has no other calls than Read and Write.
+The library is used as published, on a port that it opens by itself, of the system or in memory. What it
+puts on the line and what it returns is its work, its mistakes included; it has no other calls than Read and
+Write.
 """
 
 import termios
+import time
 from importlib.metadata import version
+from types import SimpleNamespace
 
+import serial
 from dynamixel_api import (
     DynamixelCommunicationError,
     DynamixelConnectionError,
@@ -14,6 +18,7 @@ from dynamixel_api import (
     DynamixelError,
     DynamixelPacketError,
     Field,
+    dynamixel_connector,
 )
 from dynamixel_sdk import (
     COMM_NOT_AVAILABLE,
@@ -21,6 +26,7 @@ from dynamixel_sdk import (
     COMM_RX_TIMEOUT,
     COMM_TX_ERROR,
     COMM_TX_FAIL,
+    port_handler,
 )
 from serial import SerialException
 
@@ -82,6 +88,22 @@ class Port:
                 pass  # it writes `torque_enable` first, which nothing answers, or to a line that is gone
 
 
+def use(pyserial, clock):
+    """From where the SDK has its port, and both packages the time."""
+    port_handler.serial = pyserial
+    port_handler.time = dynamixel_connector.time = clock
+
+
+def open_port(path, baud):
+    use(serial, time)
+    return Port(path, baud)
+
+
+def open_memory(memory, baud):
+    use(SimpleNamespace(Serial=memory.serial, EIGHTBITS=serial.EIGHTBITS), memory)
+    return Port("memory", baud)
+
+
 def make(port, call):
     if call["name"] not in CALLS:
         raise Skipped("the library reads and writes registers, and nothing else")
@@ -113,6 +135,6 @@ if __name__ == "__main__":
         },
         ["host"],
         "dynamixel2",
-        Host(Port, Port.close, make).ops,
+        Host(open_port, Port.close, make, open_memory).ops,
         calls=CALLS,
     )

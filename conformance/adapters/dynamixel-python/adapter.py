@@ -9,7 +9,6 @@ from importlib.metadata import version
 from dxl2.v2 import (
     BROADCAST_ID,
     InstructionPacket,
-    MotorBus,
     HardwareError,
     Params,
     StatusPacket,
@@ -18,18 +17,12 @@ from dxl2.v2 import (
 )
 
 from actucheck.adapter import Rejected, Skipped, serve, unhex
+from actucheck.memory import Memory
 from calls import CALLS, sync_read_params
-from host import OPS as HOST
-from memory_serial import MemorySerial
+from host import OPS as HOST, bus_over
 
 # What stands before and after the parameters of a status packet.
 BEFORE_PARAMS, CRC = [0] * 9, [0] * 2
-
-
-def bus_over(serial):
-    bus = MotorBus("memory")  # opens nothing before connect(), which is never called
-    bus.conn.serial = serial
-    return bus
 
 
 def crc(request):
@@ -49,19 +42,19 @@ def unstuff(request):
 def encode(request):
     packet = request["packet"]
     call = packet["call"]
-    serial = MemorySerial()
-    bus = bus_over(serial)
+    memory = Memory()
+    bus = bus_over(memory)
     if call["name"] in CALLS:
         CALLS[call["name"]](bus, packet["id"], call)
     else:
         # A general call, or Fast Sync Write, which has no method: the packet's class is public.
         params = Params(list(unhex(packet["params"])))
         bus.conn.write_packet(InstructionPacket(packet["id"], packet["instruction"], params))
-    return {"bytes": serial.written.hex()}
+    return {"bytes": memory.sent.hex()}
 
 
 def decode(request):
-    bus = bus_over(MemorySerial(unhex(request["bytes"])))
+    bus = bus_over(Memory(unhex(request["bytes"])))
     if "fast" in request:
         return {"packet": fast_status(bus, request["fast"])}
     return {"packet": status(bus.conn.read_packet())}
@@ -106,10 +99,10 @@ def fast_status(bus, fast):
 
 
 def stream(request):
-    serial = MemorySerial(b"".join(unhex(chunk) for chunk in request["chunks"]))
-    conn = bus_over(serial).conn
+    memory = Memory(b"".join(unhex(chunk) for chunk in request["chunks"]))
+    conn = bus_over(memory).conn
     packets = []
-    while not serial.exhausted:
+    while not memory.is_silent:
         try:
             packets.append(status(conn.read_packet()))
         except (Rejected, HardwareError):

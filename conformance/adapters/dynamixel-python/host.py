@@ -1,5 +1,8 @@
 """The ops of a host: the library opens a port and makes calls, as its users do."""
 
+import time
+
+from dxl2 import v2
 from dxl2.v2 import BROADCAST_ID, HardwareError, MotorBus
 from serial import SerialException
 
@@ -7,7 +10,16 @@ from actucheck.adapter import Host, Rejected, function_of
 from calls import CALLS
 
 
+def bus_over(memory, baud=1_000_000):
+    """A bus over a port in memory. The library goes by the clock of that port."""
+    bus = MotorBus("memory", baud)  # opens nothing before connect(), which is never called
+    memory.timeout = bus.conn.serial.timeout
+    bus.conn.serial = v2.time = memory
+    return bus
+
+
 def open_port(path, baud):
+    v2.time = time
     bus = MotorBus(path, baud)
     try:
         bus.connect()
@@ -61,4 +73,4 @@ def with_data(device, number, length):
     return {"id": device, "data": number.to_bytes(length, "little").hex()}
 
 
-OPS = Host(open_port, MotorBus.disconnect, make).ops
+OPS = Host(open_port, MotorBus.disconnect, make, bus_over).ops

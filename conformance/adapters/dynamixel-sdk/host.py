@@ -3,6 +3,10 @@
 A call returns what the SDK's user gets: its values, its error byte, or its result code.
 """
 
+import time
+from types import SimpleNamespace
+
+import serial
 from dynamixel_sdk import (
     BROADCAST_ID,
     COMM_NOT_AVAILABLE,
@@ -17,6 +21,7 @@ from dynamixel_sdk import (
     GroupSyncRead,
     GroupSyncWrite,
     PortHandler,
+    port_handler,
 )
 
 from actucheck.adapter import Host, Rejected, Skipped, function_of, unhex
@@ -37,7 +42,14 @@ TROUBLE = {
 ALERT = 0x80
 
 
-def open_port(path, baud):
+def open_memory(memory, baud):
+    pyserial = SimpleNamespace(Serial=memory.serial, EIGHTBITS=serial.EIGHTBITS)
+    return open_port("memory", baud, pyserial, memory)
+
+
+def open_port(path, baud, pyserial=serial, clock=time):
+    # From where the SDK has its port, and the time.
+    port_handler.serial, port_handler.time = pyserial, clock
     port = PortHandler(path)
     try:
         opened = port.openPort() and port.setBaudRate(baud)
@@ -185,4 +197,4 @@ CALLS = {
     )
 }  # fmt: skip
 
-OPS = Host(open_port, PortHandler.closePort, make).ops
+OPS = Host(open_port, PortHandler.closePort, make, open_memory).ops

@@ -66,7 +66,7 @@ pub struct Exchange<'a> {
     pub wire: Wire,
     /// The call.
     pub call: CallTo,
-    /// The packet that the line answers.
+    /// The packet that the line answers; empty if the call has more data than a packet can.
     pub frame: HexBytes,
     /// What the line plays when it hears the packet: the first time, the second time, and so on. After
     /// that it is silent.

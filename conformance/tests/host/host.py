@@ -139,4 +139,5 @@ def main():
         print(json.dumps({"id": request["id"], **reply}), flush=True)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -9,6 +9,8 @@ use serde_json::Value;
 
 const HOST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/host/host.py");
 const MEMORY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/host/memory.py");
+const ON_KIT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/host/on_kit.py");
+const KIT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/adapters/kit/python");
 
 struct Run {
     output: Output,
@@ -40,6 +42,7 @@ fn check_with(adapter: &str, wrong: &str, options: &[&str]) -> Run {
     let folder = tempfile::tempdir().unwrap();
     let report = folder.path().join("json");
     let output = Command::new(env!("CARGO_BIN_EXE_actucheck"))
+        .env("PYTHONPATH", KIT)
         .args(["host", "--report", &format!("json={}", report.display())])
         .args(options)
         .args(["--", "python3", adapter, wrong])
@@ -51,12 +54,14 @@ fn check_with(adapter: &str, wrong: &str, options: &[&str]) -> Run {
 
 #[test]
 fn a_right_host_passes() {
-    let run = check("right", &["--jobs", "2"]);
-    let text = String::from_utf8_lossy(&run.output.stdout);
-    assert_eq!(run.output.status.code(), Some(0), "{text}");
-    assert!(run.total("pass") > 150, "{text}");
-    assert_eq!(run.total("warn"), 0, "{text}");
-    assert!(run.total("skip") > 10, "it has few calls: {text}");
+    for adapter in [HOST, ON_KIT] {
+        let run = check_with(adapter, "right", &["--jobs", "2"]);
+        let text = String::from_utf8_lossy(&run.output.stdout);
+        assert_eq!(run.output.status.code(), Some(0), "{text}");
+        assert!(run.total("pass") > 150, "{text}");
+        assert_eq!(run.total("warn"), 0, "{text}");
+        assert!(run.total("skip") > 10, "it has few calls: {text}");
+    }
 }
 
 #[test]
@@ -68,10 +73,21 @@ fn a_wrong_host_is_found_by_a_check_of_its_fault() {
         ("no-drain", "dynamixel2.host.read.late/next"),
         ("waits-for-all", "dynamixel2.host.call.write.broadcast/result"),
     ] {
-        let run = check(wrong, &["--select", id, "--select", "*.basic.*"]);
-        assert_eq!(run.ids("fail"), [id], "{wrong}");
-        assert_eq!(run.output.status.code(), Some(1), "{wrong}");
+        for adapter in [HOST, ON_KIT] {
+            let run = check_with(adapter, wrong, &["--select", id, "--select", "*.basic.*"]);
+            assert_eq!(run.ids("fail"), [id], "{wrong}");
+            assert_eq!(run.output.status.code(), Some(1), "{wrong}");
+        }
     }
+}
+
+#[test]
+fn the_port_in_memory_of_the_kit_keeps_its_time() {
+    let test = concat!(env!("CARGO_MANIFEST_DIR"), "/adapters/kit/python/tests/test_memory.py");
+    let output =
+        Command::new("python3").env("PYTHONPATH", KIT).args(["-B", test]).output().unwrap();
+    let text = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && text.contains("Ran 5 tests"), "{text}");
 }
 
 /// One that asks again is right, but not one that does so without end.

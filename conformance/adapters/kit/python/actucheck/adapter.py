@@ -7,6 +7,8 @@ request and returns the object that `ok` holds.
 import json
 import sys
 
+from actucheck.memory import Memory
+
 
 class Rejected(Exception):
     """The library says no: one of the adapter protocol's error classes, and its own words.
@@ -17,6 +19,9 @@ class Rejected(Exception):
     def __init__(self, error_class, detail=""):
         super().__init__(detail)
         self.error_class = error_class
+
+    def told(self):
+        return {"class": self.error_class, "detail": str(self)}
 
 
 class Skipped(Exception):
@@ -38,21 +43,30 @@ class Host:
     """The ops of a host with one port at a time.
 
     `open_port(path, baud)` returns a port, `close_port(port)` closes it, and `call(port, call)` makes a
-    call through it and returns an object for each device.
+    call through it and returns an object for each device. `open_memory(memory, baud)` returns a port that is
+    a `Memory`, if the library can have one: then nothing is waited for.
     """
 
-    def __init__(self, open_port, close_port, call):
+    def __init__(self, open_port, close_port, call, open_memory=None):
         self._open, self._close, self._call = open_port, close_port, call
-        self._port = None
+        self._open_memory = open_memory
+        self._port = self._memory = None
         self.ops = {"open": self.open, "call": self.call, "close": self.close}
+        if open_memory:
+            self.ops["exchange"] = self.exchange
 
     def open(self, request):
         self.close(request)
-        self._port = self._open(request["port"], request["baud"])
+        path, baud = request["port"], request["baud"]
+        if self._open_memory and path == "memory":
+            memory = Memory()
+            self._port, self._memory = self._open_memory(memory, baud), memory
+        else:
+            self._port = self._open(path, baud)
         return {}
 
     def close(self, request):
-        port, self._port = self._port, None
+        port, self._port, self._memory = self._port, None, None
         if port is not None:
             self._close(port)
         return {}
@@ -61,6 +75,21 @@ class Host:
         if self._port is None:
             raise Rejected("port", "no port is open")
         return {"devices": self._call(self._port, request["call"])}
+
+    def exchange(self, request):
+        memory = self._memory
+        if memory is None:
+            raise Rejected("port", "no port in memory is open")
+        frame, late = unhex(request["frame"]), unhex(request["late"])
+        answers = [[(burst["after_ms"], unhex(burst["bytes"])) for burst in answer] for answer in request["answers"]]
+        memory.begin(frame, answers, late, request["hurries"])
+        try:
+            result = {"devices": self._call(self._port, request["call"])}
+        except Rejected as rejected:
+            result = {"err": rejected.told()}
+        finally:
+            told = memory.end()
+        return {**told, **result}
 
 
 def device(hear):
@@ -85,6 +114,10 @@ def unhex(text):
         return bytes.fromhex(text)
     except (TypeError, ValueError) as error:
         raise BadRequest(f"{text!r} is not hex: {error}") from None
+
+
+# Who has these ops.
+_ROLES = {**dict.fromkeys(("open", "call", "exchange", "close"), "host"), "device": "device"}
 
 
 def _role(request):
@@ -142,15 +175,14 @@ def _answer(request, hello, wire, ops):
             return {"skip": {"reason": f"no op {op!r}"}}
         if request["wire"] != wire:
             return {"skip": {"reason": f"the library does not speak {request['wire']!r}"}}
-        own = {"open": "host", "call": "host", "close": "host", "device": "device"}
-        role = own[op] if op in own else _role(request)
+        role = _ROLES[op] if op in _ROLES else _role(request)
         if role not in (None, *hello["roles"]):
             return {"skip": {"reason": f"only a {role} does this"}}
         return {"ok": ops[op](request)}
     except Skipped as skipped:
         return {"skip": {"reason": str(skipped)}}
     except Rejected as error:
-        return {"err": {"class": error.error_class, "detail": str(error)}}
+        return {"err": error.told()}
     except BadRequest as error:
         return {"err": {"class": "parameter", "detail": f"bad request: {error}"}}
     except Exception as error:  # any other error of the library is a finding
