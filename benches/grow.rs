@@ -52,7 +52,7 @@ fn run(programs: &Programs) -> io::Result<()> {
     fs::create_dir(&folder)?;
     let measured = measured(programs, &folder);
     fs::remove_dir_all(&folder)?;
-    let growth = Growth { commands: measured?, machine: Machine::here() };
+    let growth = Growth { commands: measured?, machine: Machine::here(1) };
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("runs/growth.json");
     fs::write(&file, serde_json::to_string_pretty(&growth)? + "\n")?;
     println!("wrote {}", file.display());

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::measured::Measured;
 
-/// A run of all benchmarks.
+/// All benchmarks, of each contender in each case the fastest of some runs.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Run {
@@ -37,19 +37,26 @@ pub struct Machine {
     pub bits: u32,
     /// As the compiler tells it.
     pub compiler: String,
-    /// When the run ended, such as `2026-11-22`.
+    /// When the last run ended, such as `2026-11-22`.
     pub day: String,
-    /// The load over 1, 5 and 15 minutes when the run ended.
+    /// The load over 1, 5 and 15 minutes when the last run ended.
     pub load: String,
+    /// How many runs there were.
+    #[serde(default = "one")]
+    pub runs: usize,
     /// What else a reader must know.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
 }
 
+const fn one() -> usize {
+    1
+}
+
 impl Machine {
-    /// This machine, now.
+    /// This machine, now, after so many runs.
     #[must_use]
-    pub fn here() -> Self {
+    pub fn here(runs: usize) -> Self {
         let unknown = || "unknown".to_owned();
         let said = |program: &str, argument: &str| {
             let output = Command::new(program).arg(argument).output().ok();
@@ -79,6 +86,7 @@ impl Machine {
             load: load.map_or_else(unknown, |load| {
                 load.split(' ').take(3).collect::<Vec<_>>().join(", ")
             }),
+            runs,
             note: None,
         }
     }

@@ -267,13 +267,24 @@ fn results_follow_from_the_runs_that_are_kept() {
 #[test]
 fn a_run_that_is_kept_is_read_again() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("kept");
-    let run = kept::Run { machine: kept::Machine::here(), measured: sample() };
+    let run = kept::Run { machine: kept::Machine::here(1), measured: sample() };
     run.keep(&folder).unwrap();
     assert_eq!(kept::read(&folder).unwrap(), [run]);
     fs::write(folder.join("other.json"), "{}").unwrap();
     let error = kept::read(&folder).unwrap_err().to_string();
     assert!(error.contains("other.json is not a run"), "{error}");
     fs::remove_file(folder.join("other.json")).unwrap();
+}
+
+#[test]
+fn of_several_runs_the_fastest_measurement_counts() {
+    let run = |times: [f64; 2]| -> Vec<_> {
+        let measured = |(measured, time)| Measured { time, ..measured };
+        sample().into_iter().take(2).zip(times).map(measured).collect()
+    };
+    let times = |runs| -> Vec<_> { measured::fastest(runs).iter().map(|one| one.time).collect() };
+    assert_eq!(times(vec![run([3.0, 5.0]), run([4.0, 2.0]), run([9.0, 9.0])]), [3.0, 2.0]);
+    assert_eq!(times(vec![run([3.0, 5.0])]), [3.0, 5.0]);
 }
 
 /// Peers are measured beside the registers that the codec has, and nothing is faster than reading.
@@ -315,7 +326,7 @@ fn time_in_proportion_to_the_work_and_the_same_memory_are_met() {
     ] {
         let runs = vec![run(100, 1.0, 1000), more];
         let command = growth::Command { name: "codec".into(), unit: "checks".into(), runs };
-        let all = growth::Growth { machine: kept::Machine::here(), commands: vec![command] };
+        let all = growth::Growth { machine: kept::Machine::here(1), commands: vec![command] };
         let table = growth::markdown(&all);
         assert!(table.ends_with(&format!("{verdict}\n")), "{verdict} in {table}");
     }

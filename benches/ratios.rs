@@ -1,7 +1,7 @@
 //! Keeps criterion's measurements, and makes `RESULTS.md` and pictures from all that is kept.
 //!
-//! `cargo run --release -p actucheck-benches [keep [FOLDER]]`: with `keep`, right after `cargo bench`, the
-//! measurements in the folder, else in `target/criterion`, are kept in `runs/machines/` first.
+//! `cargo run --release -p actucheck-benches [keep [FOLDER…]]`: with `keep`, right after `cargo bench`, the
+//! measurements in the folders, a folder a run, else in `target/criterion`, are kept in `runs/machines/` first.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -14,16 +14,16 @@ use actucheck_benches::{measured, results};
 
 fn main() -> ExitCode {
     let arguments: Vec<_> = env::args_os().skip(1).collect();
-    let folder = match arguments.as_slice() {
-        [] => None,
-        [keep] if keep == "keep" => Some(here().join("../target/criterion")),
-        [keep, folder] if keep == "keep" => Some(PathBuf::from(folder)),
+    let folders = match arguments.as_slice() {
+        [] => Vec::new(),
+        [keep] if keep == "keep" => vec![here().join("../target/criterion")],
+        [keep, folders @ ..] if keep == "keep" => folders.iter().map(PathBuf::from).collect(),
         _ => {
-            eprintln!("ratios: say `keep`, with or without a folder of criterion's, or nothing");
+            eprintln!("ratios: say `keep`, with or without folders of criterion's, or nothing");
             return ExitCode::from(2);
         }
     };
-    match run(folder.as_deref()) {
+    match run(&folders) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("ratios: {error}");
@@ -36,10 +36,11 @@ fn here() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-fn run(measured: Option<&Path>) -> io::Result<()> {
+fn run(measured: &[PathBuf]) -> io::Result<()> {
     let folder = here().join("runs");
-    if let Some(measured) = measured {
-        Run { machine: Machine::here(), measured: measured::read(measured)? }
+    let runs: Vec<_> = measured.iter().map(|run| measured::read(run)).collect::<io::Result<_>>()?;
+    if !runs.is_empty() {
+        Run { machine: Machine::here(runs.len()), measured: measured::fastest(runs) }
             .keep(&folder.join(results::MACHINES))?;
     }
     let kept = Kept::read(&folder)?;

@@ -94,12 +94,14 @@ fn picture(machine: &Machine) -> String {
 fn circumstances(machine: &Machine) -> String {
     let mut text = format!(
         "- processor: {} with {}\n- compiler: {}\n- day: {}\n\
-         - load over 1, 5 and 15 minutes when the run ended: {}\n",
+         - load over 1, 5 and 15 minutes when the last run ended: {}\n\
+         - runs: {}\n",
         machine.processor,
         machine.features.join(", "),
         machine.compiler,
         machine.day,
         machine.load,
+        machine.runs,
     );
     if let Some(note) = &machine.note {
         let _ = writeln!(text, "- note: {note}");

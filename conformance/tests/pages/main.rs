@@ -19,14 +19,13 @@ use block::{Block, blocks};
 const LIBRARY: &str = "/run";
 
 /// The beginnings of commands that no test runs, and why not.
-const NOT_RUN: [(&str, &str); 17] = [
+const NOT_RUN: [(&str, &str); 16] = [
     ("pip install ./conformance", "builds the program; the gate does it"),
     ("cargo build ", "builds; the gate does it"),
     ("cargo install ", "builds the program, and installs it"),
     ("cargo run ", "builds; the gate does it"),
     ("cargo test ", "this is one of its tests"),
     ("cargo clippy ", "the gate does it"),
-    ("cargo bench ", "measures for minutes"),
     ("benches/", "measures, with what few machines have"),
     ("pytest ", "needs the installed package; its own tests run it"),
     (".ci/run", "runs this test"),
