@@ -86,8 +86,8 @@ fn the_port_in_memory_of_the_kit_keeps_its_time() {
     let test = concat!(env!("CARGO_MANIFEST_DIR"), "/adapters/kit/python/tests/test_memory.py");
     let output =
         Command::new("python3").env("PYTHONPATH", KIT).args(["-B", test]).output().unwrap();
-    let text = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success() && text.contains("Ran 5 tests"), "{text}");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && said.contains("Ran 5 tests"), "{said}");
 }
 
 /// One that asks again is right, but not one that does so without end.

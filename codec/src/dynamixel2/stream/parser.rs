@@ -46,6 +46,7 @@ pub struct Parser<const BLOCKS: usize = 16> {
 }
 
 /// The result at the old `start`, which has moved past it.
+#[derive(Clone, Copy)]
 enum Found {
     Packet(Whole),
     Run { bytes: u64, reason: Reason },
