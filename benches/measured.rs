@@ -42,29 +42,25 @@ impl Measured {
 pub fn read(folder: &Path) -> io::Result<Vec<Measured>> {
     let mut all = Vec::new();
     visit(folder, &mut all)?;
-    let key = |measured: &Measured| {
-        let Measured { group, case, who, .. } = measured;
-        (group.clone(), case.parse().unwrap_or(u64::MAX), case.clone(), who.clone())
-    };
-    all.sort_by_key(key);
+    all.sort_by_key(name);
     subtract_system_call(&mut all);
     Ok(all)
 }
 
-/// Of several runs, each measurement where it was fastest: others may use the same machine, which only
-/// makes it slower.
+/// Of several runs, each measurement where it was fastest, sorted by name: others may use the same machine,
+/// which only makes it slower.
 #[must_use]
 pub fn fastest(runs: Vec<Vec<Measured>>) -> Vec<Measured> {
-    let mut fastest: Vec<Measured> = Vec::new();
-    for measured in runs.into_iter().flatten() {
-        let key = |one: &Measured| (one.group.clone(), one.case.clone(), one.who.clone());
-        match fastest.iter_mut().find(|other| key(other) == key(&measured)) {
-            Some(other) if other.time <= measured.time => {}
-            Some(other) => *other = measured,
-            None => fastest.push(measured),
-        }
-    }
-    fastest
+    let mut all = runs.concat();
+    all.sort_by(|one, other| name(one).cmp(&name(other)).then(one.time.total_cmp(&other.time)));
+    all.dedup_by_key(|measured| name(measured));
+    all
+}
+
+/// What was measured; sizes in their order.
+fn name(measured: &Measured) -> (String, u64, String, String) {
+    let Measured { group, case, who, .. } = measured;
+    (group.clone(), case.parse().unwrap_or(u64::MAX), case.clone(), who.clone())
 }
 
 fn visit(folder: &Path, all: &mut Vec<Measured>) -> io::Result<()> {

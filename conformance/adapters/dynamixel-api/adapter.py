@@ -8,7 +8,6 @@ Write.
 import termios
 import time
 from importlib.metadata import version
-from types import SimpleNamespace
 
 import serial
 from dynamixel_api import (
@@ -100,7 +99,7 @@ def open_port(path, baud):
 
 
 def open_memory(memory, baud):
-    use(SimpleNamespace(Serial=memory.serial, EIGHTBITS=serial.EIGHTBITS), memory)
+    use(memory, memory)
     return Port("memory", baud)
 
 

@@ -4,7 +4,6 @@ A call returns what the SDK's user gets: its values, its error byte, or its resu
 """
 
 import time
-from types import SimpleNamespace
 
 import serial
 from dynamixel_sdk import (
@@ -43,8 +42,7 @@ ALERT = 0x80
 
 
 def open_memory(memory, baud):
-    pyserial = SimpleNamespace(Serial=memory.serial, EIGHTBITS=serial.EIGHTBITS)
-    return open_port("memory", baud, pyserial, memory)
+    return open_port("memory", baud, memory, memory)
 
 
 def open_port(path, baud, pyserial=serial, clock=time):

@@ -25,6 +25,10 @@ class System:
         return ports if port.in_waiting else [], [], []
 
 
+def open_port(path, baud):
+    raise Rejected("port", "here it takes a port in memory only")
+
+
 def open_memory(memory, baud):
     host.time = memory
     return memory
@@ -45,5 +49,5 @@ serve(
     {"name": host.WRONG, "version": "1"},
     ["host"],
     "dynamixel2",
-    Host(host.open_port, Memory.close, call, open_memory).ops,
+    Host(open_port, Memory.close, call, open_memory).ops,
 )

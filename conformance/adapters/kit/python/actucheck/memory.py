@@ -1,4 +1,4 @@
-"""A port in memory, in the place of pyserial's `Serial`, with a clock in the place of the module `time`."""
+"""A port in memory, in the place of pyserial's `Serial` or its module, with a clock in that of the module `time`."""
 
 # How long a read without a time-out takes on a line that is silent: longer than any call may.
 _FOR_EVER = 3600.0
@@ -12,7 +12,7 @@ class Memory:
     """A serial port without a line. Its time is counted, not waited.
 
     A read that finds too few bytes lets the clock go on until the next are there, or until its time-out. The
-    library's module may have the port as its `time` too, so that both go by one clock.
+    library's module may have the port as its `time` too, so that both go by one clock, and as its `serial`.
     """
 
     def __init__(self, received=b"", timeout=None):
@@ -22,14 +22,18 @@ class Memory:
         self._input = bytearray(received)
         self.begin(b"", [])
 
-    # What pyserial has. A library may set other attributes, such as `baudrate`; they change nothing.
+    # What libraries use of the module `serial`.
 
-    is_open = True
+    EIGHTBITS, PARITY_NONE, STOPBITS_ONE = 8, "N", 1
 
-    def serial(self, port=None, baudrate=9600, bytesize=8, parity="N", stopbits=1, timeout=None, **_others):
-        """Opens this port: it may take the place of the class `Serial` in a library that opens its port itself."""
+    def Serial(self, port=None, baudrate=9600, bytesize=8, parity="N", stopbits=1, timeout=None, **_others):
+        """Opens this port, whatever its name."""
         self.timeout = timeout
         return self
+
+    # What they use of its `Serial`. A library may set other attributes, such as `baudrate`; they change nothing.
+
+    is_open = True
 
     def read(self, size=1):
         self.sleep(_LOOK)
