@@ -50,7 +50,7 @@ pub fn read(folder: &Path) -> io::Result<Vec<Measured>> {
 /// Of several runs, each measurement where it was fastest, sorted by name: others may use the same machine,
 /// which only makes it slower.
 #[must_use]
-pub fn fastest(runs: Vec<Vec<Measured>>) -> Vec<Measured> {
+pub fn fastest(runs: &[Vec<Measured>]) -> Vec<Measured> {
     let mut all = runs.concat();
     all.sort_by(|one, other| name(one).cmp(&name(other)).then(one.time.total_cmp(&other.time)));
     all.dedup_by_key(|measured| name(measured));

@@ -282,11 +282,12 @@ fn of_several_runs_the_fastest_measurement_counts() {
         let measured = |(measured, time)| Measured { time, ..measured };
         sample().into_iter().take(2).zip(times).map(measured).collect()
     };
-    let times = |runs| -> Vec<_> { measured::fastest(runs).iter().map(|one| one.time).collect() };
-    assert_eq!(times(vec![run([3.0, 5.0]), run([4.0, 2.0]), run([9.0, 9.0])]), [3.0, 2.0]);
-    assert_eq!(times(vec![run([3.0, 5.0])]), [3.0, 5.0]);
-    let parts = vec![sample().split_off(1), sample()];
-    assert_eq!(measured::fastest(parts), sample(), "in their order, also if a run has not all");
+    let times =
+        |runs: &[_]| -> Vec<_> { measured::fastest(runs).iter().map(|one| one.time).collect() };
+    assert_eq!(times(&[run([3.0, 5.0]), run([4.0, 2.0]), run([9.0, 9.0])]), [3.0, 2.0]);
+    assert_eq!(times(&[run([3.0, 5.0])]), [3.0, 5.0]);
+    let parts = [sample().split_off(1), sample()];
+    assert_eq!(measured::fastest(&parts), sample(), "in their order, also if a run has not all");
 }
 
 /// Peers are measured beside the registers that the codec has, and nothing is faster than reading.

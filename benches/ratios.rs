@@ -40,7 +40,7 @@ fn run(measured: &[PathBuf]) -> io::Result<()> {
     let folder = here().join("runs");
     let runs: Vec<_> = measured.iter().map(|run| measured::read(run)).collect::<io::Result<_>>()?;
     if !runs.is_empty() {
-        Run { machine: Machine::here(runs.len()), measured: measured::fastest(runs) }
+        Run { machine: Machine::here(runs.len()), measured: measured::fastest(&runs) }
             .keep(&folder.join(results::MACHINES))?;
     }
     let kept = Kept::read(&folder)?;
