@@ -74,8 +74,10 @@ impl<T: DeserializeOwned> File<T> {
     fn read(source: &Source) -> Result<Self, Diagnostic> {
         let (path, text) = (source.path.clone(), Arc::from(&source.text[..]));
         let content = match source.json {
+            // Another reader is as much to compile again, and a build script reads once.
+            #[cfg(feature = "exports")]
             Some(json) => serde_json::from_str(json).map_err(|error| ((1, 1), error.to_string())),
-            None => bounds::check(&text)
+            _ => bounds::check(&text)
                 .and_then(|()| serde_yaml::from_str(&text).map_err(|error| defect(&error))),
         };
         let content =

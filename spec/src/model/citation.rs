@@ -2,12 +2,12 @@ use std::fmt;
 
 #[cfg(feature = "exports")]
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 /// A place in a document, written `DOCUMENT §SECTION`: `ja40 §1.6.1`. A heading that is not in
 /// English is followed by its meaning: `dynamixel2 §Packet 처리 (packet handling)`.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(try_from = "String", into = "String")]
 #[cfg_attr(feature = "exports", schemars(extend("pattern" = r"^.+? §.*\S")))]
 pub struct Citation {

@@ -1,13 +1,13 @@
 #[cfg(feature = "exports")]
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 use super::{Citation, Register};
 use crate::wire::Wire;
 
 /// A file of `devices/`: a control table.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Device {
     /// Id.
@@ -52,8 +52,8 @@ impl Device {
 }
 
 /// A bit that the device sets when a measurement passes a limit.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Alarm {
     /// Name of the bit.
@@ -91,8 +91,8 @@ impl Alarm {
 
 /// A condition on the value of another register: `{register: Drive Mode, bits: Profile
 /// Configuration, one_of: [1]}`.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Condition {
     /// The register.

@@ -1,10 +1,10 @@
 #[cfg(feature = "exports")]
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 /// `documents.yaml`.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct DocumentsFile {
     /// One row per document.
@@ -12,8 +12,8 @@ pub struct DocumentsFile {
 }
 
 /// A source document of the spec.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Document {
     /// Its id in citations.

@@ -2,13 +2,13 @@
 
 #[cfg(feature = "exports")]
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 use super::Citation;
 
 /// The IDs that packets may have.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Id {
     /// Smallest ID of a device.
@@ -20,8 +20,8 @@ pub struct Id {
 }
 
 /// The length field.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Length {
     /// Bytes of the field.
@@ -35,8 +35,8 @@ pub struct Length {
 }
 
 /// Which byte comes first.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum ByteOrder {
     /// The low one.
@@ -57,8 +57,8 @@ impl ByteOrder {
 }
 
 /// A 16-bit CRC by its parameters.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Crc {
     /// Its name in catalogues of CRCs.

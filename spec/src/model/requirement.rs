@@ -2,13 +2,13 @@ use std::fmt;
 
 #[cfg(feature = "exports")]
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 use super::Citation;
 
 /// A file of `requirements/`.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct RequirementsFile {
     /// One row per requirement.
@@ -16,8 +16,8 @@ pub struct RequirementsFile {
 }
 
 /// A requirement: a normative statement of a document, in our own words.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Requirement {
     /// Permanent id; begins with the document's id.
@@ -52,8 +52,8 @@ pub struct Requirement {
 /// Why packets can't show whether a requirement is obeyed, for each role. A reason is absent if they
 /// can, or if the role is not bound. A conversation of the virtual device may show it all the same: a
 /// virtual device takes faults, and does not wear.
-#[derive(Clone, Debug, Default, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Debug, Default, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Unseen {
     /// Why they can't show it of a host.
@@ -87,8 +87,8 @@ impl Requirement {
 }
 
 /// What checks a requirement that neither a vector nor a test names.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum CheckedBy {
     /// Checks of the suite that need no vector.
@@ -98,8 +98,8 @@ pub enum CheckedBy {
 }
 
 /// How strict a requirement is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Level {
     /// Breaking it fails the run.
@@ -126,8 +126,8 @@ impl fmt::Display for Level {
 }
 
 /// The role that a requirement binds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Role {
     /// A library that builds or reads packets.

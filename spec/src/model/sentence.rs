@@ -1,13 +1,13 @@
 #[cfg(feature = "exports")]
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 /// The value of `of` for a sentence that requires nothing and names nothing.
 pub const NO_DEMAND: &str = "no demand";
 
 /// A file of `sentences/`: every sentence of a document, and its use.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SentencesFile {
     /// Id of the document.
@@ -35,8 +35,8 @@ impl SentencesFile {
 }
 
 /// A section of a document.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Section {
     /// Its name in citations: its number or its heading, with the meaning after a heading that is
@@ -54,8 +54,8 @@ pub struct Section {
 }
 
 /// A sentence, a row of a table or a block of code.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Sentence {
     /// The line that it begins on, from 1.

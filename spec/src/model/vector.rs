@@ -2,14 +2,14 @@ use std::fmt;
 
 #[cfg(feature = "exports")]
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 use super::{Citation, HexBytes};
 use crate::wire::{Context, Direction, Packet, Wire};
 
 /// A file of `vectors/`: the test vectors of one section.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct VectorsFile {
     /// The section, for every vector that names no other section.
@@ -21,8 +21,8 @@ pub struct VectorsFile {
 }
 
 /// A test vector: bytes that a document prints or that follow from its rules, with their meaning.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Vector {
     /// Permanent id.
@@ -77,8 +77,8 @@ impl Vector {
 }
 
 /// What an implementation must do with a frame.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Outcome {
     /// Build it and read it.
@@ -91,8 +91,8 @@ pub enum Outcome {
 }
 
 /// What is wrong with a frame; these are the error classes of the adapter protocol.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Fault {
     /// It does not begin with a header.

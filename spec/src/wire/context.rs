@@ -2,11 +2,11 @@ use std::fmt;
 
 #[cfg(feature = "exports")]
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 /// Facts that a reader of frames needs in addition to their bytes.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 pub struct Context {
     /// For a fast status packet: the request that it answers.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -29,8 +29,8 @@ impl From<Fast> for Context {
 }
 
 /// The request that a fast status packet answers. The packet can't be read without it.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 pub struct Fast {
     /// Bytes of data a block; 0 for Fast Sync Write.
     pub length: u16,
@@ -39,8 +39,8 @@ pub struct Fast {
 }
 
 /// The direction of a packet.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Direction {
     /// From the host.

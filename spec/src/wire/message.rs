@@ -1,12 +1,12 @@
 #[cfg(feature = "exports")]
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 use super::{Direction, Number, Value};
 
 /// What a packet says: a command, and its value by name or in the document's unit.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 pub struct Message {
     /// A request of a host, or a reply of a device.
     pub direction: Direction,

@@ -17,7 +17,6 @@ mod value;
 
 #[cfg(feature = "exports")]
 use schemars::JsonSchema;
-use serde::Serialize;
 
 pub use call::{Call, Target};
 pub use context::{Context, Direction, Fast};
@@ -37,8 +36,8 @@ impl Wire {
 }
 
 /// The content of the files of `wires/`.
-#[derive(Clone, Debug, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 pub struct Wires {
     /// DYNAMIXEL Protocol 2.0 and its JA dialect: instructions, error numbers.
     pub dynamixel2: File<dynamixel2::Dynamixel2>,
@@ -55,8 +54,8 @@ impl Wires {
 
 /// A packet as its fields, before stuffing and CRC. The vectors' YAML and the adapter protocol's
 /// JSON have the same object; its `kind` determines the wire.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[serde(untagged)]
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize), serde(untagged))]
 pub enum Packet {
     /// Of DYNAMIXEL Protocol 2.0.
     Dynamixel2(dynamixel2::Packet),

@@ -2,13 +2,13 @@
 
 #[cfg(feature = "exports")]
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 use crate::model::{Citation, Crc, HexBytes, Id, Length, NamedValue};
 
 /// `wires/dynamixel2.yaml`: the wire and its instructions.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Dynamixel2 {
     /// Its name.
@@ -26,8 +26,8 @@ pub struct Dynamixel2 {
 }
 
 /// Header, ID and length.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Framing {
     /// The first bytes, including the reserved byte.
@@ -44,8 +44,8 @@ pub struct Framing {
 }
 
 /// Byte stuffing.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Stuffing {
     /// The bytes after which a body must have the stuffing byte.
@@ -62,8 +62,8 @@ pub struct Stuffing {
 }
 
 /// The status packet.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct StatusFormat {
     /// Its instruction.
@@ -80,8 +80,8 @@ pub struct StatusFormat {
 }
 
 /// A number that the error byte may hold.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ErrorNumber {
     /// The number, without the alert bit.
@@ -93,8 +93,8 @@ pub struct ErrorNumber {
 }
 
 /// A command of a host.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Instruction {
     /// Its name in the documents.
@@ -127,8 +127,8 @@ pub struct Instruction {
 }
 
 /// A field of a layout: with a `size`, or `each` for a group that repeats up to the end.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Field {
     /// Its name.
@@ -149,8 +149,8 @@ pub struct Field {
 }
 
 /// How many bytes a field has.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize)]
-#[cfg_attr(feature = "exports", derive(JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "exports", derive(serde::Serialize, JsonSchema))]
 #[serde(
     untagged,
     expecting = "a size is a number of bytes, the name of an earlier field that holds it, or `rest`"
