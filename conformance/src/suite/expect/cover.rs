@@ -166,8 +166,6 @@ impl Globs {
 struct Cut<'a> {
     before: &'a str,
     after: &'a str,
-    /// How many separators both parts have.
-    depth: usize,
 }
 
 impl Cut<'_> {
@@ -177,22 +175,31 @@ impl Cut<'_> {
     }
 }
 
-/// Every way to cut an id, so that something is before the cut.
+/// Every way to cut an id, so that something is before the cut: a glob that begins with a star says little to a
+/// reader.
 fn cuts(id: &str) -> impl Iterator<Item = Cut<'_>> {
-    let places = || id.match_indices(['.', '/']).map(|(at, _)| at);
-    let many = places().count();
-    // A glob that begins with a star says little to a reader.
-    let ends = places().map(|at| at + 1).zip(1..);
-    ends.flat_map(move |(end, left)| {
-        let starts = places().chain([id.len()]).enumerate();
-        let starts = starts.filter(move |(_, start)| *start >= end);
-        starts.filter_map(move |(at, start)| {
-            Some(Cut { before: id.get(..end)?, after: id.get(start..)?, depth: left + many - at })
-        })
-    })
+    let separators = separators(id);
+    (1..=separators.len()).flat_map(move |depth| cuts_between(id, separators.clone(), depth))
 }
 
 /// The ways to cut an id that keep this many separators.
 fn cuts_at(id: &str, depth: usize) -> impl Iterator<Item = Cut<'_>> {
-    cuts(id).filter(move |cut| cut.depth == depth)
+    cuts_between(id, separators(id), depth)
+}
+
+/// The places of the separators of an id.
+fn separators(id: &str) -> Vec<usize> {
+    let bytes = id.bytes().enumerate();
+    bytes.filter(|(_, byte)| matches!(byte, b'.' | b'/')).map(|(place, _)| place).collect()
+}
+
+/// The ways to keep `depth` of these separators: from one to all of them before the cut, the others behind it.
+fn cuts_between(id: &str, separators: Vec<usize>, depth: usize) -> impl Iterator<Item = Cut<'_>> {
+    let most = if depth <= separators.len() { depth } else { 0 };
+    (1..=most).filter_map(move |before| {
+        let end = separators.get(before - 1)? + 1;
+        let behind = separators.len() - (depth - before);
+        let start = separators.get(behind).copied().unwrap_or(id.len());
+        Some(Cut { before: id.get(..end)?, after: id.get(start..)? })
+    })
 }
