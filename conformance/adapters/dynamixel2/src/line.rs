@@ -79,6 +79,8 @@ fn listen(mut device: SerialPort) -> io::Result<Vec<u8>> {
     loop {
         device.set_read_timeout(if is_whole(&heard) { QUIET } else { PATIENCE })?;
         match device.read(&mut chunk) {
+            // The other end is closed: the call was refused before it sent a whole packet.
+            Ok(0) => return Ok(heard),
             Ok(count) => heard.extend(chunk.iter().take(count)),
             Err(error) if error.kind() == io::ErrorKind::TimedOut => return Ok(heard),
             Err(error) => return Err(error),
