@@ -5,6 +5,7 @@
 
 use std::fs;
 use std::path::Path;
+use std::sync::LazyLock;
 
 #[cfg(feature = "peers")]
 use actucheck_benches::input::Write;
@@ -199,18 +200,23 @@ mod peers {
         }
     }
 }
-/// A few measurements as criterion left them, in its folders.
+/// A few measurements as criterion left them, in its folders, which are written once: a test that
+/// writes them anew would empty them under another's eyes.
 fn sample() -> Vec<Measured> {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("sample");
-    let sample: Vec<serde_json::Value> = serde_json::from_str(include_str!("sample.json")).unwrap();
-    for (at, files) in sample.iter().enumerate() {
-        let folder = folder.join(format!("{at}/new"));
-        fs::create_dir_all(&folder).unwrap();
-        for (name, content) in files.as_object().unwrap() {
-            fs::write(folder.join(name), content.to_string()).unwrap();
+    static SAMPLE: LazyLock<Vec<Measured>> = LazyLock::new(|| {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("sample");
+        let sample: Vec<serde_json::Value> =
+            serde_json::from_str(include_str!("sample.json")).unwrap();
+        for (at, files) in sample.iter().enumerate() {
+            let folder = folder.join(format!("{at}/new"));
+            fs::create_dir_all(&folder).unwrap();
+            for (name, content) in files.as_object().unwrap() {
+                fs::write(folder.join(name), content.to_string()).unwrap();
+            }
         }
-    }
-    measured::read(&folder).unwrap()
+        measured::read(&folder).unwrap()
+    });
+    SAMPLE.clone()
 }
 
 #[test]
