@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use actucheck_spec::Spec;
 use actucheck_spec::model::{HexBytes, Outcome};
 use actucheck_spec::wire::dynamixel2::{Packet, reference};
-use actucheck_spec::wire::{self, Call, Wire};
+use actucheck_spec::wire::{self, Call, Form, Value, Wire};
 
 #[test]
 fn every_test_vector_is_built_read_or_rejected_as_it_says() {
@@ -209,5 +209,23 @@ fn an_answer_and_a_command_have_general_calls() {
         let call = packet.wire().call(&packet).unwrap();
         assert_eq!(serde_json::to_string(&call).unwrap(), expected);
         assert!(call.is_general);
+    }
+}
+
+#[test]
+fn numbers_are_those_of_the_tables() {
+    let spec = Spec::embedded().unwrap();
+    let device = spec.devices.iter().find(|file| file.content.device == "ja40").unwrap();
+    for (name, raw, bytes, value) in [
+        ("Current Limit", 397, &[0x8D, 0x01][..], 999.5269),
+        ("Goal Current", -500, &[0x0C, 0xFE], -1258.85),
+        ("Goal Velocity", 29, &[29, 0, 0, 0], 0.29),
+        ("Position P Gain", 2000, &[0xD0, 0x07], 2000.0),
+    ] {
+        let register = device.content.register(name).unwrap();
+        assert_eq!(reference::register_bytes(register, raw), bytes, "{name}");
+        assert_eq!(reference::register_number(register, bytes), raw, "{name}");
+        let found = reference::register_value(register, None, &Form::Unit(None), raw);
+        assert_eq!(found, Some(Value::Number(value.try_into().unwrap())), "{name}");
     }
 }

@@ -341,30 +341,3 @@ impl Reader<'_> {
         files
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_folder_is_free_of_defects() {
-        if let Err(defects) = Spec::read(&embedded()) {
-            let list: Vec<_> = defects.iter().map(Diagnostic::excerpt).collect();
-            panic!("{}", list.join("\n"));
-        }
-    }
-
-    #[test]
-    fn the_json_says_what_the_yaml_says() {
-        let (yaml, json) = (Spec::read(&embedded()).unwrap(), Spec::embedded().unwrap());
-        assert!(format!("{yaml:?}") == format!("{json:?}"), "a file is read otherwise as JSON");
-    }
-
-    #[test]
-    fn a_missing_file_is_a_defect() {
-        let without: Vec<_> =
-            embedded().into_iter().filter(|file| file.path != "spec/errata.yaml").collect();
-        let defects = Spec::read(&without).unwrap_err();
-        assert_eq!(defects[0].message, "the file errata.yaml is missing from the spec folder");
-    }
-}

@@ -9,6 +9,7 @@
 )]
 
 mod document;
+mod meaning;
 mod numbers;
 mod rules;
 mod tables;

@@ -72,27 +72,3 @@ fn quantity(unit: Option<&Unit>, counts: i64) -> Option<Number> {
         .map(|number| f64::from(Number::whole(number)));
     (numerator / denominator).try_into().ok()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::Spec;
-
-    #[test]
-    fn numbers_are_those_of_the_tables() {
-        let spec = Spec::embedded().unwrap();
-        let device = spec.devices.iter().find(|file| file.content.device == "ja40").unwrap();
-        for (name, raw, bytes, value) in [
-            ("Current Limit", 397, &[0x8D, 0x01][..], 999.5269),
-            ("Goal Current", -500, &[0x0C, 0xFE], -1258.85),
-            ("Goal Velocity", 29, &[29, 0, 0, 0], 0.29),
-            ("Position P Gain", 2000, &[0xD0, 0x07], 2000.0),
-        ] {
-            let register = device.content.register(name).unwrap();
-            assert_eq!(register_bytes(register, raw), bytes, "{name}");
-            assert_eq!(register_number(register, bytes), raw, "{name}");
-            let found = register_value(register, None, &Form::Unit(None), raw);
-            assert_eq!(found, Some(Value::Number(value.try_into().unwrap())), "{name}");
-        }
-    }
-}
