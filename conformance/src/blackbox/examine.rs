@@ -59,13 +59,12 @@ impl Examiner<'_> {
             kind if kind.is_of_conversation() => CONVERSATIONS,
             _ => STEPS,
         };
-        let scope = self.scope;
+        let smaller = Smaller::new(self.scope, drawn);
         let smallest = shrink(drawn.probe.clone(), steps, goes_on, |probe| {
-            let check = smaller(scope, probe, drawn)?;
-            Some(self.fails(&check, kind).is_some())
+            Some(self.fails(&smaller.check(probe)?, kind).is_some())
         });
         let finding = |this: &mut Self, probe: &Probe| {
-            let check = smaller(scope, probe, drawn)?;
+            let check = smaller.check(probe)?;
             let failure = this.fails_after(&[], &check, kind, goes_on)?;
             Some(row(Vec::new(), check, failure))
         };
@@ -75,8 +74,7 @@ impl Examiner<'_> {
         // What was asked while shrinking has played a part.
         let steps = steps.min(FRESH_STEPS);
         let smallest = shrink(drawn.probe.clone(), steps, goes_on, |probe| {
-            let check = smaller(scope, probe, drawn)?;
-            Some(self.fails_after(&[], &check, kind, goes_on).is_some())
+            Some(self.fails_after(&[], &smaller.check(probe)?, kind, goes_on).is_some())
         });
         finding(self, &smallest).or_else(|| finding(self, &drawn.probe))
     }
@@ -89,20 +87,20 @@ impl Examiner<'_> {
         before: &[Drawn],
         goes_on: &dyn Fn() -> bool,
     ) -> Option<Finding> {
-        let scope = self.scope;
+        let smaller = Smaller::new(self.scope, drawn);
         let steps = if kind.is_slow() { SLOW_STEPS } else { FRESH_STEPS };
         let mut before = fewest(before, None, steps, goes_on, |before| {
             self.fails_after(before, &drawn.check, kind, goes_on).is_some()
         })?;
         let smallest = shrink(drawn.probe.clone(), steps, goes_on, |probe| {
-            let check = smaller(scope, probe, drawn)?;
-            Some(self.fails_after(&before, &check, kind, goes_on).is_some())
+            Some(self.fails_after(&before, &smaller.check(probe)?, kind, goes_on).is_some())
         });
-        let check = smaller(scope, &smallest, drawn)?;
+        let check = smaller.check(&smallest)?;
         for place in 0..before.len() {
             let Some(drawn) = before.get(place).cloned() else { continue };
+            let smaller = Smaller::new(self.scope, &drawn);
             let with = |probe: &Probe| {
-                let check = smaller(scope, probe, &drawn)?;
+                let check = smaller.check(probe)?;
                 let mut before = before.clone();
                 let drawn = Drawn { probe: probe.clone(), check, ..drawn.clone() };
                 before.iter_mut().skip(place).take(1).for_each(|slot| *slot = drawn.clone());
@@ -144,11 +142,25 @@ impl Examiner<'_> {
     }
 }
 
-/// The check of a probe that `drawn` was shrunk to. A probe without a damage may be longer: `None`
-/// then, and if there is no right answer.
-fn smaller(scope: &Scope<'_>, probe: &Probe, drawn: &Drawn) -> Option<Check> {
-    let check = scope.check(probe, drawn.check.id.clone())?;
-    (size(&check) <= size(&drawn.check)).then_some(check)
+/// Checks of the probes that one is shrunk to.
+struct Smaller<'a> {
+    scope: &'a Scope<'a>,
+    drawn: &'a Drawn,
+    /// The size of its question.
+    size: usize,
+}
+
+impl<'a> Smaller<'a> {
+    fn new(scope: &'a Scope<'a>, drawn: &'a Drawn) -> Self {
+        Self { scope, drawn, size: size(&drawn.check) }
+    }
+
+    /// The check of a probe. A probe without a damage may be longer: `None` then, and if there is no
+    /// right answer.
+    fn check(&self, probe: &Probe) -> Option<Check> {
+        let check = self.scope.check(probe, self.drawn.check.id.clone())?;
+        (size(&check) <= self.size).then_some(check)
+    }
 }
 
 /// The finding with its checks in a row.

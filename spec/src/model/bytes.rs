@@ -60,6 +60,14 @@ impl HexBytes {
         }
         if high.is_some() { Err(HexError::OddDigits) } else { Ok(Self(bytes)) }
     }
+
+    /// Two digits a byte. Every request to an adapter has some, hence without a formatter's way.
+    fn digits(&self) -> String {
+        let halves = self.0.iter().flat_map(|byte| [byte >> 4, byte & 0xF]);
+        let mut text = String::with_capacity(2 * self.0.len());
+        text.extend(halves.filter_map(|half| char::from_digit(half.into(), 16)));
+        text
+    }
 }
 
 #[cfg(feature = "exports")]
@@ -101,13 +109,13 @@ impl TryFrom<String> for HexBytes {
 
 impl From<HexBytes> for String {
     fn from(bytes: HexBytes) -> Self {
-        bytes.to_string()
+        bytes.digits()
     }
 }
 
 impl fmt::Display for HexBytes {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.iter().try_for_each(|byte| write!(f, "{byte:02x}"))
+        f.write_str(&self.digits())
     }
 }
 
