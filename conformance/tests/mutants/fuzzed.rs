@@ -107,7 +107,7 @@ fn a_seed_finds_the_same_again_in_any_number_of_processes() {
     let mutant = &MUTANTS[0];
     let in_processes = |count: usize, seed| {
         let subject = || Box::new(Mutated::new(mutant)) as Box<dyn Subject + Send>;
-        several((0..count).map(|_| subject()).collect(), dynamixel2::WIRE, seed, 300)
+        several((0..count).map(|_| subject()).collect(), dynamixel2::WIRE, seed, 150)
     };
     let first = in_processes(1, 7);
     assert!(!first.findings.is_empty());

@@ -12,6 +12,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::thread;
 
 use block::{Block, blocks};
 
@@ -87,44 +88,64 @@ fn shell(line: &str, folder: &Path) -> Command {
     command
 }
 
+/// What was found in pages.
+#[derive(Default)]
+struct Tried {
+    /// Commands of sessions that were run.
+    sessions: usize,
+    /// Lines of shell commands that were run.
+    lines: usize,
+    /// Beginnings of commands that are not run.
+    not_run: BTreeSet<&'static str>,
+}
+
+/// Many commands mostly wait, so that pages are tried side by side.
 #[test]
 fn pages_show_what_happens() {
-    let mut unused: BTreeSet<&str> = NOT_RUN.iter().map(|(begin, _)| *begin).collect();
-    let (mut sessions, mut lines) = (0, 0);
-    for page in pages() {
-        let text = fs::read_to_string(&page).unwrap();
-        let folder = tempfile::tempdir().unwrap();
-        for Block { language, body } in blocks(&text) {
-            match language {
-                "" => sessions += session(body, folder.path(), &mut unused),
-                "sh" => lines += script(body, folder.path(), &mut unused),
-                _ => {}
-            }
+    let pages = pages();
+    let tried: Vec<Tried> = thread::scope(|scope| {
+        let tried: Vec<_> = pages.iter().map(|page| scope.spawn(|| tried(page))).collect();
+        tried.into_iter().map(|page| page.join().unwrap()).collect()
+    });
+    let lines: usize = tried.iter().map(|page| page.lines).sum();
+    assert!(tried.iter().any(|page| page.sessions > 0), "no session");
+    assert!(lines >= 12, "{lines} lines");
+    for (begin, _) in NOT_RUN {
+        assert!(tried.iter().any(|page| page.not_run.contains(begin)), "no page has {begin}");
+    }
+}
+
+/// Tries all blocks of a page.
+fn tried(page: &Path) -> Tried {
+    let mut tried = Tried::default();
+    let text = fs::read_to_string(page).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    for Block { language, body } in blocks(&text) {
+        match language {
+            "" => tried.sessions += session(body, folder.path(), &mut tried.not_run),
+            "sh" => tried.lines += script(body, folder.path(), &mut tried.not_run),
+            _ => {}
         }
     }
-    assert!(sessions > 0, "no session");
-    assert!(lines >= 12, "{lines} lines");
-    assert!(unused.is_empty(), "no page has {unused:?}");
+    tried
 }
 
 /// Why a command is not run, if it is not.
-fn not_run(line: &str, unused: &mut BTreeSet<&str>) -> bool {
+fn not_run(line: &str, known: &mut BTreeSet<&str>) -> bool {
     let is = |begin: &str| line.starts_with(begin) || begin == LIBRARY && line.contains(begin);
     let found = NOT_RUN.iter().find(|(begin, _)| is(begin));
-    if let Some((begin, _)) = found {
-        unused.remove(begin);
-    }
+    known.extend(found.map(|(begin, _)| begin));
     found.is_some()
 }
 
 /// Compares a session with what happens; the number of its commands that were run.
-fn session(body: &str, folder: &Path, unused: &mut BTreeSet<&str>) -> usize {
+fn session(body: &str, folder: &Path, known: &mut BTreeSet<&str>) -> usize {
     let mut run = 0;
     for example in format!("\n{body}").split("\n$ ").skip(1) {
         let (line, printed) = example.split_once('\n').unwrap_or((example, ""));
         if let Some(file) = line.strip_prefix("cat ") {
             fs::write(folder.join(file), format!("{}\n", printed.trim_end())).unwrap();
-        } else if !not_run(line, unused) {
+        } else if !not_run(line, known) {
             let output = shell(line, folder).output().unwrap();
             let output = String::from_utf8(output.stdout).unwrap();
             assert_eq!(output.trim_end(), printed.trim_end(), "{line}");
@@ -135,11 +156,11 @@ fn session(body: &str, folder: &Path, unused: &mut BTreeSet<&str>) -> usize {
 }
 
 /// Runs the lines of a block, in a folder that has what readers of the page have; the number of lines that were run.
-fn script(body: &str, folder: &Path, unused: &mut BTreeSet<&str>) -> usize {
+fn script(body: &str, folder: &Path, known: &mut BTreeSet<&str>) -> usize {
     let mut run = 0;
     for line in body.lines() {
         let line = line.split(" #").next().unwrap_or_default().trim_end();
-        if line.is_empty() || not_run(line, unused) {
+        if line.is_empty() || not_run(line, known) {
             continue;
         }
         for (name, arguments) in FILES.iter().filter(|(name, _)| line.contains(name)) {

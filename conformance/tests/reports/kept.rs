@@ -283,7 +283,7 @@ fn a_reader_that_has_seen_enough_is_no_error() {
     let folder = tempfile::tempdir().unwrap();
     for format in FORMATS {
         let mut child = actucheck(folder.path())
-            .args(["codec", "--cases=0", "--report", &format!("{format}=-")])
+            .args(["codec", "--select", "ja40.*", "--report", &format!("{format}=-")])
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
             .spawn()
