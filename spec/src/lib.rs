@@ -1,10 +1,13 @@
 //! The documents of robot actuators' protocols as data, and the code that reads them.
 //!
 //! [`load::Spec`] is the content of `spec/*.yaml`, read and validated. [`generate`] turns it into
-//! the source of the codec's tables and [`export`] into files for others; [`schema`] has the JSON
-//! Schemas of the files. A [`wire`] has its reference model beside it, for expected results. The
-//! YAML is part of this crate, so nothing here needs the folder at run time.
-
+//! the source of the codec's tables. A [`wire`] has its reference model beside it, for expected
+//! results. The YAML is part of this crate, so nothing here needs the folder at run time.
+#![cfg_attr(
+    feature = "exports",
+    doc = "\nWith the feature `exports`, [`export`] turns it into files for others, and [`schema`] has \
+           the JSON Schemas of the files."
+)]
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
