@@ -61,7 +61,7 @@ impl HexBytes {
         if high.is_some() { Err(HexError::OddDigits) } else { Ok(Self(bytes)) }
     }
 
-    /// Two digits a byte. Every request to an adapter has some, hence without a formatter's way.
+    /// Two digits a byte, for which a formatter takes longer: requests to adapters are full of them.
     fn digits(&self) -> String {
         let halves = self.0.iter().flat_map(|byte| [byte >> 4, byte & 0xF]);
         let mut text = String::with_capacity(2 * self.0.len());
