@@ -11,7 +11,8 @@ mod value;
 
 pub use call::{CALLS, call};
 pub use packet::{
-    crc, decode, decode_fast, encode, frame, is_unspecified, part, repair, stuff, unstuff,
+    crc, crc_behind, decode, decode_fast, encode, frame, is_unspecified, part, repair, stuff,
+    unstuff,
 };
 pub use stream::{
     Event, events, holds_unspecified, is_certain, lacks_bytes, missing, packets,

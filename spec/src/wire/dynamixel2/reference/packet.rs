@@ -8,7 +8,13 @@ use crate::wire::dynamixel2::{Block, Packet};
 /// CRC-16/UMTS: the remainder of the message times x^16 by x^16 + x^15 + x^2 + 1, bit by bit.
 #[must_use]
 pub fn crc(bytes: &[u8]) -> u16 {
-    let mut crc = 0_u16;
+    crc_behind(0, bytes)
+}
+
+/// The CRC of bytes and those before them, whose CRC is `before`.
+#[must_use]
+pub fn crc_behind(before: u16, bytes: &[u8]) -> u16 {
+    let mut crc = before;
     for byte in bytes {
         crc ^= u16::from(*byte) << 8;
         for _ in 0..8 {
@@ -85,11 +91,14 @@ fn encode_fast(blocks: &[Block]) -> Vec<u8> {
     frame.push(BROADCAST);
     frame.extend(length.to_le_bytes());
     frame.push(STATUS);
+    let mut sum = crc(&frame);
     for block in blocks {
+        let from = frame.len();
         frame.extend([block.error, block.id]);
         frame.extend(block.data.iter());
-        let crc = crc(&frame);
-        frame.extend(crc.to_le_bytes());
+        sum = crc_behind(sum, frame.get(from..).unwrap_or_default());
+        frame.extend(sum.to_le_bytes());
+        sum = crc_behind(sum, &sum.to_le_bytes());
     }
     frame
 }
@@ -131,15 +140,17 @@ pub fn decode_fast(bytes: &[u8], fast: &Fast) -> Result<Packet, Fault> {
         return Err(Fault::Length);
     }
     let mut blocks = Vec::new();
-    let mut rest = bytes.get(PREFIX + 1..).unwrap_or_default();
+    let (before, mut rest) = bytes.split_at_checked(PREFIX + 1).ok_or(Fault::Truncated)?;
+    let mut sum = crc(before);
     for id in &fast.ids {
         let [error, found, ..] = *rest else { return Err(Fault::Truncated) };
         let (block, behind) = rest.split_at_checked(size + 4).ok_or(Fault::Truncated)?;
-        let end = bytes.len() - behind.len();
-        let before = bytes.get(..end - 2).unwrap_or_default();
-        if !block.ends_with(&crc(before).to_le_bytes()) {
+        let (inner, own) = block.split_at(size + 2);
+        sum = crc_behind(sum, inner);
+        if own != sum.to_le_bytes() {
             return Err(Fault::Crc);
         }
+        sum = crc_behind(sum, own);
         if found != *id {
             return Err(Fault::Id);
         }

@@ -21,23 +21,26 @@ pub(super) fn families(author: Author<'_>) -> [Family<'_>; 3] {
     ]
 }
 
-/// The bytes of a fast status packet. `crc` yields the CRC of each block from the block's number and
-/// the bytes before the CRC.
-fn frame(blocks: &[Block], crc: impl Fn(usize, &[u8]) -> u16) -> Vec<u8> {
+/// The bytes of a fast status packet. `crc` yields the CRC of each block from the block's number,
+/// the bytes before the CRC, and the right one.
+fn frame(blocks: &[Block], crc: impl Fn(usize, &[u8], u16) -> u16) -> Vec<u8> {
     let size: usize = blocks.iter().map(|block| block.data.len() + 4).sum();
     let length = u16::try_from(size + 1).unwrap_or(u16::MAX);
     let mut frame = [&HEADER[..], &[BROADCAST], &length.to_le_bytes(), &[STATUS]].concat();
+    let (mut sum, mut summed) = (0, 0);
     for (number, block) in blocks.iter().enumerate() {
         frame.extend([block.error, block.id]);
         frame.extend(block.data.iter());
-        let crc = crc(number, &frame);
+        sum = reference::crc_behind(sum, frame.get(summed..).unwrap_or_default());
+        summed = frame.len();
+        let crc = crc(number, &frame, sum);
         frame.extend(crc.to_le_bytes());
     }
     frame
 }
 
 fn right(blocks: &[Block]) -> Vec<u8> {
-    frame(blocks, |_, before| reference::crc(before))
+    frame(blocks, |_, _, right| right)
 }
 
 /// A wrong CRC after each block alone, after every block, and computed over other bytes. The CRCs
@@ -64,7 +67,7 @@ fn crcs(author: &Author<'_>) -> Vec<Check> {
                 add(format!("{devices}-devices.block-{}", wrong + 1), kind.status(), &many, bytes);
             }
         }
-        let every = frame(&three, |_, before| !reference::crc(before));
+        let every = frame(&three, |_, _, right| !right);
         add("every-block".to_owned(), LAST_CRC, &three, every);
         let own = kind.size() + 2;
         let alone = with_inner(&three, |before| before.get(before.len() - own..));
@@ -77,16 +80,14 @@ fn crcs(author: &Author<'_>) -> Vec<Check> {
 
 /// One bit of the CRC after one block is wrong.
 fn flipped(blocks: &[Block], wrong: usize, bit: u32) -> Vec<u8> {
-    frame(blocks, |number, before| {
-        reference::crc(before) ^ if number == wrong { 1 << bit } else { 0 }
-    })
+    frame(blocks, |number, _, right| right ^ if number == wrong { 1 << bit } else { 0 })
 }
 
 /// Every CRC but the last one is that of a part of the bytes before it.
 fn with_inner(blocks: &[Block], part: impl Fn(&[u8]) -> Option<&[u8]>) -> Vec<u8> {
-    frame(blocks, |number, before| {
+    frame(blocks, |number, before, right| {
         let inner = part(before).filter(|_| number + 1 < blocks.len());
-        reference::crc(inner.unwrap_or(before))
+        inner.map_or(right, reference::crc)
     })
 }
 
