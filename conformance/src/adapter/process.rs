@@ -257,19 +257,18 @@ async fn write(stdin: &mut Option<ChildStdin>, outgoing: &mut Vec<u8>) {
 /// Reads a line. If it is cancelled, the part read so far is kept.
 async fn read_line(stdout: &mut BufReader<ChildStdout>, line: &mut Vec<u8>) -> Line {
     loop {
-        let Ok(bytes) = stdout.fill_buf().await else { return Line::End };
-        let end = bytes.iter().position(|byte| *byte == b'\n');
-        let part = end.and_then(|end| bytes.get(..end)).unwrap_or(bytes);
-        if bytes.is_empty() {
+        let Ok(mut bytes) = stdout.fill_buf().await else { return Line::End };
+        // Fails only where a reader does, which a slice does not.
+        let used = io::BufRead::read_until(&mut bytes, b'\n', line).unwrap_or_default();
+        if used == 0 {
             return Line::End;
         }
-        if line.len() + part.len() > MAX_LINE {
+        stdout.consume(used);
+        let is_whole = line.pop_if(|last| *last == b'\n').is_some();
+        if line.len() > MAX_LINE {
             return Line::TooLong;
         }
-        line.extend(part);
-        let used = part.len() + usize::from(end.is_some());
-        stdout.consume(used);
-        if end.is_some() {
+        if is_whole {
             return Line::Text(std::mem::take(line));
         }
     }
