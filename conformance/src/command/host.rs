@@ -62,7 +62,7 @@ fn plan<'a>(
     }
     let wires = selection.offered_wires(hello)?;
     let plan = suite::host_plan(spec, &wires);
-    if plan.size() == 0 {
+    if plan.ids().next().is_none() {
         let wires: Vec<_> = wires.iter().map(|wire| wire.id()).collect();
         let message = format!("there are no checks of hosts on {} yet", wires.join(" and "));
         return Err(Failure::usage(message));

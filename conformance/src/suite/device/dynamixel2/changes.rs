@@ -48,18 +48,22 @@ pub(crate) fn places(author: Author<'_>, target: &Target<'_>) -> Vec<Place> {
         min,
         max,
     };
-    own(&talk).into_iter().map(place).collect()
+    writable(&talk).into_iter().filter(|one| needs_ram_only(&talk, one)).map(place).collect()
 }
 
-fn own<'a>(talk: &Talk<'a>) -> Vec<Writable<'a>> {
-    let ram = Permissions::from([Permission::WriteRam]);
-    let all = writable(talk).into_iter();
-    all.filter(|one| needs(talk, one.register) == ram).collect()
+fn needs_ram_only(talk: &Talk<'_>, one: &Writable<'_>) -> bool {
+    needs(talk, one.register) == Permissions::from([Permission::WriteRam])
+}
+
+/// The one with this address.
+fn own<'a>(talk: &Talk<'a>, address: u16) -> Option<Writable<'a>> {
+    let own = writable(talk).into_iter().find(|one| one.register.address == address);
+    own.filter(|one| needs_ram_only(talk, one))
 }
 
 /// Whether a register is one of them.
 pub(super) fn is_written(talk: &Talk<'_>, register: &Register) -> bool {
-    own(talk).iter().any(|one| one.register.address == register.address)
+    own(talk, register.address).is_some()
 }
 
 /// Whether a register is for reading only, and holds what is measured: that is measured again, whatever was
@@ -120,8 +124,7 @@ fn put(talk: &Talk<'_>, params: &[u8]) -> Option<Put> {
     if is_measured(register) && data.len() == size {
         return refused("status-packet.error.write-access|table.read-only", error::ACCESS);
     }
-    let Writable { min, max, .. } =
-        own(talk).into_iter().find(|one| one.register.address == address)?;
+    let Writable { min, max, .. } = own(talk, address)?;
     if data.len() < size {
         return refused("status-packet.error.data-length", error::DATA_LENGTH);
     }

@@ -29,10 +29,18 @@ pub(crate) struct Place {
 
 /// The values that may be written.
 pub(crate) fn places(spec: &Spec) -> Vec<Place> {
-    pairs(spec).filter(|(write, _)| write.name != POWER).filter_map(place).collect()
+    pairs(spec).filter_map(place).collect()
+}
+
+/// The value that a command writes, if it may be written.
+pub(super) fn place_of(spec: &Spec, command: u8) -> Option<Place> {
+    pairs(spec).filter(|(write, _)| write.code == command).find_map(place)
 }
 
 fn place((write, read): (&Command, &Command)) -> Option<Place> {
+    if write.name == POWER {
+        return None;
+    }
     let (told, ends) = values(write)?;
     let numbers = || ends.iter().map(|bytes| number(bytes));
     Some(Place {

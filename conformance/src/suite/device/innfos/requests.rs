@@ -89,9 +89,8 @@ fn is_harmless(talk: &Talk<'_>, datagram: &[u8]) -> bool {
 
 /// What a request writes, if it may.
 fn written(talk: &Talk<'_>, packet: &Packet) -> Option<changes::Place> {
-    let places = changes::places(talk.author.spec);
-    let mut own = places.into_iter().filter(|place| place.write == packet.command);
-    own.find(|place| place.takes(&packet.data.0))
+    let place = changes::place_of(talk.author.spec, packet.command);
+    place.filter(|place| place.takes(&packet.data.0))
 }
 
 /// What must answer a datagram, if the document says it.
