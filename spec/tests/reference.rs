@@ -35,6 +35,15 @@ fn every_test_vector_is_built_read_or_rejected_as_it_says() {
     }
 }
 
+/// The check value of CRC-16/UMTS in the catalogues, in one go and in two.
+#[test]
+fn a_crc_goes_on_behind_bytes() {
+    for cut in 0..=9 {
+        let (before, behind) = b"123456789".split_at(cut);
+        assert_eq!(reference::crc_behind(reference::crc(before), behind), 0xFEE8, "cut at {cut}");
+    }
+}
+
 #[test]
 fn the_reference_finds_packets_among_noise() {
     let status = |id| Packet::Status { id, error: 0, params: vec![1, 2].into() };

@@ -91,14 +91,11 @@ fn encode_fast(blocks: &[Block]) -> Vec<u8> {
     frame.push(BROADCAST);
     frame.extend(length.to_le_bytes());
     frame.push(STATUS);
-    let mut sum = crc(&frame);
     for block in blocks {
-        let from = frame.len();
         frame.extend([block.error, block.id]);
         frame.extend(block.data.iter());
-        sum = crc_behind(sum, frame.get(from..).unwrap_or_default());
-        frame.extend(sum.to_le_bytes());
-        sum = crc_behind(sum, &sum.to_le_bytes());
+        let crc = crc(&frame);
+        frame.extend(crc.to_le_bytes());
     }
     frame
 }
@@ -140,17 +137,15 @@ pub fn decode_fast(bytes: &[u8], fast: &Fast) -> Result<Packet, Fault> {
         return Err(Fault::Length);
     }
     let mut blocks = Vec::new();
-    let (before, mut rest) = bytes.split_at_checked(PREFIX + 1).ok_or(Fault::Truncated)?;
-    let mut sum = crc(before);
+    let mut rest = bytes.get(PREFIX + 1..).unwrap_or_default();
     for id in &fast.ids {
         let [error, found, ..] = *rest else { return Err(Fault::Truncated) };
         let (block, behind) = rest.split_at_checked(size + 4).ok_or(Fault::Truncated)?;
-        let (inner, own) = block.split_at(size + 2);
-        sum = crc_behind(sum, inner);
-        if own != sum.to_le_bytes() {
+        let end = bytes.len() - behind.len();
+        let before = bytes.get(..end - 2).unwrap_or_default();
+        if !block.ends_with(&crc(before).to_le_bytes()) {
             return Err(Fault::Crc);
         }
-        sum = crc_behind(sum, own);
         if found != *id {
             return Err(Fault::Id);
         }
