@@ -48,7 +48,7 @@ pub use topic::{NotAsked, Topic};
 /// The number of probes that are generated before they are asked.
 const BATCH: u64 = 256;
 /// After so many drawn probes in a row that are not asked, there is nothing left to ask.
-const FRUITLESS: u32 = 2_000;
+const FRUITLESS: u32 = 5_000;
 /// How often failures of one kind are examined: some do not come again, and another one may be
 /// smaller than the smallest so far.
 const EXAMINED: u32 = 4;
