@@ -57,7 +57,8 @@ fn of_dynamixel2() -> impl Strategy<Value = Packet> {
 fn of_innfos() -> impl Strategy<Value = Packet> {
     let data = prop::collection::vec(any::<u8>(), 0..6);
     let direction = prop::sample::select(Direction::ALL.as_slice());
-    (direction, 0..0xEE_u8, 0x45..0xFF_u8, data).prop_map(|(direction, address, command, data)| {
+    let address = prop_oneof![0..0xEE_u8, 0xEF..=0xFF_u8];
+    (direction, address, 0x45..0xFF_u8, data).prop_map(|(direction, address, command, data)| {
         Innfos { direction, address, command, data: data.into() }.into()
     })
 }
